@@ -1,0 +1,218 @@
+"""The report's equations in mpmath, to any precision, written from the report, not the replica.
+
+Every function takes an arithmetic first: `Reals` (mpmath numbers, 50 digits unless told otherwise)
+or `reference.enclosure.Intervals` (mpmath intervals), so that a formula stands here once and serves
+both. Each arithmetic has a context of its own: no global precision is read or changed. Quantities
+are in SI units.
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any, NamedTuple, Protocol
+
+import mpmath
+
+__all__ = [
+    "Arithmetic",
+    "Number",
+    "Reals",
+    "Row",
+    "cap_volume",
+    "contact_area",
+    "crater_normalized_depth",
+    "final_depth",
+    "frank_zook_diameters",
+    "midpoint",
+    "sheet_depth",
+]
+
+Number = Any
+"""A number of the arithmetic in use (mpmath has no types): a real or an interval."""
+
+
+class Arithmetic(Protocol):
+    """What the formulas need of numbers, beyond the operators and functions of `context`."""
+
+    @property
+    def context(self) -> Any:
+        """The mpmath context: log, sqrt, exp, pi."""
+
+    def number(self, value: Fraction | int) -> Number:
+        """The rational in this arithmetic."""
+
+    def least(self, x: Number, bound: Number) -> Number:
+        """min(x, bound)."""
+
+    def positive_part(self, x: Number) -> Number:
+        """max(x, 0)."""
+
+    def cap_root(self, c: Number) -> Number:
+        """The y in [0, 1] with y^2 - y^3/3 = c; c in [0, 2/3]."""
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        """Whether x < bound is possible."""
+
+    def is_below(self, x: Number, bound: Number) -> bool:
+        """Whether x < bound is certain."""
+
+    def hull(self, numbers: list[Number]) -> Number:
+        """A number that stands for all of them."""
+
+
+class Reals:
+    """mpmath numbers of a given number of decimal digits.
+
+    >>> print(Reals(30).context.pi)
+    3.14159265358979323846264338328
+    """
+
+    def __init__(self, digits: int = 50) -> None:
+        self.context = mpmath.MPContext()
+        self.context.dps = digits
+
+    def number(self, value: Fraction | int) -> Number:
+        return self.context.mpf(value.numerator) / value.denominator
+
+    def least(self, x: Number, bound: Number) -> Number:
+        return min(x, bound)
+
+    def positive_part(self, x: Number) -> Number:
+        return max(x, self.context.zero)
+
+    def cap_root(self, c: Number) -> Number:
+        # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
+        root = self.context.sqrt(c)
+        return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+def contact_area(ar: Arithmetic, x: Number, radius: Number) -> Number:
+    """Projected contact area pi a^2 [m^2] at depth x [m] (Eq. 12; pi R^2 beyond the radius).
+
+    As pi (R^2 - max(R - x, 0)^2): the same polynomial as D x - x^2, with x standing in it once.
+    """
+    clear = ar.positive_part(radius - x)
+    return ar.context.pi * (radius * radius - clear * clear)
+
+
+def cap_volume(depth: Fraction, radius: Fraction) -> Fraction:
+    """Volume of the crater over pi, the integral of 2 R x - x^2 from 0 to depth, exactly.
+
+    By Simpson's rule, which is exact for a quadratic: independent of Eq. 2, which it checks.
+
+    >>> cap_volume(Fraction(2), Fraction(1))
+    Fraction(4, 3)
+    """
+
+    def area(x: Fraction) -> Fraction:
+        return 2 * radius * x - x * x
+
+    return depth * (area(Fraction(0)) + 4 * area(depth / 2) + area(depth)) / 6
+
+
+def crater_normalized_depth(ar: Arithmetic, volume_ratio: Number) -> Number:
+    """X/R [1] at which the crater has the given share of the particle's volume (Eqs. 2-4).
+
+    CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3).
+
+    >>> ar = Reals(20)
+    >>> print(crater_normalized_depth(ar, ar.number(Fraction(6, 100))))
+    0.29803390509065251777
+    """
+    return ar.cap_root(4 * volume_ratio / 3)
+
+
+def final_depth(
+    ar: Arithmetic,
+    velocity: Number,
+    radius: Number,
+    particle_density: Number,
+    target_density: Number,
+    resistance: Number,
+) -> Number:
+    """Depth at rest [m] from the energy integral of Eq. 13, whatever the time step.
+
+    M v dv / (rho_t v^2/2 + R_t) = -A(x) dx gives y^2 - y^3/3 = c up to y = x/R = 1, and one unit
+    of c for one unit of y beyond.
+    """
+    pressure = target_density * velocity * velocity / 2
+    c = 4 * particle_density / (3 * target_density) * ar.context.log(1 + pressure / resistance)
+    limit = ar.number(Fraction(2, 3))
+    return radius * (ar.cap_root(ar.least(c, limit)) + ar.positive_part(c - limit))
+
+
+class Row(NamedTuple):
+    """One time step of the sheet: the columns of Table A-1, in SI units."""
+
+    time: Number
+    velocity_initial: Number
+    depth: Number
+    deceleration: Number
+    velocity_final: Number
+
+
+def midpoint(
+    ar: Arithmetic,
+    velocity: Number,
+    radius: Number,
+    particle_density: Number,
+    target_density: Number,
+    resistance: Number,
+    step: Number,
+) -> Iterator[Row]:
+    """The rows of the appendix's scheme after row 0, without end (Eqs. A-1 to A-3).
+
+    x of the first row is V dt/2, later rows add v dt with the row's initial velocity; the
+    deceleration belongs to that x and that velocity.
+    """
+    mass = particle_density * 4 * ar.context.pi * radius**3 / 3
+    time, x, v = ar.number(0), velocity * step / 2, velocity
+    while True:
+        time = time + step
+        stress = target_density * v**2 / 2 + resistance
+        a = stress * contact_area(ar, x, radius) / mass
+        v_final = v - a * step
+        yield Row(time, v, x, a, v_final)
+        x, v = x + v_final * step, v_final
+
+
+def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:
+    """Depth [m] in the first row whose final velocity is below the stop velocity [m/s].
+
+    In interval arithmetic: the hull over every row that may be the first.
+    """
+    candidates: list[Number] = []
+    for row in rows:
+        if ar.may_be_below(row.velocity_final, stop_velocity):
+            candidates.append(row.depth)
+            if ar.is_below(row.velocity_final, stop_velocity):
+                break
+    return ar.hull(candidates)
+
+
+def frank_zook_diameters(
+    ar: Arithmetic,
+    length_ratio: Number,
+    particle_density: Number,
+    target_density: Number,
+    k_1: Number,
+    k_t: Number,
+    resistance: Number,
+    velocity: Number,
+) -> Number:
+    """X/D [1] from Eqs. 14 and 15, solved here for the depth in diameters.
+
+    (L rho_p + k_1 rho_t D) v dv/dx = -(k_t rho_t v^2 + R_t); the integral of v dv / (a v^2 + b)
+    from 0 to V is ln(1 + a V^2 / b) / (2 a).
+    """
+    inertia = length_ratio * particle_density + k_1 * target_density
+    drag = k_t * target_density
+    return inertia * ar.context.log(1 + drag * velocity**2 / resistance) / (2 * drag)

@@ -1,0 +1,216 @@
+"""Printed text to the exact interval of the values that print like that.
+
+A printed number is text: "7.67" stands for every value between 7.665 and 7.675, "700" for one to
+three significant digits. All arithmetic is rational; no binary float is involved.
+
+Rounding convention (`Rounding`): unless a caller names another, numbers are taken as rounded to
+nearest with ties going either way, so both ends belong to the interval. Fractions ("7/3") and
+number words ("three") are exact.
+"""
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+__all__ = ["Interval", "Printed", "Rounding", "parse"]
+
+
+class Rounding(Enum):
+    """How a value becomes printed text; the interval's ends follow from it."""
+
+    NEAREST = "to nearest, ties either way"
+    HALF_AWAY = "to nearest, ties away from zero (spreadsheets)"
+    TRUNCATED = "cut off"
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """An interval of rationals; an end that is None is infinite (and then open).
+
+    >>> print(Interval(Fraction("7.665"), Fraction("7.675")))
+    [7.665, 7.675]
+    """
+
+    lower: Fraction | None
+    upper: Fraction | None
+    lower_closed: bool = True
+    upper_closed: bool = True
+
+    def __post_init__(self) -> None:
+        if self.lower is not None and self.upper is not None and self.lower > self.upper:
+            raise ValueError(f"empty interval: {self.lower} > {self.upper}")
+
+    @classmethod
+    def point(cls, value: Fraction) -> "Interval":
+        """The one value."""
+        return cls(value, value)
+
+    def contains(self, value: Fraction) -> bool:
+        """Whether the value lies inside, ends counted as they are closed or open."""
+        return not self._above(value) and not self._below(value)
+
+    def encloses(self, lower: Fraction, upper: Fraction) -> bool:
+        """Whether every value from lower to upper lies inside."""
+        return self.contains(lower) and self.contains(upper)
+
+    def excludes(self, lower: Fraction, upper: Fraction) -> bool:
+        """Whether no value from lower to upper lies inside."""
+        return self._above(upper) or self._below(lower)
+
+    def _above(self, value: Fraction) -> bool:
+        """Whether the whole interval lies above the value."""
+        if self.lower is None:
+            return False
+        return value < self.lower or (value == self.lower and not self.lower_closed)
+
+    def _below(self, value: Fraction) -> bool:
+        if self.upper is None:
+            return False
+        return value > self.upper or (value == self.upper and not self.upper_closed)
+
+    def scaled(self, factor: Fraction) -> "Interval":
+        """The interval times a positive factor (a change of unit)."""
+        lower = None if self.lower is None else self.lower * factor
+        upper = None if self.upper is None else self.upper * factor
+        return Interval(lower, upper, self.lower_closed, self.upper_closed)
+
+    def __str__(self) -> str:
+        if self.lower == self.upper and self.lower is not None:
+            return decimal_text(self.lower)
+        left = "(-inf" if self.lower is None else "(["[self.lower_closed] + decimal_text(self.lower)
+        right = "inf)" if self.upper is None else decimal_text(self.upper) + ")]"[self.upper_closed]
+        return f"{left}, {right}"
+
+
+def decimal_text(value: Fraction) -> str:
+    """A rational as a decimal where that ends, else as a fraction.
+
+    >>> decimal_text(Fraction(3115, 1000) * 10**8), decimal_text(Fraction(1, 3))
+    ('3.115E+8', '1/3')
+    """
+    remainder = value.denominator
+    for prime in (2, 5):
+        while remainder % prime == 0:
+            remainder //= prime
+    if remainder != 1:
+        return str(value)
+    digits = len(str(abs(value.numerator))) + 4 * len(str(value.denominator))
+    from decimal import Context, Decimal
+
+    context = Context(prec=digits)
+    exact = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    exact = exact.normalize(context)
+    return f"{exact:f}" if -5 <= exact.adjusted() < 6 else f"{exact:E}"
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A printed number: its text, the value that the text spells, the place of its last digit.
+
+    `quantum` is the unit of the last digit (0 for exact text), `quanta` the places that the last
+    significant digit may have: several where an integer ends in zeros.
+    """
+
+    text: str
+    value: Fraction
+    quanta: tuple[Fraction, ...]
+
+    @property
+    def quantum(self) -> Fraction:
+        """Unit of the last printed digit, all digits taken as significant; 0 if exact."""
+        return self.quanta[0]
+
+    def interval(
+        self, rounding: Rounding = Rounding.NEAREST, quantum: Fraction | None = None
+    ) -> Interval:
+        """The values that print like this, for a rounding rule and a place of the last digit.
+
+        >>> print(parse("700").interval(), parse("700").interval(quantum=Fraction(100)))
+        [699.5, 700.5] [650, 750]
+        >>> print(parse("7.67").interval(Rounding.TRUNCATED))
+        [7.67, 7.68)
+        """
+        quantum = self.quantum if quantum is None else quantum
+        if quantum == 0:
+            return Interval.point(self.value)
+        size = abs(self.value)
+        if rounding is Rounding.TRUNCATED:
+            low, high, closed = size, size + quantum, False
+        else:
+            low, high = size - quantum / 2, size + quantum / 2
+            closed = rounding is Rounding.NEAREST
+        if self.value == 0 and rounding is not Rounding.NEAREST:
+            return Interval(-high, high, False, False)
+        if self.value < 0:
+            return Interval(-high, -low, closed, True)
+        return Interval(low, high, True, closed)
+
+    def about(self) -> Interval:
+        """The values that an author may call "about" this: the fewest digits the text allows.
+
+        Exact text stands for the values that are nearer to it than to its neighbors among the
+        whole numbers, or among the unit fractions.
+
+        >>> print(parse("700").about(), parse("third").about(), parse("twice").about())
+        [650, 750] [7/24, 5/12] [1.5, 2.5]
+        """
+        if self.quantum or self.value == 0:
+            return self.interval(quantum=self.quanta[-1])
+        if self.value >= 1:
+            return self.interval(quantum=Fraction(1))
+        n = 1 / self.value
+        return Interval((1 / n + 1 / (n + 1)) / 2, (1 / n + 1 / (n - 1)) / 2)
+
+
+_WORDS = {
+    "one": "1",
+    "two": "2",
+    "twice": "2",
+    "three": "3",
+    "four": "4",
+    "third": "1/3",
+    "one-sixth": "1/6",
+}
+_DECIMAL = re.compile(
+    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:\.(?P<part>\d+))?
+        (?:[Ee](?P<e>[-+]?\d+)|\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d+|\{[-+]?\d+\}))?""",
+    re.VERBOSE,
+)
+_FRACTION = re.compile(r"(?:\\frac\{)?(\d+)(?:/|\}\{)([1-9]\d*)\}?")
+_POWER = re.compile(r"10\^\{?(?P<power>[-+]?\d+)\}?")
+
+
+def parse(text: str) -> Printed:
+    """Read one printed number.
+
+    Decimals ("7.67", "10.0", "5,575"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
+    as its number, at its fewest digits by the ledger), powers of ten ("10^7"), fractions ("7/3")
+    and number words ("three"), the last three exact. Raises ValueError for anything else.
+
+    >>> parse("3.11E+08").interval().upper
+    Fraction(311500000, 1)
+    >>> [str(parse("9.13 × 10^9").interval()), str(parse("10.0").interval())]
+    ['[9.125E+9, 9.135E+9]', '[9.95, 10.05]']
+    """
+    bare = text.strip().removeprefix("~").strip()
+    if word := _WORDS.get(bare.lower()):
+        return Printed(text, Fraction(word), (Fraction(0),))
+    if match := _FRACTION.fullmatch(bare):
+        return Printed(text, Fraction(int(match[1]), int(match[2])), (Fraction(0),))
+    if match := _POWER.fullmatch(bare):
+        return Printed(text, Fraction(10) ** int(match["power"]), (Fraction(0),))
+    match = _DECIMAL.fullmatch(bare)
+    if match is None:
+        raise ValueError(f"cannot read {text!r} as a printed number")
+    return _decimal(text, match)
+
+
+def _decimal(text: str, match: re.Match[str]) -> Printed:
+    whole, part = match["whole"].replace(",", ""), match["part"] or ""
+    exponent = int((match["e"] or match["power"] or "0").strip("{}"))
+    scale = Fraction(10) ** (exponent - len(part))
+    value = int(match["sign"] + whole + part) * scale
+    digits = whole.lstrip("0") if not part and match["e"] is None and match["power"] is None else ""
+    zeros = len(digits) - len(digits.rstrip("0"))
+    return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)))

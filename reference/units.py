@@ -1,0 +1,81 @@
+"""Units of measurement, in exact rational arithmetic.
+
+Pint knows the units and their dimensions; with `Fraction` numbers its conversions are exact (an
+inch is 254/10000 m, a pound-force 0.45359237 * 9.80665 N), so a conversion never rounds.
+"""
+
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+__all__ = ["UnitError", "quantity", "same_dimension", "to_si"]
+
+
+class UnitError(ValueError):
+    """An unknown unit, or one of another dimension than is asked for."""
+
+
+@cache
+def _registry() -> Any:
+    import pint  # a quarter of a second that plain SI numbers need not wait for
+
+    return pint.UnitRegistry(non_int_type=Fraction)
+
+
+@cache
+def _base(unit: str) -> tuple[Fraction, str]:
+    """The factor to SI base units, and the dimension as comparable text."""
+    import pint
+
+    registry = _registry()
+    text = "dimensionless" if unit == "1" else unit
+    try:
+        base = registry.Quantity(Fraction(1), registry.parse_units(text)).to_base_units()
+    except (pint.errors.PintError, AttributeError, TypeError, ValueError, SyntaxError) as error:
+        raise UnitError(f"unknown unit {unit!r}") from error
+    factor = base.magnitude
+    if not isinstance(factor, Fraction):
+        raise UnitError(f"unit {unit!r} has no exact factor to SI")
+    dimension = sorted((name, str(power)) for name, power in base.dimensionality.items())
+    return factor, repr(dimension)
+
+
+def to_si(unit: str) -> Fraction:
+    """The factor from a unit to SI base units.
+
+    Raises UnitError for an unknown unit.
+
+    >>> to_si("um"), float(to_si("ksi"))
+    (Fraction(1, 1000000), 6894757.293168361)
+    """
+    return _base(unit)[0]
+
+
+def same_dimension(one: str, other: str) -> bool:
+    """Whether two units measure the same kind of quantity.
+
+    >>> same_dimension("ksi", "MPa"), same_dimension("um", "MPa")
+    (True, False)
+    """
+    return _base(one)[1] == _base(other)[1]
+
+
+def quantity(text: str, unit: str) -> Fraction:
+    """A number with or without a unit, as SI; without, it is taken to be SI already.
+
+    `unit` is the unit whose dimension is expected. Raises UnitError or ValueError.
+
+    >>> quantity("11 um", "m"), quantity("1.1e-5", "m")
+    (Fraction(11, 1000000), Fraction(11, 1000000))
+    """
+    number, _, own = text.strip().partition(" ")
+    try:
+        value = Fraction(number)
+    except (ValueError, ZeroDivisionError) as error:
+        raise ValueError(f"{text!r} is not a number with a unit, such as '11 um'") from error
+    own = own.strip()
+    if not own:
+        return value
+    if not same_dimension(own, unit):
+        raise UnitError(f"{text!r}: {own} does not measure what {unit} does")
+    return value * to_si(own)
