@@ -1,0 +1,104 @@
+"""What every engine has in common: the interface, its error and the shape of its answer."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+
+from spreadsheets.engines.package import UNREADABLE, checked_worksheets
+
+Value = float | str | bool
+
+Recalculated = dict[str, dict[str, Value]]
+"""Worksheet name -> address such as "B7" -> value.
+
+- Every worksheet is a key, even one without values. Chart sheets are left out.
+- A number is a float, and so is a date (its serial number).
+- A boolean is a bool; LibreOffice stores booleans as numbers and gives 1.0 and 0.0, which compare
+  equal to True and False.
+- A blank cell is absent, and so is one whose formula gives the empty string.
+- An error is the text that stands for it, such as "#VALUE!". LibreOffice has errors of its own
+  ("Err:502"). Text that merely spells an error cannot be told from it.
+"""
+
+Cell = tuple[str, str, Value | None]
+"""Worksheet name, address and value; None where the cell holds nothing."""
+
+
+class EngineError(Exception):
+    """An engine is missing, failed, or could not read the workbook. Its message is one line."""
+
+    def __init__(self, engine: str, reason: str) -> None:
+        super().__init__(f"{engine}: {' '.join(reason.split())}")
+
+
+class Engine(ABC):
+    """A program that recalculates workbooks."""
+
+    name: str
+
+    @abstractmethod
+    def missing(self) -> str | None:
+        """Return None when the engine can be used, or else a sentence on what to install."""
+
+    @abstractmethod
+    def _version(self) -> str:
+        """Return the version; only called when the engine is not missing."""
+
+    @abstractmethod
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        """Recalculate a sound workbook and yield its cells, blank ones included or not."""
+
+    def version(self) -> str:
+        """Return the version of the program that would be used."""
+        self._require()
+        return self._version()
+
+    def recalculate(self, path: Path) -> Recalculated:
+        """Compute every formula of an .xlsx file again; the file itself stays as it is."""
+        self._require()
+        recalculated: Recalculated = {sheet: {} for sheet in self._worksheets(path)}
+        for sheet, place, value in self._cells(path):
+            if value is None or value == "":
+                continue
+            if sheet not in recalculated:
+                raise EngineError(self.name, f"{path} has no worksheet {sheet!r}, yet it has cells")
+            recalculated[sheet][place] = value
+        return recalculated
+
+    def _require(self) -> None:
+        """Raise an EngineError when the engine is missing."""
+        reason = self.missing()
+        if reason is not None:
+            raise EngineError(self.name, reason)
+
+    def _worksheets(self, path: Path) -> list[str]:
+        """List the worksheets after checking the file, since some engines load damaged ones."""
+        try:
+            return checked_worksheets(path)
+        except UNREADABLE as error:
+            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+
+
+class PipEngine(Engine):
+    """An engine that is a Python package of the same name."""
+
+    def missing(self) -> str | None:
+        if find_spec(self.name) is not None:
+            return None
+        return f"The Python package {self.name} is not installed: run pip install {self.name}."
+
+    def _version(self) -> str:
+        return version(self.name)
+
+
+def address(row: int, column: int) -> str:
+    """Name the cell in that row and column, both counted from 1: (7, 2) is B7."""
+    letters = ""
+    while column:
+        column, letter = divmod(column - 1, 26)
+        letters = chr(ord("A") + letter) + letters
+    return f"{letters}{row}"

@@ -1,0 +1,128 @@
+"""Recalculate one workbook in LibreOffice and print its values as JSON.
+
+Run by ``libreoffice.py`` as ``PYTHON uno_script.py SOFFICE WORKBOOK PROFILE`` with a Python that
+has the UNO bindings, perhaps an old one: only ``uno`` and the standard library can be imported
+here, and no part of this project. On failure the last line of standard error says why. Whoever
+runs this script gives it a time limit and cleans up after it.
+
+The JSON maps each sheet's name to its rows from A1 on: numbers with all their digits, text (""
+where a cell is blank) and errors as text.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+uno: Any = importlib.import_module("uno")
+
+START_LIMIT_S = 60
+RESTART = 81  # how soffice leaves when it has set up a new profile and wants to start again
+ERRORS = {
+    503: "#NUM!",
+    519: "#VALUE!",
+    521: "#NULL!",
+    524: "#REF!",
+    525: "#NAME?",
+    532: "#DIV/0!",
+    32767: "#N/A",
+}
+"""Error numbers with a text of their own. The cells show the same, but in the user's language."""
+
+
+def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
+    """Start LibreOffice with a private profile and pipe; return its process and its desktop."""
+    pipe = f"pipe,name=coldspray{uuid4().hex};urp;"
+    options = ["--headless", "--norestore", "--nologo", "--nodefault", f"--accept={pipe}"]
+    command = [soffice, *options, f"-env:UserInstallation={Path(profile).as_uri()}"]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    deadline = time.monotonic() + START_LIMIT_S
+    while time.monotonic() < deadline:
+        desktop = connect(pipe)
+        if desktop is not None:
+            return process, desktop
+        status = process.poll()
+        if status == RESTART:
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        elif status is not None:
+            sys.exit(f"soffice ended with status {status} before it answered")
+        time.sleep(0.05)
+    sys.exit(f"soffice did not answer within {START_LIMIT_S} s")
+
+
+def connect(pipe: str) -> Any:
+    """Return LibreOffice's desktop, or None while nobody listens on the pipe."""
+    context = uno.getComponentContext()
+    resolver = create(context, "com.sun.star.bridge.UnoUrlResolver")
+    try:
+        remote = resolver.resolve(f"uno:{pipe}StarOffice.ComponentContext")
+    except uno.getClass("com.sun.star.connection.NoConnectException"):
+        return None
+    return create(remote, "com.sun.star.frame.Desktop")
+
+
+def create(context: Any, service: str) -> Any:
+    """Create a UNO service."""
+    return context.ServiceManager.createInstanceWithContext(service, context)
+
+
+def load(desktop: Any, workbook: str) -> Any:
+    """Load a workbook without a window; only as .xlsx, or any text would do for a document."""
+    options = []
+    for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML")):
+        option = uno.createUnoStruct("com.sun.star.beans.PropertyValue")
+        option.Name, option.Value = name, value
+        options.append(option)
+    document = desktop.loadComponentFromURL(Path(workbook).as_uri(), "_blank", 0, tuple(options))
+    if document is None:
+        sys.exit("cannot load the workbook")
+    return document
+
+
+def stop(process: subprocess.Popen[bytes], desktop: Any) -> None:
+    """End LibreOffice, which may hang up before it has answered the request to end."""
+    with suppress(uno.getClass("com.sun.star.lang.DisposedException")):
+        desktop.terminate()
+    process.wait()
+
+
+def rows(sheet: Any) -> list[list[float | str]]:
+    """Read all cells from A1 to the end of the used area."""
+    cursor = sheet.createCursor()
+    cursor.gotoEndOfUsedArea(False)
+    end = cursor.RangeAddress
+    data = sheet.getCellRangeByPosition(0, 0, end.EndColumn, end.EndRow).getDataArray()
+    return [
+        [error(sheet, row, column) if value is None else value for column, value in enumerate(line)]
+        for row, line in enumerate(data)
+    ]
+
+
+def error(sheet: Any, row: int, column: int) -> str:
+    """Spell the error of a cell, which the data array gives as None."""
+    number = sheet.getCellByPosition(column, row).getError()
+    return ERRORS.get(number, f"Err:{number}")
+
+
+def main() -> None:
+    """Recalculate the workbook named on the command line."""
+    soffice, workbook, profile = sys.argv[1:]
+    process, desktop = start(soffice, profile)
+    try:
+        document = load(desktop, workbook)
+        document.calculateAll()  # loading alone would keep the stored values
+        print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
+        document.close(True)
+    finally:
+        stop(process, desktop)
+
+
+if __name__ == "__main__":
+    main()

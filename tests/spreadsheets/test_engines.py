@@ -1,0 +1,321 @@
+"""Every engine recalculates, gives exact values in one common shape, and fails in one line."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import openpyxl
+import pytest
+import xlsxwriter
+
+from spreadsheets import engines
+from spreadsheets.engines import Engine, EngineError, Recalculated, libreoffice
+from spreadsheets.engines.base import Cell, address
+
+WRONG = 12345
+"""Stored beside every formula: to come back, a right value must have been computed."""
+
+INPUTS = {"A1": 0.1, "A2": 0.2, "A3": 6e-10, "A4": 1.25e-05, "A5": 7670.0, "A6": 3.0}
+
+a1, a2, a3, a4, a5, a6 = INPUTS.values()
+NUMBERS = {
+    "B1": ("=A1+A2", a1 + a2),
+    "B2": ("=1/A6", 1 / a6),
+    "B3": ("=A3*A6", a3 * a6),
+    "B4": ("=A5*4/3*PI()*A4*A4", a5 * 4 / 3 * math.pi * a4 * a4),
+    "B5": ("=B4*A1", a5 * 4 / 3 * math.pi * a4 * a4 * a1),
+    "B6": ("=SQRT(A6)", math.sqrt(a6)),
+    "B7": ("=A1*1E300*1E-300", a1 * 1e300 * 1e-300),
+}
+"""Formulas, and Python's doubles for the same operations in the same order."""
+
+LONG_DOUBLE_ERROR = 1e-15
+"""Debian's Gnumeric rounds once, on reading its result; Python rounds each input and each step.
+No chain above has more than nine roundings in all, and each is at most 2**-53 = 1.11e-16."""
+
+OTHERS = {
+    "C1": ('="cold "&"spray"', "cold spray"),
+    "C2": ('="1"&"2"', "12"),
+    "C3": ("=A6=3", True),
+    "C4": ("=A6=4", False),
+    "C5": ("=1/0", "#DIV/0!"),
+    "C6": ("=NA()", "#N/A"),
+    "C7": ('=""+1', "#VALUE!"),
+    "C8": ("=nobody", "#NAME?"),
+    "C9": ("=1E300*1E10*A6", "#NUM!"),
+    "C10": ('=IF(ISNUMBER(A6),"","no")', None),
+    "C11": ("=COUNT(A1:A99)", 6.0),
+    "C12": ("=steps*2", 6.0),
+}
+"""Formulas, and the values documented for them; None for no value at all."""
+
+
+FIRST_SHEET = "xl/worksheets/sheet1.xml"
+
+
+@pytest.fixture(scope="module")
+def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write a workbook with the formulas above and sheets that are hard to name or to see."""
+    path = tmp_path_factory.mktemp("engines") / "formulas with spaces é.xlsx"
+    with xlsxwriter.Workbook(path) as book:
+        sheet = book.add_worksheet("Formulas")
+        for place, number in INPUTS.items():
+            sheet.write_number(place, number)
+        for place, (formula, _) in (NUMBERS | OTHERS).items():
+            sheet.write_formula(place, formula, value=WRONG)
+        sheet.write_string("D1", "<b> & 'c'\nd ")
+        sheet.write_boolean("D2", True)
+        sheet.write_number("D3", 45000, book.add_format({"num_format": "yyyy-mm-dd"}))
+        sheet.write_string("D4", "12")
+        sheet.write_blank("Z99", None, book.add_format({"bold": True}))
+        book.define_name("steps", "=Formulas!$A$6")
+        book.add_worksheet("It's & <odd>").write_formula("AB30", "=Formulas!A6*2", value=WRONG)
+        book.add_worksheet("Nothing")
+        chart = book.add_chart({"type": "scatter"})
+        chart.add_series({"categories": "=Formulas!$A$1:$A$6", "values": "=Formulas!$B$1:$B$6"})
+        book.add_chartsheet("Chart").set_chart(chart)
+    return path
+
+
+@pytest.fixture(scope="module")
+def recalculated(engine: Engine, workbook: Path) -> Recalculated:
+    """Recalculate that workbook, once for each engine."""
+    return engine.recalculate(workbook)
+
+
+def test_engine_repairs_a_wrong_stored_value(engine: Engine, tmp_path: Path) -> None:
+    assert engines.repairs_wrong_value(engine, tmp_path)
+
+
+def test_engine_tells_its_version(engine: Engine) -> None:
+    major, minor, *_ = engine.version().split(".")
+    assert (major + minor).isdigit()
+
+
+@pytest.mark.parametrize("place", NUMBERS)
+def test_numbers_are_exact(engine: Engine, recalculated: Recalculated, place: str) -> None:
+    expected = NUMBERS[place][1]
+    value = recalculated["Formulas"][place]
+    if engine.name == "gnumeric":
+        assert value == pytest.approx(expected, rel=LONG_DOUBLE_ERROR, abs=0)
+    else:
+        assert value == expected
+
+
+@pytest.mark.parametrize("place", OTHERS)
+def test_other_values_are_as_documented(recalculated: Recalculated, place: str) -> None:
+    assert recalculated["Formulas"].get(place) == OTHERS[place][1]
+
+
+def test_constants_are_as_documented(recalculated: Recalculated) -> None:
+    sheet = recalculated["Formulas"]
+    assert {place: sheet[place] for place in INPUTS} == INPUTS
+    assert sheet["D1"] == "<b> & 'c'\nd "
+    assert sheet["D2"] == 1
+    assert sheet["D3"] == 45000.0
+    assert sheet["D4"] == "12"
+    assert "Z99" not in sheet
+
+
+def test_types_are_as_documented(engine: Engine, recalculated: Recalculated) -> None:
+    sheet = recalculated["Formulas"]
+    assert {type(sheet[place]) for place in (*INPUTS, *NUMBERS, "C11", "D3")} == {float}
+    boolean = float if engine.name == "libreoffice" else bool
+    assert {type(sheet[place]) for place in ("C3", "C4", "D2")} == {boolean}
+
+
+def test_every_worksheet_is_there_but_no_chart_sheet(recalculated: Recalculated) -> None:
+    assert list(recalculated) == ["Formulas", "It's & <odd>", "Nothing"]
+    assert recalculated["It's & <odd>"] == {"AB30": 6.0}
+    assert recalculated["Nothing"] == {}
+
+
+def test_workbook_and_its_folder_stay_as_they_are(engine: Engine, workbook: Path) -> None:
+    before = workbook.read_bytes()
+    engine.recalculate(workbook)
+    assert workbook.read_bytes() == before
+    assert list(workbook.parent.iterdir()) == [workbook]
+
+
+def _text(path: Path, workbook: Path) -> None:
+    path.write_text("a,b\n1,2\n")
+
+
+def _nothing(path: Path, workbook: Path) -> None:
+    path.touch()
+
+
+def _half(path: Path, workbook: Path) -> None:
+    path.write_bytes(workbook.read_bytes()[:2000])
+
+
+def _absent(path: Path, workbook: Path) -> None:
+    assert not path.exists()
+
+
+def _rewrite(path: Path, workbook: Path, kept: Callable[[str, bytes], bytes]) -> None:
+    """Copy the workbook with only that much of every part; none of it drops the part."""
+    with zipfile.ZipFile(workbook) as old, zipfile.ZipFile(path, "w") as new:
+        for part in old.namelist():
+            if data := kept(part, old.read(part)):
+                new.writestr(part, data)
+
+
+def _cut_sheet(path: Path, workbook: Path) -> None:
+    _rewrite(path, workbook, lambda part, data: data[:500] if part == FIRST_SHEET else data)
+
+
+def _lost_sheet(path: Path, workbook: Path) -> None:
+    _rewrite(path, workbook, lambda part, data: b"" if part == FIRST_SHEET else data)
+
+
+@pytest.mark.parametrize("damage", [_text, _nothing, _half, _absent, _cut_sheet, _lost_sheet])
+def test_unreadable_file_is_a_one_line_error(
+    engine: Engine, tmp_path: Path, workbook: Path, damage: Callable[[Path, Path], None]
+) -> None:
+    path = tmp_path / "damaged.xlsx"
+    damage(path, workbook)
+    with pytest.raises(EngineError) as caught:
+        engine.recalculate(path)
+    message = str(caught.value)
+    assert message.startswith(f"{engine.name}: cannot read {path}: ")
+    assert "\n" not in message
+
+
+def test_file_that_the_engine_itself_refuses_is_a_one_line_error(
+    engine: Engine, tmp_path: Path, workbook: Path
+) -> None:
+    path = tmp_path / "incomplete.xlsx"
+    needed = ("_rels/.rels", "xl/styles.xml")  # each engine misses at least one of them
+    _rewrite(path, workbook, lambda part, data: b"" if part in needed else data)
+    with pytest.raises(EngineError, match=rf"^{engine.name}: [^\n]+$"):
+        engine.recalculate(path)
+
+
+@dataclass
+class Fake(Engine):
+    """An engine that gives the stored values, or whatever cells it was told to give."""
+
+    told: tuple[Cell, ...] = ()
+    reason: str | None = None
+    name = "fake"
+
+    def missing(self) -> str | None:
+        return self.reason
+
+    def _version(self) -> str:
+        return "1.0"
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        yield from self.told
+        for sheet in openpyxl.load_workbook(path, data_only=True):
+            for row in sheet.iter_rows():
+                for cell in row:
+                    assert isinstance(cell.value, int)
+                    yield sheet.title, cell.coordinate, float(cell.value)
+
+
+def test_self_test_detects_an_echo(tmp_path: Path) -> None:
+    assert not engines.repairs_wrong_value(Fake(), tmp_path)
+
+
+def test_cells_of_an_unknown_worksheet_are_an_error(tmp_path: Path) -> None:
+    with pytest.raises(EngineError, match="has no worksheet 'Elsewhere'"):
+        engines.repairs_wrong_value(Fake(told=(("Elsewhere", "A1", 1.0),)), tmp_path)
+
+
+def test_missing_engine_says_what_to_install(tmp_path: Path) -> None:
+    fake = Fake(reason="Fake is not installed: install it.")
+    for use in (fake.version, lambda: fake.recalculate(tmp_path / "any.xlsx")):
+        with pytest.raises(EngineError, match=r"^fake: Fake is not installed: install it\.$"):
+            use()
+
+
+@pytest.mark.parametrize("name", ["libreoffice", "gnumeric"])
+def test_system_engine_is_missing_without_its_program(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert "install the system package" in (engines.engine(name).missing() or "")
+
+
+def test_engines_have_a_fixed_order_and_names() -> None:
+    names = [engine.name for engine in engines.ENGINES]
+    assert names == ["ironcalc", "formualizer", "libreoffice", "gnumeric"]
+    assert [engines.engine(name) for name in names] == list(engines.ENGINES)
+    with pytest.raises(EngineError, match=r"^excel: no such engine; known are ironcalc, "):
+        engines.engine("excel")
+
+
+def test_addresses() -> None:
+    places = [address(7, 2), address(1, 26), address(1, 27), address(1048576, 16384)]
+    assert places == ["B7", "Z1", "AA1", "XFD1048576"]
+
+
+def test_importing_the_engines_loads_no_spreadsheet_library() -> None:
+    heavy = {"ironcalc", "formualizer", "openpyxl", "xlsxwriter", "numpy", "pandas", "uno"}
+    code = "import sys, spreadsheets.engines; print(*sys.modules)"
+    root = Path(engines.__file__).parents[2]
+    loaded = subprocess.check_output([sys.executable, "-c", code], cwd=root, text=True).split()
+    assert "spreadsheets.engines.libreoffice" in loaded
+    assert heavy.isdisjoint(loaded)
+
+
+@dataclass(frozen=True)
+class Office:
+    """LibreOffice with another ``soffice`` in front, and a temporary folder that starts empty."""
+
+    engine: Engine
+    program: Path
+    temporary: Path
+
+    def replace(self, script: str) -> None:
+        self.program.write_text(f"#!/bin/sh\n{script}\n")
+        self.program.chmod(0o755)
+
+
+@pytest.fixture
+def office(
+    usable: Callable[[str], Engine], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Office:
+    """Put a folder for another ``soffice`` at the start of the PATH."""
+    engine = usable("libreoffice")
+    for folder in ("bin", "temporary"):
+        (tmp_path / folder).mkdir()
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"), prepend=":")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
+    return Office(engine, tmp_path / "bin" / "soffice", tmp_path / "temporary")
+
+
+def test_libreoffice_that_fails_is_an_error(office: Office, workbook: Path) -> None:
+    office.replace("echo chatter >&2; exit 3")
+    with pytest.raises(EngineError) as caught:
+        office.engine.recalculate(workbook)
+    assert str(caught.value) == "libreoffice: soffice ended with status 3 before it answered"
+    assert list(office.temporary.iterdir()) == []
+
+
+def test_libreoffice_that_hangs_is_ended(
+    office: Office, workbook: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    office.replace("sleep 600")
+    monkeypatch.setattr(libreoffice, "TIME_LIMIT_S", 1)
+    # Returning before the sleep is over shows that it was killed: its end is waited for.
+    with pytest.raises(EngineError, match=r"^libreoffice: no answer within 1 s$"):
+        office.engine.recalculate(workbook)
+    assert list(office.temporary.iterdir()) == []
+
+
+def test_libreoffice_may_want_a_restart(office: Office, workbook: Path, tmp_path: Path) -> None:
+    real, started = shutil.which("soffice"), tmp_path / "started"
+    office.replace(f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81')
+    assert office.engine.recalculate(workbook)["Formulas"]["B1"] == 0.1 + 0.2
+    assert list(office.temporary.iterdir()) == []
