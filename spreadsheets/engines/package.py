@@ -5,17 +5,17 @@ from __future__ import annotations
 import zipfile
 import zlib
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 WORKBOOK = "xl/workbook.xml"
 
-UNREADABLE = (OSError, KeyError, zipfile.BadZipFile, zlib.error, ElementTree.ParseError)
+UNREADABLE = (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError)
 """What reading a file raises that is not a sound .xlsx file."""
 
 
-def read_part(archive: zipfile.ZipFile, part: str) -> ElementTree.Element:
+def read_part(archive: zipfile.ZipFile, part: str) -> ET.Element:
     """Parse one XML part of the file."""
-    return ElementTree.fromstring(archive.read(part))
+    return ET.fromstring(archive.read(part))
 
 
 def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
@@ -47,6 +47,6 @@ def _part(target: str) -> str:
     return target[1:] if target.startswith("/") else f"xl/{target}"
 
 
-def _relation(sheet: ElementTree.Element) -> str:
+def _relation(sheet: ET.Element) -> str:
     """Read the attribute r:id, whose namespace differs between the two kinds of Office Open XML."""
     return next(value for key, value in sheet.attrib.items() if key.endswith("}id"))

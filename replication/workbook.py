@@ -1,0 +1,97 @@
+"""The live workbook of one or two cases: what it holds, and its file.
+
+The values come from the models, computed without any knowledge of the formula texts; a value and
+the formula that must give it meet in one cell. The plan's `where` tells which cell holds a key.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from replication import midpoint
+from replication.impact import BETA_3, BETA_5, Impact
+from replication.workbook_values import pressure_ratio, values_by_key
+from spreadsheets import emit
+from spreadsheets.plan import Value, WorkbookPlan
+from spreadsheets.sheets import workbook_plan
+from spreadsheets.sheets.case import CaseSheet, prepared_rows
+
+__all__ = ["REPORT", "Cases", "build", "relative_tolerance", "values", "write"]
+
+Cases = Mapping[str, Impact]
+"""Sheet name -> case: one case, or two that differ in nothing but beta or the resistance."""
+
+REPORT: Cases = {"Sheet beta 3": BETA_3, "Sheet beta 5": BETA_5}
+"""The report's own two cases."""
+
+_PRINTED = {BETA_3: ("10.0", "0.91"), BETA_5: ("7.67", "0.70")}
+
+
+def write(path: Path, cases: Cases = REPORT) -> None:
+    """Write the workbook of these cases to `path` (.xlsx). Raises as `build` does."""
+    emit.write(path, *build(cases))
+
+
+def values(cases: Cases = REPORT) -> dict[str, Value]:
+    """The value of every key of the workbook. Raises as `build` does."""
+    return build(cases)[1]
+
+
+def build(cases: Cases = REPORT) -> tuple[WorkbookPlan, dict[str, Value]]:
+    """The plan of the workbook and its values by key.
+
+    Raises ValueError unless there are one or two cases that share every input but beta or the
+    resistance, and when a case needs more steps than `prepared_rows` admits.
+
+    >>> plan, values = build()
+    >>> plan.where["high.depth_um"], f"{values['high.depth_um']:.2f}"
+    (('Sheet beta 5', 'K22'), '7.67')
+    """
+    _require_shared_inputs(list(cases.values()))
+    slugs = ("case",) if len(cases) == 1 else ("low", "high")
+    sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
+    rows = prepared_rows(max(sheet.steps for sheet in sheets.values()))
+    plan = workbook_plan(
+        [
+            CaseSheet(
+                name=name,
+                slug=slug,
+                steps=sheet.steps,
+                rows=rows,
+                resistance_given=sheet.impact.resistance is not None,
+                printed=_PRINTED.get(sheet.impact, ("", "")),
+            )
+            for name, (slug, sheet) in zip(cases, sheets.items(), strict=True)
+        ]
+    )
+    return plan, values_by_key(sheets, rows)
+
+
+def relative_tolerance(cases: Cases = REPORT) -> float:
+    """How far a transcendental cell may lie from its stored value, relative to it.
+
+    >>> f"{relative_tolerance():.1e}"
+    '7.6e-15'
+    """
+    # A function result is within one ulp in any C library, and flips the last digit of each
+    # operation after it. The longest chain is the crater's: ASIN, SIN, SIN and twelve products,
+    # with condition numbers of at most 2, so less than 32 ulp of 2^-52. Where the sheet takes
+    # LN(1 + p), its value is log1p(p): forming 1 + p adds half an ulp of 1 to the logarithm.
+    logarithm = min(math.log1p(pressure_ratio(impact)) for impact in cases.values())
+    return 32 * 2**-52 + 2**-53 / logarithm
+
+
+def _require_shared_inputs(impacts: Sequence[Impact]) -> None:
+    if not 1 <= len(impacts) <= 2:
+        raise ValueError(f"a workbook holds one or two cases, not {len(impacts)}")
+    first, last = _shared(impacts[0]), _shared(impacts[-1])
+    unlike = [name for name in first if first[name] != last[name]]
+    if unlike:
+        raise ValueError(f"the two cases may differ in beta or resistance, not in {unlike[0]}")
+
+
+def _shared(impact: Impact) -> dict[str, object]:
+    inputs = asdict(impact)
+    del inputs["beta"], inputs["resistance"]
+    return inputs

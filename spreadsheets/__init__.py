@@ -1,0 +1,1 @@
+"""Workbooks in and out: planned cell by cell, emitted, read back, recalculated and compared."""

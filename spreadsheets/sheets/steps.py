@@ -1,0 +1,110 @@
+"""The sheets `Sheet beta 3` and `Sheet beta 5`: the whole midpoint scheme, down to the stop.
+
+Below the stop follow rows that are blank until an input needs them. If even they do not suffice,
+the result says so instead of giving a depth.
+"""
+
+from spreadsheets.plan import Cell, Rule, SheetPlan
+from spreadsheets.sheets.case import CaseSheet
+from spreadsheets.sheets.motion import guarded, moves_on, step_cells
+from spreadsheets.sheets.results import WIDTHS, results
+
+__all__ = ["FIRST_ROW", "sheet"]
+
+FIRST_ROW = 6
+"""Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
+
+_HEADS = (
+    ("A", "Row", ""),
+    ("B", "Time", "s"),
+    ("C", "dx/dt initial", "m/s"),
+    ("D", "x", "m"),
+    ("E", "d²x/dt²", "m/s²"),
+    ("F", "dx/dt final", "m/s"),
+    ("G", "x", "µm"),
+)
+_FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000"}
+
+
+def sheet(case: CaseSheet) -> SheetPlan:
+    """The sheet of one case."""
+    last = FIRST_ROW + case.rows
+    cells = {
+        "A1": Cell(text=f"{case.name}: rigid-body penetration, row by row", style="title"),
+        "A2": Cell(text=_NOTE, style="note"),
+    }
+    for column, head, unit in _HEADS:
+        cells[f"{column}4"] = Cell(text=head, style="head right")
+        if unit:
+            cells[f"{column}5"] = Cell(text=unit, style="unit right")
+    cells |= results(case, FIRST_ROW, last) | _impact_row(case)
+    for step in range(1, case.rows + 1):
+        cells |= _step_row(step, case)
+    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 12.0), "G": 8.0, "H": 3.0}
+    widths |= WIDTHS
+    return SheetPlan(
+        name=case.name,
+        cells=cells,
+        widths=widths,
+        frozen=f"A{FIRST_ROW}",
+        repeated_rows=(4, 5),
+        print_area=f"A1:N{FIRST_ROW + case.steps}",
+        rules=_rules(case, cells, last),
+    )
+
+
+_NOTE = (
+    "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt; d²x/dt² is printed positive, "
+    "from that x and the initial velocity. The run stops with the first row below v_stop. "
+    "Printing ends with the last row of the inputs as emitted."
+)
+
+
+def _rules(case: CaseSheet, cells: dict[str, Cell], last: int) -> tuple[Rule, ...]:
+    """A thin line under each row in use; a red message when the rows do not suffice."""
+    places = {cell.key: address for address, cell in cells.items()}
+    message, stopped = places[f"{case.slug}.message"], places[f"{case.slug}.stopped"]
+    return (
+        Rule(cells=f"A{FIRST_ROW}:G{last}", formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
+        Rule(cells=message, formula=f"={stopped}=0", style="warning"),
+    )
+
+
+def _impact_row(case: CaseSheet) -> dict[str, Cell]:
+    """Row 0: time, x and deceleration are 0 by the initial conditions; no final velocity."""
+    row, key = FIRST_ROW, f"{case.slug}.row[0]"
+    starts = {"A": "index", "B": "time", "D": "depth", "E": "deceleration"}
+    cells = {
+        f"{column}{row}": Cell(key=f"{key}.{what}", style="number")
+        for column, what in starts.items()
+    }
+    cells[f"C{row}"] = Cell(
+        key=f"{key}.velocity_initial", formula="=V_impact", style="number", number_format="0.000"
+    )
+    cells[f"G{row}"] = _micrometers(row, key)
+    return cells
+
+
+def _step_row(step: int, case: CaseSheet) -> dict[str, Cell]:
+    row, first, key = FIRST_ROW + step, step == 1, f"{case.slug}.row[{step}]"
+    index = moves_on(row, first, f"A{row - 1}+1")
+    cells = {
+        f"A{row}": Cell(key=f"{key}.index", formula=index, style="number"),
+        f"B{row}": Cell(
+            key=f"{key}.time",
+            formula=guarded(row, f"A{row}*dt_s"),
+            style="number",
+            number_format="0.00E+00",
+        ),
+    }
+    cells |= step_cells(row, first, case.named("R_t"), key, _FORMATS)
+    return cells | {f"G{row}": _micrometers(row, key)}
+
+
+def _micrometers(row: int, key: str) -> Cell:
+    return Cell(
+        key=f"{key}.depth_um",
+        formula=guarded(row, f"D{row}*1000000"),
+        style="number",
+        number_format="0.0000",
+    )

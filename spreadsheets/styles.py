@@ -1,0 +1,44 @@
+"""How each named style looks: one font, light fills, thin lines (properties as XlsxWriter's)."""
+
+from typing import Any
+
+__all__ = ["STYLES"]
+
+_INK, _GRAY, _BLUE, _RED = "#000000", "#6B6B6B", "#0000FF", "#B00020"
+_YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
+
+_FONT: dict[str, Any] = {"font_name": "Arial", "font_size": 10, "font_color": _INK}
+_RIGHT: dict[str, Any] = {"align": "right"}
+_INPUT: dict[str, Any] = {**_FONT, "font_color": _BLUE, "border": 1, "border_color": _RULE}
+_HEADING: dict[str, Any] = {**_FONT, "bold": True, "bg_color": _HEAD, "bottom": 1}
+
+STYLES: dict[str, dict[str, Any]] = {
+    "body": _FONT,
+    "title": {**_FONT, "bold": True, "font_size": 14},
+    "note": {**_FONT, "font_color": _GRAY, "italic": True},
+    "head": _HEADING,
+    "head right": {**_HEADING, **_RIGHT},
+    "head unit": {**_HEADING, "indent": 1},
+    "block": {**_FONT, "bold": True},
+    "symbol": {**_FONT, "indent": 1},
+    "text": {**_FONT, "indent": 1},
+    "unit": {**_FONT, "font_color": _GRAY, "indent": 1},
+    "unit right": {**_FONT, **_RIGHT, "font_color": _GRAY, "bottom": 1, "bottom_color": _RULE},
+    "source": {**_FONT, "font_color": _GRAY, "indent": 1},
+    "number": {**_FONT, **_RIGHT},
+    "result": {**_FONT, **_RIGHT, "bold": True},
+    "message": {**_FONT, "align": "left"},
+    "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
+    "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
+    "printed": {**_FONT, **_RIGHT, "font_color": _GRAY},
+    "printed label": {**_FONT, "font_color": _GRAY},
+    "link": {**_FONT, "font_color": "#1F4E9E", "underline": 1},
+    # Styles of a rule change what a cell already has, so they name nothing else.
+    "ruled": {"bottom": 1, "bottom_color": _RULE},
+    "warning": {"font_color": _RED, "bold": True},
+}
+STYLES |= {
+    f"{name} sample": {**STYLES[name], "align": "center"}
+    for name in ("input", "inferred", "number", "printed")
+}
+"""Style name -> properties. A "sample" looks like its style but stands for no value."""

@@ -1,0 +1,56 @@
+"""Comparing two maps of values: exact by default, every difference named."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from spreadsheets.compare import Difference, Values, compare, ulps_apart
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def test_equal_maps_have_no_differences() -> None:
+    values: Values = {"S": {"A1": 1.5, "A2": "text", "A3": True}}
+    assert compare(values, values) == []
+
+
+def test_one_ulp_is_a_difference() -> None:
+    found = compare({"S": {"A1": 1.0}}, {"S": {"A1": math.nextafter(1.0, 2.0)}})
+    assert found == [Difference("S", "A1", 1.0, math.nextafter(1.0, 2.0), 1)]
+    assert str(found[0]) == "S!A1: expected 1.0, found 1.0000000000000002 (1 ulp)"
+
+
+def test_only_named_cells_are_allowed_a_distance() -> None:
+    expected, found = {"S": {"A1": 1.0, "A2": 1.0}}, {"S": {"A1": 1.1, "A2": 1.1}}
+    (left,) = compare(expected, found, {("S", "A1"): 0.2})
+    assert left.cell == "A2"
+
+
+@pytest.mark.parametrize(("one", "other"), [(0.0, None), (1.0, "1.0"), ("#N/A", 1.0), ("a", "b")])
+def test_kinds_are_not_mixed(one: float | str, other: float | str | None) -> None:
+    found = {"S": {} if other is None else {"A1": other}}
+    (left,) = compare({"S": {"A1": one}}, found)
+    assert (left.expected, left.found, left.ulps) == (one, other, None)
+
+
+def test_surplus_cells_and_sheets_are_differences() -> None:
+    left = compare({"S": {}}, {"S": {"B1": 1.0}, "T": {"A1": "x"}})
+    assert [(d.sheet, d.cell, d.expected) for d in left] == [("S", "B1", None), ("T", "A1", None)]
+
+
+def test_empty_text_is_blank() -> None:
+    assert compare({"S": {"A1": ""}}, {"S": {}}) == []
+
+
+@given(FINITE)
+def test_neighbors_are_one_ulp_apart(number: float) -> None:
+    above = math.nextafter(number, math.inf)
+    if math.isfinite(above):
+        assert ulps_apart(number, above) == ulps_apart(above, number) == 1
+
+
+def test_distance_counts_across_zero() -> None:
+    assert ulps_apart(-5e-324, 5e-324) == 2
+    assert ulps_apart(-0.0, 0.0) == 0
