@@ -4,6 +4,7 @@ Pint knows the units and their dimensions; with `Fraction` numbers its conversio
 inch is 254/10000 m, a pound-force 0.45359237 * 9.80665 N), so a conversion never rounds.
 """
 
+import re
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -60,6 +61,9 @@ def same_dimension(one: str, other: str) -> bool:
     return _base(one)[1] == _base(other)[1]
 
 
+_QUANTITY = re.compile(r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*(?P<unit>.*)")
+
+
 def quantity(text: str, unit: str) -> Fraction:
     """A number with or without a unit, as SI; without, it is taken to be SI already.
 
@@ -68,12 +72,10 @@ def quantity(text: str, unit: str) -> Fraction:
     >>> quantity("11 um", "m"), quantity("1.1e-5", "m")
     (Fraction(11, 1000000), Fraction(11, 1000000))
     """
-    number, _, own = text.strip().partition(" ")
-    try:
-        value = Fraction(number)
-    except (ValueError, ZeroDivisionError) as error:
-        raise ValueError(f"{text!r} is not a number with a unit, such as '11 um'") from error
-    own = own.strip()
+    match = _QUANTITY.fullmatch(text.strip())
+    if match is None:
+        raise ValueError(f"{text!r} is no finite number with or without a unit, such as '1 {unit}'")
+    value, own = Fraction(match["number"]), match["unit"]
     if not own:
         return value
     if not same_dimension(own, unit):

@@ -1,0 +1,53 @@
+"""The audit: a verdict with its proof for every number that the report prints."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from reference import ledger as ledgers
+from reference.ledger import Ledger
+from replication import workbook
+from replication.audit.findings import Finding, findings
+from replication.audit.verdict import Assessment, Verdict, assess
+
+__all__ = ["Audit", "Verdict", "assess_claim", "audit"]
+
+
+@dataclass(frozen=True, slots=True)
+class Audit:
+    """All verdicts by claim id, in the report's order, and the findings."""
+
+    ledger: Ledger
+    assessments: Mapping[str, Assessment]
+    findings: tuple[Finding, ...]
+
+    @property
+    def summary(self) -> dict[str, int]:
+        """How many claims got each verdict."""
+        verdicts = [assessment.verdict for assessment in self.assessments.values()]
+        return {verdict.value: verdicts.count(verdict) for verdict in Verdict}
+
+    def with_verdict(self, verdict: Verdict) -> list[Assessment]:
+        """The claims that got this verdict."""
+        return [a for a in self.assessments.values() if a.verdict is verdict]
+
+
+def audit() -> Audit:
+    """Audit every claim of the report.
+
+    >>> audit().assessments["depth-beta-5"].verdict.value
+    'reproduced'
+    """
+    ledger = ledgers.load()
+    assessments = {name: assess_claim(ledger, name) for name in ledger.claims}
+    return Audit(ledger, assessments, tuple(findings(ledger, assessments)))
+
+
+def assess_claim(ledger: Ledger, name: str) -> Assessment:
+    """The verdict on one claim, blank cells included."""
+    return assess(ledger, ledger.claims[name], _cell_is_blank)
+
+
+def _cell_is_blank(address: str) -> bool:
+    table = next(sheet for sheet in workbook.build()[0].sheets if sheet.name == "Table A-1")
+    cell = table.cells.get(address)
+    return cell is None or not (cell.text.strip() or cell.key)

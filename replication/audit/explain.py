@@ -1,0 +1,149 @@
+"""Why a verdict is what it is, in sentences that a reader can check."""
+
+from fractions import Fraction
+
+from reference.ledger import Claim, Ledger
+from reference.printed import Interval
+from reference.units import to_si
+from replication.audit.inference import infer
+from replication.audit.verdict import Assessment, Reading, Verdict
+from replication.text import number, outward, with_unit
+
+__all__ = ["assumptions", "explanation"]
+
+
+def explanation(ledger: Ledger, assessment: Assessment) -> str:
+    """The verdict's reason: what was computed, from what, and how it stands to the printed text."""
+    claim, reading = assessment.claim, assessment.reading
+    if claim.kind == "blank":
+        leaves = "leaves" if assessment.verdict is Verdict.REPRODUCED else "does not leave"
+        return f"The re-run sheet {leaves} this cell blank too."
+    if reading is None:
+        return f"Not decided by the report: {claim.given}."
+    sentences = [_value(claim, reading), *_reason(claim, reading)]
+    sentences += [_other(claim, other) for other in assessment.others]
+    if claim.id in _evidence(ledger):
+        sentences.append("It is part of the evidence from which the target density is inferred.")
+    return " ".join(sentences)
+
+
+def _value(claim: Claim, reading: Reading) -> str:
+    what = _capital(reading.computation.summary)
+    inside = reading.verdict is Verdict.REPRODUCED
+    value = with_unit(number(reading.computed), claim.unit)
+    assert claim.interval is not None
+    if claim.interval.lower == claim.interval.upper:
+        return f"{what}: {value}, {'as' if inside else 'not'} {claim.interval}."
+    return f"{what}: {value}, {'in' if inside else 'not in'} {claim.interval}."
+
+
+def _reason(claim: Claim, reading: Reading) -> list[str]:
+    match reading.verdict:
+        case Verdict.REPRODUCED:
+            return _reproduced(claim, reading)
+        case Verdict.WITHIN_ROUNDING:
+            return _within(reading)
+        case Verdict.NOT_REPRODUCED:
+            return _not_reproduced(claim, reading)
+        case _:
+            return [f"The proven range {outward(*reading.enclosure)} is too wide to tell."]
+
+
+def _reproduced(claim: Claim, reading: Reading) -> list[str]:
+    if not _inferred(claim):
+        return []
+    admitted = outward(*reading.enclosure)
+    if reading.robust:
+        return [f"So for every admitted target density: {admitted}."]
+    return [f"But not for every admitted target density, which gives {admitted}."]
+
+
+def _within(reading: Reading) -> list[str]:
+    assert reading.witness is not None
+    inputs = ", ".join(f"{key} {number(value, 10)}" for key, value in reading.witness.items())
+    return [f"Inputs that print like the report's give it, for instance (SI) {inputs}."]
+
+
+def _not_reproduced(claim: Claim, reading: Reading) -> list[str]:
+    low, high = reading.enclosure
+    if low == high:
+        return ["It rests on no rounded input: no input can change it."]
+    assert claim.interval is not None
+    inputs = "all inputs that print like the report's"
+    if claim.as_printed_inputs:
+        inputs = "every admitted target density"
+    side = _side(claim.interval, reading.enclosure)
+    proof = f"Proven for {inputs}: it lies in {outward(low, high)}, {side}."
+    if reading.loose:
+        proof += " Only with trailing zeros of the inputs taken as insignificant could it agree."
+    return [proof]
+
+
+def _side(interval: Interval, enclosure: tuple[Fraction, Fraction]) -> str:
+    low, high = enclosure
+    if interval.lower is not None and high <= interval.lower:
+        return "all below"
+    if interval.upper is not None and low >= interval.upper:
+        return "all above"
+    return "on both sides"
+
+
+def _other(claim: Claim, other: Reading) -> str:
+    value = with_unit(number(other.computed), claim.unit)
+    ends = outward(*other.enclosure)
+    text = f"As {other.name} it is {value} (for inputs that print alike {ends}): "
+    text += other.verdict.value
+    if other.loose:
+        text += ", unless trailing zeros of the inputs are insignificant"
+    return text + "."
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _inferred(claim: Claim) -> list[str]:
+    names = {name for names in claim.inputs.values() for name in names}
+    return sorted(name.removeprefix("inferred:") for name in names if name.startswith("inferred:"))
+
+
+def _evidence(ledger: Ledger) -> set[str]:
+    return {claim for entry in ledger.inferred.values() for claim in entry.evidence}
+
+
+def assumptions(ledger: Ledger, assessment: Assessment) -> list[str]:
+    """What the verdict takes for granted beyond the printed text."""
+    claim = assessment.claim
+    assumed = []
+    for name in _inferred(claim):
+        inference = infer(ledger, name)
+        entry, inner = inference.entry, inference.inner
+        assert inner.lower is not None
+        assert inner.upper is not None
+        si = to_si(entry.unit)
+        # Inwards would be safe for a claim of admission; outwards is for reading.
+        ends = outward(inner.lower / si, inner.upper / si)
+        value = with_unit(number(entry.nominal), entry.unit)
+        assumed.append(f"{entry.title} {value}, inferred from Table A-1, which admits {ends}")
+    if claim.as_printed_inputs:
+        assumed.append("both runs take the printed inputs as exact")
+    return assumed + _digits(assessment)
+
+
+def _digits(assessment: Assessment) -> list[str]:
+    """Which of an ambiguous number's digits were taken, and whether it matters."""
+    claim, reading = assessment.claim, assessment.reading
+    printed = claim.printed
+    if reading is None or printed is None or len(printed.quanta) == 1 or claim.interval is None:
+        return []
+    if claim.interval.lower == claim.interval.upper or claim.interval.upper is None:
+        return []
+    if claim.interval.lower is None:
+        return []
+    taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
+    inside = [
+        printed.interval(quantum=quantum).contains(Fraction(reading.computed))
+        for quantum in printed.quanta
+    ]
+    depends = "depends" if len(set(inside)) > 1 else "does not depend"
+    return [f"{taken} of {claim.text} taken as significant; the verdict {depends} on that"]

@@ -1,0 +1,124 @@
+"""The replica's answer to each computation that the ledger names, in IEEE doubles.
+
+The same names as `reference.computations`, answered by the models of this package: the two are
+written separately and the audit compares them.
+"""
+
+import math
+from collections.abc import Callable
+
+from replication import frank_zook, midpoint, resistance, sphere, stream
+from replication.impact import Impact
+
+__all__ = ["REPLICA"]
+
+
+def _impact(
+    velocity: float,
+    radius: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+    step: float = 2e-10,
+    stop_velocity: float = 1.0,
+) -> Impact:
+    return Impact(
+        velocity=velocity,
+        radius=radius,
+        particle_density=particle_density,
+        target_density=target_density,
+        resistance=resistance,
+        step=step,
+        stop_velocity=stop_velocity,
+    )
+
+
+def _cell(column: str) -> Callable[..., float]:
+    """The cell of one column in the given row of the sheet."""
+
+    def cell(row: int, **inputs: float) -> float:
+        return float(getattr(midpoint.run(_impact(**inputs)).rows[row], column))
+
+    return cell
+
+
+def _depth(**inputs: float) -> float:
+    return midpoint.run(_impact(**inputs)).final_depth
+
+
+def _normalized_depth(**inputs: float) -> float:
+    return midpoint.run(_impact(**inputs)).normalized_depth
+
+
+def _betas(
+    q: float, elastic_modulus: float, flow_stress: float, hardness_ratio: float
+) -> tuple[float, ...]:
+    alpha = resistance.walker_anderson_alpha(elastic_modulus, flow_stress)
+    return (
+        float(resistance.goodier_beta(q)),
+        float(resistance.walker_anderson_beta(alpha)),
+        float(resistance.brinell_beta(hardness_ratio)),
+    )
+
+
+_FZ_EXAMPLE = (2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0)
+_FZ_PRINTED = frank_zook.depth_as_printed(*_FZ_EXAMPLE)
+_FZ_DERIVED = frank_zook.depth_derived(*_FZ_EXAMPLE)
+
+REPLICA: dict[str, Callable[..., float]] = {
+    "same_as": lambda value: value,
+    "half": lambda value: value / 2,
+    "twice": lambda value: 2 * value,
+    "count": lambda **values: float(len(values)),
+    "cap_volume_factor": lambda: sphere.cap_volume(1.0, 1.0) / (2 * math.pi),
+    "cap_volume_power": lambda: math.log2(
+        sphere.cap_volume(0.25, 1.0) / 2.75 / (sphere.cap_volume(0.125, 1.0) / 2.875)
+    ),
+    "cap_volume_offset": lambda: 3 * sphere.cap_volume(1.0, 1.0) / math.pi + 1,
+    "sphere_volume_factor": lambda: sphere.volume(1.0) / math.pi,
+    "sphere_volume_power": lambda: math.log2(sphere.volume(2.0) / sphere.volume(1.0)),
+    "contact_area_power": lambda: math.log2(_missing_area(0.25) / _missing_area(0.125)),
+    "sphere_length_ratio": frank_zook.sphere_length_ratio,
+    "sphere_volume": lambda radius: sphere.volume(radius),
+    "crater_normalized_depth": lambda volume_ratio: sphere.depth_from_volume_ratio(volume_ratio),
+    "crater_depth": lambda volume_ratio, diameter: (
+        sphere.depth_from_volume_ratio(volume_ratio) * diameter / 2
+    ),
+    "crater_depth_over_diameter": lambda volume_ratio: (
+        sphere.depth_from_volume_ratio(volume_ratio) / 2
+    ),
+    "contact_diameter": sphere.contact_diameter,
+    "target_resistance": resistance.target_resistance,
+    "goodier_beta": lambda q: resistance.goodier_beta(q),
+    "walker_anderson_alpha": resistance.walker_anderson_alpha,
+    "walker_anderson_beta": lambda elastic_modulus, flow_stress: resistance.walker_anderson_beta(
+        resistance.walker_anderson_alpha(elastic_modulus, flow_stress)
+    ),
+    "least_beta": lambda **inputs: min(_betas(**inputs)),
+    "greatest_beta": lambda **inputs: max(_betas(**inputs)),
+    "strain_rate": stream.strain_rate,
+    "particle_mass": lambda radius, particle_density: sphere.volume(radius) * particle_density,
+    "row_time": lambda row, step: row * step,
+    "row_velocity_initial": _cell("velocity_initial"),
+    "row_depth": _cell("depth"),
+    "row_deceleration": _cell("deceleration"),
+    "row_velocity_final": _cell("velocity_final"),
+    "deceleration_at_touch": lambda velocity, **inputs: midpoint.deceleration(
+        _impact(velocity=velocity, **inputs), 0.0, velocity
+    ),
+    "sheet_depth": _depth,
+    "sheet_normalized_depth": _normalized_depth,
+    "sheet_over_observed": lambda observed, **inputs: _normalized_depth(**inputs) / observed,
+    "sheet_depth_change": lambda coarse_step, step, **inputs: (
+        _depth(step=coarse_step, **inputs) - _depth(step=step, **inputs)
+    ),
+    "frank_zook_as_printed": frank_zook.depth_as_printed,
+    "frank_zook_derived": frank_zook.depth_derived,
+    "frank_zook_denominator": lambda: 2 * _FZ_PRINTED / _FZ_DERIVED,
+    "frank_zook_offset": lambda: math.exp(frank_zook.depth_derived(2 / 3, 1, 1, 1, 1, 1, 0.0)),
+}
+
+
+def _missing_area(x: float) -> float:
+    """D x - a^2 of a unit sphere at depth x, from the contact circle's diameter."""
+    return 2 * x - float(sphere.contact_diameter(x, 2.0)) ** 2 / 4

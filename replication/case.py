@@ -1,0 +1,88 @@
+"""A case as the user names it: one of the report's, a file, single inputs with units."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+from replication.impact import CASES, Impact
+
+__all__ = ["INPUTS", "inputs_of", "read_case"]
+
+INPUTS = {
+    "velocity": "m/s",
+    "radius": "m",
+    "particle_density": "kg/m^3",
+    "target_density": "kg/m^3",
+    "beta": "1",
+    "flow_stress": "Pa",
+    "resistance": "Pa",
+    "step": "s",
+    "stop_velocity": "m/s",
+}
+"""Every input of a case and the SI unit that a plain number is taken to be in."""
+
+
+def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
+    """The named case, changed by what the file gives, changed by what is given singly.
+
+    Inputs are texts such as "11 um" or "1.1e-5". A resistance takes the place of beta and flow
+    stress, and the other way round. Raises ValueError or OSError with a message for the user.
+
+    >>> read_case("beta-5", None, {"radius": "5 um"}).radius
+    5e-06
+    """
+    if name not in CASES:
+        raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
+    impact = CASES[name]
+    if file is not None:
+        impact = _changed(impact, _file(file), f"{file}: ")
+    return _changed(impact, given, "")
+
+
+def _changed(impact: Impact, given: Mapping[str, str], where: str) -> Impact:
+    values: dict[str, Any] = {}
+    for name, text in given.items():
+        try:
+            values[name] = _number(text, INPUTS[name])
+        except ValueError as error:
+            raise ValueError(f"{where}{name}: {error}") from error
+    if "resistance" in values:
+        values = {"beta": None, "flow_stress": None, **values}
+    elif {"beta", "flow_stress"} & set(values):
+        values = {"resistance": None, **values}
+    try:
+        return replace(impact, **values)
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
+
+
+def _number(text: str, unit: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        from reference.units import quantity  # needed only where a unit is written
+
+        return float(quantity(text, unit))
+
+
+def _file(path: Path) -> dict[str, str]:
+    try:
+        with path.open("rb") as file:
+            document = tomllib.load(file, parse_float=str)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} is no TOML file: {error}") from error
+    table = document.get("impact")
+    if not isinstance(table, dict) or set(document) != {"impact"}:
+        raise ValueError(f"{path}: wants one table, [impact], with inputs such as velocity")
+    unknown = sorted(set(table) - set(INPUTS))
+    if unknown:
+        raise ValueError(f"{path}: no such input as {unknown[0]!r}: choose of {', '.join(INPUTS)}")
+    return {name: str(value) for name, value in table.items()}
+
+
+def inputs_of(impact: Impact) -> dict[str, float | None]:
+    """The inputs of a case in SI, with the resistance that follows from them."""
+    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
+    return {**given, "resistance": impact.target_resistance}

@@ -1,0 +1,247 @@
+"""The command `coldspray`. Each command imports what it needs when it runs."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from errno import EISDIR
+from pathlib import Path
+from typing import Any, NoReturn
+
+from replication.case import INPUTS, inputs_of, read_case
+from replication.impact import Impact
+
+__all__ = ["main"]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work."""
+    options = _parser().parse_args(arguments)
+    try:
+        status = options.run(options)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader of a pipe has seen enough; nothing more can be said to it.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (ValueError, OSError) as error:
+        print(f"coldspray {options.command}: {_one_line(error)}", file=sys.stderr)
+        return 2
+    assert isinstance(status, int)
+    return status
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        name = error.filename2 or error.filename
+        return f"{name}: {error.strerror}" if name else error.strerror
+    return " ".join(str(error).split())
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="coldspray",
+        description="Re-run and audit W. S. de Rosset's 2006 cold-spray penetration model.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _audit_options(_command(commands, "audit", _audit, "audit every number the report prints"))
+    _claims_options(_command(commands, "claims", _claims, "list the claims, or prove one"))
+    _workbook_options(_command(commands, "workbook", _workbook, "write the live workbook"))
+    sheet = _command(commands, "sheet", _sheet, "the Excel scheme's rows for a case")
+    depth = _command(commands, "depth", _depth, "final depth of a case, without time steps")
+    for command in (sheet, depth):
+        _case_options(command)
+    return parser
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        from importlib.metadata import version
+
+        print(f"coldspray {version('coldspray')}")
+        parser.exit(0)
+
+
+def _command(
+    commands: Any, name: str, run: Callable[[argparse.Namespace], int], help_text: str
+) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = commands.add_parser(
+        name, help=help_text, description=f"{help_text[0].upper()}{help_text[1:]}."
+    )
+    command.set_defaults(run=run)
+    return command
+
+
+def _audit_options(command: argparse.ArgumentParser) -> None:
+    folder = Path("coldspray-audit")
+    command.add_argument("--out", type=Path, default=folder, metavar="DIR", help=f"{folder}/")
+    command.add_argument(
+        "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
+    )
+    command.add_argument("--json", action="store_true", help="print audit.json instead of text")
+    command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
+
+
+def _claims_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("id", nargs="?", metavar="ID", help="prove this claim")
+    command.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _workbook_options(command: argparse.ArgumentParser) -> None:
+    output = Path("workbook.xlsx")
+    command.add_argument(
+        "-o", "--output", type=Path, default=output, metavar="FILE", help=f"{output}"
+    )
+    command.add_argument("--quiet", action="store_true", help="do not say what was written")
+    _input_options(command, "the report's two cases")
+
+
+def _case_options(command: argparse.ArgumentParser) -> None:
+    _input_options(command, "beta-5")
+    command.add_argument("--json", action="store_true", help="print JSON")
+    if command.prog.endswith("sheet"):
+        command.add_argument("--csv", action="store_true", help="print CSV")
+
+
+def _input_options(command: argparse.ArgumentParser, default: str) -> None:
+    command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
+    command.add_argument("--case-file", type=Path, metavar="FILE", help="TOML with [impact]")
+    for name, unit in INPUTS.items():
+        flag = "--" + name.replace("_", "-")
+        shown = "" if unit == "1" else f" in {unit}, or with its unit"
+        help_text = f"{name.replace('_', ' ')}{shown}"
+        command.add_argument(flag, dest=name, metavar="X", help=help_text)
+
+
+def _given(options: argparse.Namespace) -> dict[str, str]:
+    values = {name: getattr(options, name) for name in INPUTS}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _case(options: argparse.Namespace) -> Impact:
+    return read_case(options.case or "beta-5", options.case_file, _given(options))
+
+
+def _print_json(record: Any) -> None:
+    from replication.reports.plain import json_text
+
+    sys.stdout.write(json_text(record))
+
+
+def _audit(options: argparse.Namespace) -> int:
+    from replication.audit import Verdict, audit
+    from replication.reports.files import write_audit
+    from replication.reports.records import audit_record
+    from replication.reports.terminal import audit_summary
+
+    done = audit()
+    record = audit_record(done)
+    paths = write_audit(done, record, options.out)
+    if options.json:
+        _print_json(record)
+    elif not options.quiet:
+        print(audit_summary(done), *("", "Written:", *(f"  {path}" for path in paths)), sep="\n")
+    return 1 if options.exit_code and done.with_verdict(Verdict.NOT_REPRODUCED) else 0
+
+
+def _claims(options: argparse.Namespace) -> int:
+    from reference.ledger import load
+    from replication.reports import records, terminal
+
+    ledger = load()
+    if options.id is None:
+        claims = list(ledger.claims.values())
+        if options.json:
+            _print_json([records.ledger_record(claim) for claim in claims])
+        else:
+            print(terminal.ledger_table(claims))
+        return 0
+    if options.id not in ledger.claims:
+        raise ValueError(f"there is no claim {options.id!r}{_nearest(options.id, ledger.claims)}")
+    from replication.audit import assess_claim
+
+    assessment = assess_claim(ledger, options.id)
+    if options.json:
+        _print_json(records.claim_record(ledger, assessment))
+    else:
+        print(terminal.claim_proof(ledger, assessment))
+    return 0
+
+
+def _nearest(name: str, known: Any) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, known, n=3, cutoff=0.4)
+    return f"; near it: {', '.join(near)}" if near else "; `coldspray claims` lists them"
+
+
+def _workbook(options: argparse.Namespace) -> int:
+    from replication import workbook
+
+    if options.output.is_dir():
+        raise IsADirectoryError(EISDIR, "is a folder; a file is wanted", str(options.output))
+    own = options.case or options.case_file or _given(options)
+    cases = {"Sheet": _case(options)} if own else workbook.REPORT
+    workbook.write(options.output, cases)
+    if not options.quiet:
+        print(f"Written: {options.output}")
+    return 0
+
+
+def _sheet(options: argparse.Namespace) -> int:
+    from replication.midpoint import run
+
+    sheet = run(_case(options))
+    if options.json:
+        _print_json(
+            {
+                "inputs": inputs_of(sheet.impact),
+                "rows": [row._asdict() for row in sheet.rows],
+                "final_depth": sheet.final_depth,
+                "normalized_depth": sheet.normalized_depth,
+                "steps": sheet.steps,
+            }
+        )
+    elif options.csv:
+        from replication.reports.plain import rows_csv
+
+        sys.stdout.write(rows_csv([row._asdict() for row in sheet.rows]))
+    else:
+        from replication.reports.sheet import sheet_table
+
+        print(sheet_table(sheet))
+    return 0
+
+
+def _depth(options: argparse.Namespace) -> int:
+    from replication.closed_form import normalized_depth
+
+    case = _case(options)
+    ratio = float(
+        normalized_depth(
+            case.velocity, case.particle_density, case.target_density, case.target_resistance
+        )
+    )
+    depth, beyond = case.radius * ratio, ratio > 1
+    if options.json:
+        _print_json(
+            {
+                "inputs": inputs_of(case),
+                "depth": depth,
+                "normalized_depth": ratio,
+                "beyond_radius": beyond,
+            }
+        )
+        return 0
+    print(f"final depth       {depth * 1e6:.8g} um ({depth!r} m)")
+    print(f"normalized depth  {ratio:.8g}")
+    print(f"beyond radius     {'yes' if beyond else 'no'}")
+    return 0

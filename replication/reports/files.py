@@ -1,0 +1,58 @@
+"""The audit's files, written all or none."""
+
+import tempfile
+from errno import ENOTDIR
+from pathlib import Path
+from typing import Any
+
+from replication import workbook
+from replication.audit import Audit
+from replication.reports.markdown import markdown
+from replication.reports.plain import json_text, rows_csv
+
+__all__ = ["write_audit"]
+
+
+def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> list[Path]:
+    """Write workbook.xlsx, audit.md, audit.json and audit.csv into a folder, made if needed.
+
+    `record` is the audit as `reports.records.audit_record` gives it. The files are made beside the
+    folder first and moved in when all are done. Raises OSError when the folder cannot be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(folder))
+    texts = {
+        "audit.md": markdown(audit),
+        "audit.json": json_text(record),
+        "audit.csv": _claims_csv(record["claims"]),
+    }
+    existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    with tempfile.TemporaryDirectory(dir=existing, prefix=".coldspray-") as temporary:
+        made = Path(temporary)
+        for name, text in texts.items():
+            (made / name).write_text(text, encoding="utf-8", newline="\n")
+        workbook.write(made / "workbook.xlsx")
+        folder.mkdir(parents=True, exist_ok=True)
+        names = ["workbook.xlsx", *texts]
+        return [(made / name).replace(folder / name) for name in names]
+
+
+_COLUMNS = (
+    "id", "where", "printed", "unit", "kind", "interval", "computed", "enclosure", "verdict",
+    "error_in_last_digit", "title", "explanation",
+)  # fmt: skip
+
+
+def _claims_csv(claims: list[dict[str, Any]]) -> str:
+    """One line a claim; an interval or enclosure takes two columns, `_lower` and `_upper`."""
+    return rows_csv([_flat({name: claim[name] for name in _COLUMNS}) for claim in claims])
+
+
+def _flat(record: dict[str, Any]) -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in record.items():
+        if name in ("interval", "enclosure"):
+            flat[f"{name}_lower"], flat[f"{name}_upper"] = value or (None, None)
+        else:
+            flat[name] = value
+    return flat

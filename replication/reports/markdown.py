@@ -1,0 +1,116 @@
+"""The audit as Markdown, for people who read it in a repository."""
+
+from collections.abc import Iterable
+
+from replication.audit import Audit
+from replication.audit.explain import assumptions, explanation
+from replication.audit.findings import Finding
+from replication.audit.inference import infer
+from replication.audit.verdict import Assessment, Verdict
+from replication.text import number, outward, with_unit
+
+__all__ = ["markdown"]
+
+
+def markdown(audit: Audit) -> str:
+    """The whole audit: summary, findings, inferred inputs, then every claim by section."""
+    ledger = audit.ledger
+    blocks = [
+        f"# Audit of {ledger.author}, *{ledger.title}* ({ledger.year})",
+        "Every number that the report prints, and whether it follows from what the report says. "
+        "Computed values are those of the re-run sheet and formulas; a range in brackets is proven "
+        "by interval arithmetic and rounded outwards.",
+        _table(("verdict", "claims"), ((v, str(n)) for v, n in audit.summary.items())),
+        "## Findings",
+        *(_finding(finding) for finding in audit.findings),
+        "## Inferred inputs",
+        *(_inferred(audit, name) for name in ledger.inferred),
+        "## Claims that are not plainly reproduced",
+        *(_proof(audit, a) for a in audit.assessments.values() if _is_open(a)),
+        "## Every claim",
+        *_sections(audit),
+    ]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _is_open(assessment: Assessment) -> bool:
+    return assessment.verdict not in (Verdict.REPRODUCED, Verdict.NOT_CHECKABLE)
+
+
+def _finding(finding: Finding) -> str:
+    return (
+        f"### {finding.title}\n\n*{_capital(finding.kind)}*: {_claims(finding.claims)}\n\n"
+        f"{finding.evidence}"
+    )
+
+
+def _claims(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def _inferred(audit: Audit, name: str) -> str:
+    inference = infer(audit.ledger, name)
+    words = {True: "admitted", False: "excluded", None: "undecided"}
+    rows = [(n, number(v, 8), words[a]) for n, (v, a) in inference.handbook.items()]
+    entry = inference.entry
+    return (
+        f"{entry.title}, {number(entry.nominal)} {entry.unit} ({entry.nominal_source}); the "
+        f"evidence admits {inference.inner.lower and number(inference.inner.lower, 9)} to "
+        f"{inference.inner.upper and number(inference.inner.upper, 9)}: {_claims(entry.evidence)}."
+        "\n\n" + _table(("handbook value", entry.unit, "verdict"), rows)
+    )
+
+
+def _proof(audit: Audit, assessment: Assessment) -> str:
+    claim = assessment.claim
+    lines = [
+        f"### `{claim.id}`: {claim.title}",
+        f"{claim.place}: “{_text(assessment)}”. **{_capital(assessment.verdict.value)}.**",
+        explanation(audit.ledger, assessment),
+    ]
+    lines += [f"Assumes: {'; '.join(a)}." for a in [assumptions(audit.ledger, assessment)] if a]
+    return "\n\n".join(lines)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _text(assessment: Assessment) -> str:
+    claim = assessment.claim
+    return claim.text if claim.printed is None else with_unit(claim.text, claim.unit)
+
+
+def _sections(audit: Audit) -> list[str]:
+    sections: dict[str, list[Assessment]] = {}
+    for assessment in audit.assessments.values():
+        place = assessment.claim.place
+        sections.setdefault("Table A-1" if place.cell else _capital(place.section), []).append(
+            assessment
+        )
+    heads = ("claim", "where", "printed", "computed", "proven range", "verdict")
+    return [
+        f"### {name}\n\n" + _table(heads, (_row(assessment) for assessment in assessments))
+        for name, assessments in sections.items()
+    ]
+
+
+def _row(assessment: Assessment) -> tuple[str, ...]:
+    claim, reading = assessment.claim, assessment.reading
+    where = str(claim.place).partition(", ")[2]
+    text = _text(assessment) or "*blank*"
+    head = f"`{claim.id}` {claim.title}"
+    if reading is None:
+        return head, where, text, "", claim.given or "", assessment.verdict.value
+    proven = outward(*reading.enclosure)
+    computed = with_unit(number(reading.computed), claim.unit)
+    return head, where, text, computed, proven, assessment.verdict.value
+
+
+def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    lines = [heads, ("---",) * len(heads), *rows]
+    return "\n".join(f"| {' | '.join(map(_escaped, line))} |" for line in lines)
+
+
+def _escaped(cell: str) -> str:
+    return cell.replace("|", "\\|")

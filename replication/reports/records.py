@@ -1,0 +1,137 @@
+"""The audit as plain records: what the JSON, CSV and Markdown files are made of."""
+
+import platform
+from collections.abc import Iterable
+from fractions import Fraction
+from hashlib import sha256
+from importlib import metadata, resources
+from math import inf, nextafter
+from typing import Any
+
+from reference.ledger import Claim, Inferred, Ledger
+from reference.printed import Interval
+from replication.audit import Audit
+from replication.audit.explain import assumptions, explanation
+from replication.audit.inference import Inference, infer
+from replication.audit.verdict import Assessment, Reading
+
+__all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
+
+SCHEMA = "coldspray-audit-1"
+
+
+def audit_record(audit: Audit) -> dict[str, Any]:
+    """The document of `audit.json`; keys as promised in the README."""
+    ledger = audit.ledger
+    return {
+        "schema": SCHEMA,
+        "report": {"title": ledger.title, "author": ledger.author, "year": ledger.year},
+        "summary": audit.summary,
+        "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
+        "findings": [
+            {
+                "id": finding.id,
+                "title": finding.title,
+                "kind": finding.kind,
+                "claims": list(finding.claims),
+                "evidence": finding.evidence,
+            }
+            for finding in audit.findings
+        ],
+        "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
+        "provenance": _provenance(),
+    }
+
+
+def ledger_record(claim: Claim) -> dict[str, Any]:
+    """What the ledger says of a claim, without a verdict."""
+    return {
+        "id": claim.id,
+        "title": claim.title,
+        "where": str(claim.place),
+        "line": claim.place.line,
+        "printed": claim.text,
+        "unit": claim.unit,
+        "kind": claim.kind,
+    }
+
+
+def claim_record(ledger: Ledger, assessment: Assessment) -> dict[str, Any]:
+    """One element of `claims`; numbers in the claim's unit, inputs in SI."""
+    claim, reading = assessment.claim, assessment.reading
+    return {
+        **ledger_record(claim),
+        "interval": None if claim.interval is None else _interval(claim.interval),
+        "interval_text": None if claim.interval is None else str(claim.interval),
+        "verdict": assessment.verdict.value,
+        **_reading(reading),
+        "error_in_last_digit": assessment.error_in_last_digit,
+        "readings": [
+            {"name": other.name, "verdict": other.verdict.value, **_reading(other)}
+            for other in assessment.others
+        ],
+        "rests_on": {name: list(entries) for name, entries in claim.inputs.items()},
+        "assumes": assumptions(ledger, assessment),
+        "explanation": explanation(ledger, assessment),
+    }
+
+
+def _reading(reading: Reading | None) -> dict[str, Any]:
+    keys = ("computed_by", "computed", "reference", "enclosure", "witness")
+    if reading is None:
+        return dict.fromkeys(keys)
+    witness = reading.witness
+    values = (
+        reading.computation.name,
+        reading.computed,
+        reading.reference,
+        [_down(reading.enclosure[0]), _up(reading.enclosure[1])],
+        None if witness is None else {name: float(value) for name, value in witness.items()},
+    )
+    return dict(zip(keys, values, strict=True))
+
+
+def _interval(interval: Interval) -> list[float | None]:
+    return [None if end is None else float(end) for end in (interval.lower, interval.upper)]
+
+
+def _down(value: Fraction) -> float:
+    """The greatest double that is not above the value."""
+    double = float(value)
+    return nextafter(double, -inf) if Fraction(double) > value else double
+
+
+def _up(value: Fraction) -> float:
+    return -_down(-value)
+
+
+def _inference_record(inference: Inference) -> dict[str, Any]:
+    entry: Inferred = inference.entry
+    return {
+        "id": entry.id,
+        "title": entry.title,
+        "unit": entry.unit,
+        "nominal": float(entry.nominal),
+        "nominal_source": entry.nominal_source,
+        "interval": _interval(inference.inner),
+        "evidence": list(entry.evidence),
+        "handbook": [
+            {"name": name, "value": float(value), "admitted": admitted}
+            for name, (value, admitted) in inference.handbook.items()
+        ],
+    }
+
+
+_LIBRARIES = ("coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "XlsxWriter")
+
+
+def _provenance() -> dict[str, Any]:
+    """What the audit was made with; no clock and no machine, so that it is the same again."""
+    folder = resources.files("reference.report")
+    files: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml")
+    return {
+        "command": "coldspray audit",
+        "python": platform.python_version(),
+        "versions": {name: metadata.version(name) for name in _LIBRARIES},
+        "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in files},
+    }

@@ -1,0 +1,43 @@
+"""Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
+
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
+
+__all__ = ["number", "outward", "with_unit"]
+
+
+def number(value: float | Fraction, digits: int = 6) -> str:
+    """A number for reading, to some significant digits.
+
+    >>> number(7.669556888793411), number(3.5e9)
+    ('7.66956', '3.5e+09')
+    """
+    return f"{float(value):.{digits}g}"
+
+
+def with_unit(text: str, unit: str) -> str:
+    """Text followed by its unit, if it has one.
+
+    >>> with_unit("7.67", "um"), with_unit("0.70", "1")
+    ('7.67 um', '0.70')
+    """
+    return text if unit == "1" else f"{text} {unit}"
+
+
+def outward(low: Fraction, high: Fraction, digits: int = 6) -> str:
+    """An interval shortened to some significant digits, never made narrower.
+
+    Ends that are the same double are shown as one number.
+
+    >>> outward(Fraction(1, 3), Fraction(2, 3), 3)
+    '[0.333, 0.667]'
+    """
+    if float(low) == float(high):
+        return number(low, digits)
+    return f"[{_rounded(low, digits, ROUND_FLOOR)}, {_rounded(high, digits, ROUND_CEILING)}]"
+
+
+def _rounded(value: Fraction, digits: int, rounding: str) -> str:
+    context = Context(prec=digits, rounding=rounding)
+    shortened = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    return f"{float(shortened):.{digits}g}"

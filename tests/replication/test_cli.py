@@ -1,0 +1,184 @@
+"""The command line as a user meets it: what it prints, where, and with which status."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from replication.cli import main
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    try:
+        status = main([str(argument) for argument in arguments])
+    except SystemExit as done:
+        status = int(str(done.code))
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+def test_depth_prints_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(capsys, "depth", "--json")
+    record = json.loads(out)
+    assert (status, err) == (0, "")
+    assert list(record) == ["inputs", "depth", "normalized_depth", "beyond_radius"]
+    assert record["depth"] == pytest.approx(7.674932926028624e-06, rel=4e-16)
+    assert record["inputs"]["resistance"] == 3.5e9
+
+
+def test_depth_of_a_case_with_units(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--radius", "22 um", "--resistance", "98 ksi", "--velocity", "2 km/s", "--json"]
+    record = json.loads(run(capsys, "depth", *arguments)[1])
+    assert record["beyond_radius"] is True
+    assert record["inputs"]["radius"] == 22e-6
+    assert record["inputs"]["beta"] is None
+
+
+def test_case_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text('[impact]\nvelocity = 450\nradius = "5.5 um"\nbeta = 3.0\n')
+    record = json.loads(run(capsys, "depth", "--case-file", file, "--velocity", "460", "--json")[1])
+    inputs = record["inputs"]
+    assert (inputs["velocity"], inputs["radius"], inputs["beta"]) == (460.0, 5.5e-6, 3.0)
+
+
+def test_sheet_prints_rows_as_text_csv_and_json(capsys: pytest.CaptureFixture[str]) -> None:
+    text = run(capsys, "sheet")[1]
+    assert re.search(r"^steps +131$", text, re.MULTILINE)
+    record = json.loads(run(capsys, "sheet", "--json")[1])
+    assert list(record) == ["inputs", "rows", "final_depth", "normalized_depth", "steps"]
+    names = ["time", "velocity_initial", "depth", "deceleration", "velocity_final"]
+    assert all(list(row) == names for row in record["rows"])
+    assert record["rows"][0]["velocity_final"] is None
+    rows = list(csv.DictReader(run(capsys, "sheet", "--csv")[1].splitlines()))
+    assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
+
+
+def test_claims_are_listed_and_proven(capsys: pytest.CaptureFixture[str]) -> None:
+    listing = run(capsys, "claims")[1].splitlines()
+    records = json.loads(run(capsys, "claims", "--json")[1])
+    assert [line.split()[0] for line in listing] == [record["id"] for record in records]
+    proof = run(capsys, "claims", "frank-zook-rha")[1]
+    assert "not reproduced" in proof
+    assert "0.127273" in proof
+    assert json.loads(run(capsys, "claims", "depth-beta-5", "--json")[1])["verdict"] == "reproduced"
+
+
+def test_audit_writes_its_files_and_a_summary_of_one_screen(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "new" / "out"
+    status, out, err = run(capsys, "audit", "--out", folder)
+    assert (status, err) == (0, "")
+    assert {"workbook.xlsx", "audit.md", "audit.json", "audit.csv"} <= names(folder)
+    assert len(out.splitlines()) <= 40
+    assert "4 not reproduced" in out
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def test_audit_exit_code_json_and_quiet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "audit", "--out", tmp_path, "--exit-code", "--json")
+    assert status == 1
+    assert json.loads(out) == json.loads((tmp_path / "audit.json").read_text("utf-8"))
+    assert run(capsys, "audit", "--out", tmp_path, "--quiet") == (0, "", "")
+
+
+def test_workbook_of_the_report_and_of_a_case(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import openpyxl
+
+    report, own = tmp_path / "report.xlsx", tmp_path / "own.xlsx"
+    assert run(capsys, "workbook", "-o", report)[0] == 0
+    assert run(capsys, "workbook", "-o", own, "--velocity", "600 m/s")[0] == 0
+    assert {"Sheet beta 3", "Sheet beta 5"} <= set(openpyxl.load_workbook(report).sheetnames)
+    assert "Sheet" in openpyxl.load_workbook(own).sheetnames
+
+
+WRONG = {
+    "unknown case": (["depth", "--case", "beta-4"], "beta-4.*beta-3, beta-5"),
+    "negative radius": (["depth", "--radius=-1 um"], "radius is -1e-06.*greater than zero"),
+    "not a number": (["sheet", "--velocity", "nan"], "velocity is nan"),
+    "zero resistance": (["depth", "--resistance", "0"], r"resistance is 0\.0"),
+    "wrong unit": (["depth", "--radius", "11 MPa"], "MPa does not measure what m does"),
+    "unknown unit": (["depth", "--radius", "11 parsnips"], "unknown unit 'parsnips'"),
+    "no such file": (["depth", "--case-file", "absent.toml"], "absent.toml: No such file"),
+    "unknown claim": (["claims", "depth-beta-4"], "no claim 'depth-beta-4'.*depth-beta-"),
+    "unknown command": (["dept"], "invalid choice: 'dept'"),
+    "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
+    "no command": ([], "required: COMMAND"),
+    "too many rows": (["sheet", "--step", "1e-18"], "more than 1,000,000 steps"),
+    "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
+    "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
+    "file for a folder": (["audit", "--out", "taken"], "taken: is a file"),
+    "unwritable folder": (["audit", "--out", "/proc/coldspray"], "/proc"),
+}
+
+
+@pytest.mark.parametrize("problem", WRONG)
+def test_bad_input_gets_one_line_and_status_2(
+    problem: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    arguments, message = WRONG[problem]
+    monkeypatch.chdir(tmp_path)
+    Path("taken").write_text("mine")
+    status, out, err = run(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert len(err.splitlines()) == 1
+    assert re.search(message, err)
+    assert names(tmp_path) == {"taken"}
+    assert Path("taken").read_text() == "mine"
+
+
+BAD_FILES = {
+    "no TOML": ("velocity 450", "is no TOML file"),
+    "no table": ("velocity = 450", r"wants one table, \[impact\]"),
+    "other table": ("[impact]\n[more]\n", r"wants one table, \[impact\]"),
+    "misspelled": ("[impact]\nvelocty = 450", "no such input as 'velocty'"),
+    "bad value": ('[impact]\nradius = "x"', "radius: 'x' is no finite number"),
+    "bad kind": ("[impact]\nradius = [1]", "radius"),
+    "bad sign": ("[impact]\nradius = -1.0", r"radius is -1\.0"),
+}
+
+
+@pytest.mark.parametrize("problem", BAD_FILES)
+def test_bad_case_files_name_the_file(
+    problem: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, message = BAD_FILES[problem]
+    file = tmp_path / "case.toml"
+    file.write_text(text)
+    status, out, err = run(capsys, "depth", "--case-file", file)
+    assert (status, out) == (2, "")
+    assert re.search(rf"case\.toml.*{message}", err)
+    assert len(err.splitlines()) == 1
+
+
+def test_a_binary_case_file_is_no_toml(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "case.toml"
+    file.write_bytes(b"\xff\xfe\x00")
+    status, _, err = run(capsys, "depth", "--case-file", file)
+    assert status == 2
+    assert "is no TOML file" in err
+
+
+def test_a_closed_pipe_is_no_error() -> None:
+    command = f"{sys.executable} -m replication claims --json | head -n 1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert done.stdout == "[\n"
+    assert done.stderr == ""
+
+
+def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert re.fullmatch(r"coldspray \d+\.\d+\.\d+\n", run(capsys, "--version")[1])
+    assert "COMMAND" in run(capsys, "--help")[1]

@@ -1,0 +1,96 @@
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from replication.case import INPUTS, inputs_of, read_case
+from replication.impact import BETA_3, BETA_5, CASES, Impact
+
+
+def test_the_reports_cases_differ_only_in_beta() -> None:
+    assert replace(BETA_3, beta=5.0) == BETA_5
+    assert (BETA_3.target_resistance, BETA_5.target_resistance) == (2.1e9, 3.5e9)
+    assert CASES == {"beta-3": BETA_3, "beta-5": BETA_5}
+
+
+@pytest.mark.parametrize("name", [n for n in INPUTS if n != "resistance"])
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), -1.0, 0.0])
+def test_senseless_inputs_are_refused_by_name(name: str, value: float) -> None:
+    if (name, value) == ("stop_velocity", 0.0):
+        assert replace(BETA_5, stop_velocity=0.0).stop_velocity == 0
+        return
+    with pytest.raises(ValueError, match=f"{name} is .*: it must be a finite number"):
+        replace(BETA_5, **{name: value})
+
+
+def test_zero_resistance_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"resistance is 0\.0.*greater than zero"):
+        replace(BETA_5, beta=None, flow_stress=None, resistance=0.0)
+
+
+def test_one_resistance_must_be_given_and_only_one() -> None:
+    with pytest.raises(ValueError, match="instead of beta and flow_stress"):
+        replace(BETA_5, resistance=1e9)
+    with pytest.raises(ValueError, match="either resistance, or both"):
+        replace(BETA_5, beta=None)
+
+
+def test_products_that_overflow_or_vanish_are_refused() -> None:
+    with pytest.raises(ValueError, match="target resistance is inf"):
+        replace(BETA_5, beta=1e300, flow_stress=1e300)
+    with pytest.raises(ValueError, match="particle mass is inf"):
+        replace(BETA_5, radius=1e150)
+    with pytest.raises(ValueError, match=r"particle mass is 0\.0"):
+        replace(BETA_5, radius=1e-150)
+
+
+def test_inputs_are_doubles_whatever_was_given() -> None:
+    impact = Impact(
+        velocity=500, radius=1, particle_density=1, target_density=1, resistance=1, step=1
+    )
+    assert all(isinstance(value, float) for value in inputs_of(impact).values() if value)
+
+
+@given(st.floats(min_value=1e-300, max_value=1e300))
+def test_plain_numbers_are_read_as_the_double_they_spell(value: float) -> None:
+    assert read_case("beta-5", None, {"velocity": repr(value)}).velocity == value
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("radius", "11 um", 11e-6),
+        ("radius", "11um", 11e-6),
+        ("radius", "0.011 mm", 11e-6),
+        ("flow_stress", "700 MPa", 700e6),
+        ("flow_stress", "98 ksi", 675686214.7304994),
+        ("step", "0.2 ns", 2e-10),
+        ("velocity", "0.5 km/s", 500.0),
+        ("target_density", "7.85 g/cm^3", 7850.0),
+    ],
+)
+def test_units_are_understood_without_rounding_twice(name: str, text: str, value: float) -> None:
+    assert getattr(read_case("beta-5", None, {name: text}), name) == value
+
+
+@pytest.mark.parametrize(
+    ("given_inputs", "message"),
+    [
+        ({"radius": "11 MPa"}, "radius: '11 MPa': MPa does not measure what m does"),
+        ({"radius": "11 bogus"}, "radius: unknown unit 'bogus'"),
+        ({"radius": "eleven"}, "radius: 'eleven' is no finite number"),
+        ({"velocity": "nan"}, "velocity is nan"),
+        ({"resistance": "0 Pa"}, "resistance is 0.0"),
+        ({"radius": "-11 um"}, "radius is -1.1e-05"),
+        ({"resistance": "1e9", "beta": "3"}, "resistance stands instead"),
+    ],
+)
+def test_what_is_wrong_is_said(given_inputs: dict[str, str], message: str) -> None:
+    with pytest.raises(ValueError, match=message.replace("(", r"\(")):
+        read_case("beta-5", None, given_inputs)
+
+
+def test_resistance_takes_the_place_of_beta_and_flow_stress() -> None:
+    impact = read_case("beta-5", None, {"resistance": "2.1 GPa"})
+    assert (impact.beta, impact.flow_stress, impact.target_resistance) == (None, None, 2.1e9)

@@ -1,0 +1,94 @@
+"""The audit's files: complete, exact, and the same bytes on every run."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from reference.ledger import load
+from replication.audit import audit
+from replication.reports.files import write_audit
+from replication.reports.records import audit_record
+
+CLAIM_KEYS = {
+    "id", "where", "printed", "unit", "interval", "computed", "enclosure", "verdict", "assumes",
+    "explanation",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("audit")
+    done = audit()
+    write_audit(done, audit_record(done), path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def record(folder: Path) -> dict:
+    return json.loads((folder / "audit.json").read_text("utf-8"))
+
+
+def test_json_has_the_promised_keys(record: dict) -> None:
+    assert {"schema", "summary", "claims", "findings", "provenance"} <= set(record)
+    assert all(set(claim) >= CLAIM_KEYS for claim in record["claims"])
+
+
+def test_every_claim_is_in_every_file(folder: Path, record: dict) -> None:
+    ids = list(load().claims)
+    assert [claim["id"] for claim in record["claims"]] == ids
+    with (folder / "audit.csv").open(encoding="utf-8", newline="") as file:
+        assert [row["id"] for row in csv.DictReader(file)] == ids
+    text = (folder / "audit.md").read_text("utf-8")
+    assert all(f"`{name}`" in text for name in ids)
+
+
+def test_enclosures_hold_the_reference(record: dict) -> None:
+    for claim in record["claims"]:
+        if claim["computed"] is not None:
+            low, high = claim["enclosure"]
+            # The reference is shown to 25 digits: half a unit of the last.
+            value = Fraction(claim["reference"])
+            slack = abs(value) * Fraction(1, 10**24)
+            assert Fraction(low) - slack <= value <= Fraction(high) + slack
+
+
+def test_a_claim_is_reproduced_exactly_if_its_value_is_in_its_interval(record: dict) -> None:
+    for claim in record["claims"]:
+        if claim["computed"] is not None and claim["interval"][0] != claim["interval"][1]:
+            low, high = claim["interval"]
+            inside = (low is None or low <= claim["computed"]) and (
+                high is None or claim["computed"] <= high
+            )
+            assert inside == (claim["verdict"] == "reproduced"), claim["id"]
+
+
+def test_numbers_keep_their_digits_in_csv(folder: Path, record: dict) -> None:
+    with (folder / "audit.csv").open(encoding="utf-8", newline="") as file:
+        for row, claim in zip(csv.DictReader(file), record["claims"], strict=True):
+            if claim["computed"] is not None:
+                assert float(row["computed"]) == claim["computed"]
+
+
+def test_provenance_hashes_the_report_and_the_ledger(record: dict) -> None:
+    import reference.report
+
+    folder = Path(reference.report.__path__[0])
+    for name, digest in record["provenance"]["sha256"].items():
+        assert sha256((folder / name).read_bytes()).hexdigest() == digest
+
+
+def test_files_are_the_same_bytes_in_another_place_and_time_zone(
+    folder: Path, tmp_path: Path
+) -> None:
+    environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}
+    command = [sys.executable, "-m", "replication", "audit", "--quiet", "--out", str(tmp_path)]
+    subprocess.run(command, check=True, env=environment, cwd=tmp_path)
+    for path in folder.iterdir():
+        assert (tmp_path / path.name).read_bytes() == path.read_bytes(), path.name

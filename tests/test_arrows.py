@@ -1,0 +1,82 @@
+"""Which room may import which: read from the source, not from what happens to be loaded."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+ROOMS = ("reference", "spreadsheets", "replication")
+FORBIDDEN = {
+    "reference": {"spreadsheets", "replication"},
+    "spreadsheets": {"replication"},
+    "replication": set(),
+}
+MODELS = sorted(
+    path
+    for path in (ROOT / "replication").glob("*.py")
+    if path.stem not in {"__init__", "__main__", "cli", "workbook", "workbook_values"}
+)
+NOT_FOR_MODELS = {"mpmath", "openpyxl", "xlsxwriter", "ironcalc", "formualizer", "spreadsheets"}
+EDGES = ("replication.audit", "replication.reports", "replication.cli")
+
+
+def imports(path: Path) -> set[str]:
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative imports hide where they lead"
+            found.add(str(node.module))
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found
+
+
+def sources(room: str) -> list[Path]:
+    found = sorted((ROOT / room).rglob("*.py"))
+    assert found, f"no source in {room}: the test would pass on anything"
+    return found
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_import_only_along_the_arrows(room: str) -> None:
+    for path in sources(room):
+        packages = {name.partition(".")[0] for name in imports(path)}
+        assert not packages & FORBIDDEN[room], path
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.stem)
+def test_models_stand_alone(path: Path) -> None:
+    names = imports(path)
+    assert not {name.partition(".")[0] for name in names} & NOT_FOR_MODELS
+    assert not [name for name in names if name.startswith(EDGES)]
+
+
+def test_models_are_found() -> None:
+    assert {"impact", "midpoint", "closed_form", "frank_zook"} <= {path.stem for path in MODELS}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "unwanted"),
+    [
+        (["--help"], {"numpy", "pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
+        (["depth"], {"pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
+        (["sheet"], {"numpy", "pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
+    ],
+    ids=["help", "depth", "sheet"],
+)
+def test_light_commands_load_no_heavy_library(arguments: list[str], unwanted: set[str]) -> None:
+    program = (
+        "import sys\n"
+        "from replication.cli import main\n"
+        "try: main(sys.argv[1:])\n"
+        "except SystemExit: pass\n"
+        "print(*sys.modules, file=sys.stderr)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=True
+    )
+    assert not unwanted & set(done.stderr.split())
