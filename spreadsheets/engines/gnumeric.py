@@ -15,7 +15,7 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 from spreadsheets.engines.base import Cell, Engine, EngineError, Value
 from spreadsheets.engines.package import read_part, worksheets
@@ -74,7 +74,7 @@ def _read(archive: zipfile.ZipFile) -> Iterator[Cell]:
             yield sheet, cell.attrib["r"], _value(cell, strings)
 
 
-def _value(cell: ElementTree.Element, strings: list[str]) -> Value | None:
+def _value(cell: ET.Element, strings: list[str]) -> Value | None:
     """Read a cell by its type: s shared string, b boolean, e error, str or inlineStr text."""
     kind = cell.get("t", "n")
     if kind == "inlineStr":
@@ -93,6 +93,6 @@ def _double(text: str) -> float | str:
     return number if math.isfinite(number) else "#NUM!"
 
 
-def _text(element: ElementTree.Element) -> str:
+def _text(element: ET.Element) -> str:
     """Join the runs of a string."""
     return "".join(run.text or "" for run in element.iterfind(".//{*}t"))

@@ -1,0 +1,71 @@
+"""The README's examples: every ```console block is run, every promise about files is true."""
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from replication.cli import main
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text("utf-8")
+EXAMPLES = [
+    (command, output)
+    for block in re.findall(r"```console\n(.*?)```", README, re.DOTALL)
+    for command, output in re.findall(r"^\$ coldspray (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE)
+]
+
+
+def test_there_are_examples() -> None:
+    assert len(EXAMPLES) >= 4
+
+
+@pytest.mark.parametrize(("command", "output"), EXAMPLES, ids=[c for c, _ in EXAMPLES])
+def test_example_prints_what_the_readme_says(
+    command: str,
+    output: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(shlex.split(command)) == 0
+    printed = capsys.readouterr().out
+    head, _, tail = output.partition("...\n")
+    assert printed.startswith(head)
+    assert printed.endswith(tail)
+
+
+def test_python_examples_run() -> None:
+    import doctest
+
+    results = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
+    assert results.attempted > 0
+    assert results.failed == 0
+
+
+def test_the_two_commands_are_those_that_users_were_promised() -> None:
+    assert "python -m pip install . && coldspray audit" in README
+    assert "python -m pip install -e '.[test]' && python -m pytest" in README
+    assert "python -m pip install --quiet -e '.[test]'" in (ROOT / ".ci" / "run").read_text()
+
+
+@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"])
+def test_links_and_paths_lead_somewhere(document: str) -> None:
+    text = (ROOT / document).read_text("utf-8")
+    for target in re.findall(r"\]\((?!https?:|#)([^)]+)\)", text):
+        assert (ROOT / target).exists(), target
+    for path in re.findall(r"`((?:reference|replication|spreadsheets|tests)/[\w/.]*)`", text):
+        assert (ROOT / path).exists(), path
+
+
+def test_every_package_is_listed() -> None:
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
+    found = {
+        str(path.parent.relative_to(ROOT)).replace("/", ".")
+        for room in ("reference", "replication", "spreadsheets")
+        for path in (ROOT / room).rglob("*.py")
+    }
+    assert set(listed) == found
