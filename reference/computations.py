@@ -89,7 +89,7 @@ FRANK_ZOOK = {
 
 @_computes(SAME, value=SAME)
 def same_as(_: Arithmetic, value: Number) -> Number:
-    """the number printed elsewhere, restated"""
+    """the same quantity where the report prints it elsewhere"""
     return value
 
 
@@ -103,6 +103,12 @@ def half(_: Arithmetic, value: Number) -> Number:
 def twice(_: Arithmetic, value: Number) -> Number:
     """twice the printed number"""
     return 2 * value
+
+
+@_computes("1", numerator=SAME, denominator=SAME)
+def ratio(_: Arithmetic, numerator: Number, denominator: Number) -> Number:
+    """ratio of two printed numbers"""
+    return numerator / denominator
 
 
 @_computes("1", each=SAME)
@@ -160,10 +166,10 @@ def sphere_length_ratio(_: Arithmetic) -> Fraction:
     return exact.cap_volume(Fraction(2), Fraction(1)) / 2
 
 
-@_computes("m^3", radius="m")
-def sphere_volume(ar: Arithmetic, radius: Number) -> Number:
-    """particle volume, Eq. 3"""
-    return 4 * ar.context.pi * radius**3 / 3
+@_computes("m^3", diameter="m")
+def sphere_volume(ar: Arithmetic, diameter: Number) -> Number:
+    """volume of a sphere of that diameter, Eq. 3"""
+    return ar.context.pi * diameter**3 / 6
 
 
 @_computes("1", volume_ratio="1")
@@ -262,7 +268,7 @@ def strain_rate(_: Arithmetic, velocity: Number, length: Number) -> Number:
 @_computes("kg", radius="m", particle_density="kg/m^3")
 def particle_mass(ar: Arithmetic, radius: Number, particle_density: Number) -> Number:
     """mass of the sphere, Eq. 3 times the density"""
-    return sphere_volume(ar, radius) * particle_density
+    return sphere_volume(ar, 2 * radius) * particle_density
 
 
 @_computes("s", step="s")
@@ -314,7 +320,8 @@ def deceleration_at_touch(
 @_computes("m", stop_velocity="m/s", **SHEET)
 def sheet_depth(ar: Arithmetic, stop_velocity: Number, **inputs: Number) -> Number:
     """depth in the sheet's last row"""
-    return exact.sheet_depth(ar, exact.midpoint(ar, **inputs), stop_velocity)
+    rows = exact.midpoint(ar, stop_velocity=stop_velocity, **inputs)
+    return exact.sheet_depth(ar, rows, stop_velocity)
 
 
 @_computes("1", stop_velocity="m/s", **SHEET)
@@ -329,12 +336,10 @@ def sheet_over_observed(ar: Arithmetic, observed: Number, **inputs: Number) -> N
     return sheet_normalized_depth(ar, **inputs) / observed
 
 
-@_computes("m", stop_velocity="m/s", coarse_step="s", **SHEET)
-def sheet_depth_change(
-    ar: Arithmetic, coarse_step: Number, step: Number, **inputs: Number
-) -> Number:
-    """depth in the sheet's last row at the coarse step, less that at the published step"""
-    return sheet_depth(ar, step=coarse_step, **inputs) - sheet_depth(ar, step=step, **inputs)
+@_computes("1", stop_velocity="m/s", observed="1", **SHEET)
+def sheet_excess_over_observed(ar: Arithmetic, **inputs: Number) -> Number:
+    """by how many times the observed X/R the sheet's exceeds it"""
+    return sheet_over_observed(ar, **inputs) - 1
 
 
 def _row(ar: Arithmetic, row: int, **inputs: Number) -> exact.Row:
@@ -359,15 +364,34 @@ def frank_zook_derived(ar: Arithmetic, **inputs: Number) -> Number:
 
 @_computes("1")
 def frank_zook_denominator(_: Arithmetic) -> Fraction:
-    """multiple of k_t under the fraction bar that makes Eqs. 14 and 15 give X/R"""
-    # The integral of v dv / (a v^2 + b) is ln(1 + a V^2 / b) / (2 a): a 2 for X/D, and D = 2R.
-    for_diameters = Fraction(2)
-    return for_diameters / 2
+    """multiple of k_t under the fraction bar, if Eq. 16 is to give X/R by Eqs. 14 and 15"""
+    return _frank_zook_multiple(length=_DIAMETER / 2)
 
 
 @_computes("1")
-def frank_zook_offset(_: Arithmetic) -> Fraction:
-    """argument of the logarithm of Eq. 16 at V = 0, where the depth must vanish"""
-    # ln((R_t + k_t rho_t V^2) / R_t), any R_t
-    resistance = Fraction(913, 100)
-    return (resistance + 0) / resistance
+def frank_zook_denominator_for_diameters(_: Arithmetic) -> Fraction:
+    """multiple of k_t under the fraction bar, if Eq. 16 is to give X/D by Eqs. 14 and 15"""
+    return _frank_zook_multiple(length=_DIAMETER)
+
+
+_DIAMETER = Fraction(3, 100)
+
+
+def _frank_zook_multiple(length: Fraction) -> Fraction:
+    """The multiple, from the work done at a vanishing velocity, where only R_t resists.
+
+    There Eqs. 14 and 15 give (L rho_p + k_1 rho_t D) V^2 / 2 = R_t X, and Eq. 16 gives for X over
+    the length ((L/D) (rho_p/rho_t) + k_1) rho_t V^2 / (multiple R_t). Any numbers serve.
+    """
+    rod, particle, target = Fraction(7, 100), Fraction(8900), Fraction(7850)
+    k_1, resistance, velocity_squared = Fraction(557, 1000), Fraction(913, 100), Fraction(1)
+    work = (rod * particle + k_1 * target * _DIAMETER) * velocity_squared / 2
+    depth = work / resistance
+    inertia = rod / _DIAMETER * particle / target + k_1
+    return inertia * target * velocity_squared / (resistance * depth / length)
+
+
+@_computes("1")
+def frank_zook_offset(ar: Arithmetic) -> Number:
+    """argument of the logarithm of Eq. 16 at V = 0, where there is no depth"""
+    return ar.context.exp(ar.number(0))

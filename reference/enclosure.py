@@ -9,6 +9,7 @@ import heapq
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 from mpmath.ctx_iv import MPIntervalContext
@@ -16,10 +17,23 @@ from mpmath.ctx_iv import MPIntervalContext
 from reference.exact import Number, Reals
 from reference.printed import Interval
 
-__all__ = ["Box", "Exploration", "Function", "Intervals", "admitted", "evaluate", "explore"]
+__all__ = [
+    "Box",
+    "Constraint",
+    "Exploration",
+    "Function",
+    "Intervals",
+    "admitted",
+    "evaluate",
+    "explore",
+    "extent",
+]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
 """Inputs by name: lower and upper end, rationals in SI units."""
+
+Part = dict[str, tuple[Fraction, Fraction]]
+"""A box that is cut from another."""
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
@@ -84,6 +98,10 @@ class Intervals:
         lows, highs = zip(*map(self._ends, numbers), strict=True)
         return self.context.mpf([min(lows), max(highs)])
 
+    def meet(self, x: Number, y: Number) -> Number:
+        (low, high), (least, greatest) = self._ends(x), self._ends(y)
+        return self.context.mpf([max(low, least), min(high, greatest)])
+
 
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
@@ -129,10 +147,10 @@ def explore(function: Function, box: Box, target: Interval, budget: int = 2000) 
     side. It ends when points inside and outside are both known, when every part is decided, or
     after `budget` evaluations.
     """
-    search = _Search(function, target)
+    search, scales = _Search(function, target), _scales(box)
     search.add(dict(box))
     while search.open and search.evaluations < budget and not search.split():
-        for part in _halves(search.nearest()):
+        for part in _halves(search.nearest(), scales):
             search.add(part)
     return search.result()
 
@@ -146,14 +164,14 @@ class _Search:
         self.stuck = False
         self.inside: dict[str, Fraction] | None = None
         self.outside: dict[str, Fraction] | None = None
-        self.open: list[tuple[Fraction, int, dict[str, tuple[Fraction, Fraction]]]] = []
+        self.open: list[tuple[Fraction, int, Part]] = []
         self._open_ranges: dict[int, tuple[Fraction, Fraction]] = {}
         self._closed_ranges: list[tuple[Fraction, Fraction]] = []
 
     def split(self) -> bool:
         return self.inside is not None and self.outside is not None
 
-    def add(self, part: dict[str, tuple[Fraction, Fraction]]) -> None:
+    def add(self, part: Part) -> None:
         self.evaluations += 1
         ends = evaluate(self.function, part)
         middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
@@ -186,7 +204,7 @@ class _Search:
         below = Fraction(0) if self.target.lower is None else self.target.lower - ends[1]
         return max(above, below)
 
-    def nearest(self) -> dict[str, tuple[Fraction, Fraction]]:
+    def nearest(self) -> Part:
         _, number, part = heapq.heappop(self.open)
         del self._open_ranges[number]
         return part
@@ -202,36 +220,39 @@ class _Search:
         )
 
 
-def _halves(
-    part: dict[str, tuple[Fraction, Fraction]],
-) -> list[dict[str, tuple[Fraction, Fraction]]]:
-    name = max(part, key=lambda key: _relative_width(*part[key]))
+def _scales(box: Box) -> dict[str, Fraction]:
+    """What an input's width is measured by, so that unlike quantities can be compared."""
+    sizes = {name: max(abs(low), abs(high)) for name, (low, high) in box.items()}
+    return {name: size or Fraction(1) for name, size in sizes.items()}
+
+
+def _halves(part: Part, scales: Mapping[str, Fraction]) -> list[Part]:
+    name = max(part, key=lambda key: (part[key][1] - part[key][0]) / scales[key])
     low, high = part[name]
     middle = (low + high) / 2
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
 
 
-def _relative_width(low: Fraction, high: Fraction) -> Fraction:
-    return (high - low) / max(abs(low), abs(high), Fraction(1, 10**30))
+Constraint = tuple[Function, Interval]
+"""A function of the inputs in a box, and the interval that its value must fall in."""
 
 
 def admitted(
-    constraints: Sequence[tuple[Function, Interval]],
+    constraints: Sequence[Constraint],
     name: str,
     search: tuple[Fraction, Fraction],
-    inputs: Box,
     resolution: Fraction,
 ) -> tuple[Interval, Interval]:
-    """The values of one input for which every constraint holds: an inner and an outer interval.
+    """The values of the one input for which every constraint holds: an inner and outer interval.
 
     Every value of the inner interval is proven to satisfy all constraints, every value of `search`
-    outside the outer one to violate some. Raises ValueError if no value is admitted, or if the
-    admitted values are not one interval.
+    outside the outer one to violate some. Raises ValueError if none is proven to satisfy them, if
+    those that do are not one interval, or if they reach an end of `search`.
     """
     parts, inner, edge = [search], [], []
     while parts:
         part = parts.pop()
-        verdict = _holds(constraints, {**inputs, name: part})
+        verdict = _holds(constraints, {name: part})
         if verdict:
             inner.append(part)
         elif verdict is None and part[1] - part[0] > resolution:
@@ -239,23 +260,83 @@ def admitted(
             parts += [(part[0], middle), (middle, part[1])]
         elif verdict is None:
             edge.append(part)
-    merged = _merged(inner)
+    merged, outer = _merged(inner), _merged(inner + edge)
     if len(merged) != 1:
         raise ValueError(f"{len(merged)} separate intervals of {name} are admitted, not one")
-    outer = _merged(inner + edge)
+    if outer[0][0] == search[0] or outer[-1][1] == search[1]:
+        raise ValueError(f"the admitted {name} reaches an end of the search from {search[0]}")
     return Interval(*merged[0]), Interval(outer[0][0], outer[-1][1])
 
 
-def _holds(constraints: Sequence[tuple[Function, Interval]], box: Box) -> bool | None:
+def extent(
+    constraints: Sequence[Constraint],
+    name: str,
+    box: Box,
+    start: Fraction,
+    tolerance: Fraction,
+    budget: int = 600,
+) -> tuple[Interval, Interval]:
+    """How far one input can range while the others may be anywhere in the box.
+
+    An inner interval whose ends are attained (by some point of the box that satisfies every
+    constraint; `start` must be one such value), and an outer one beyond which none is; apart by the
+    tolerance, or by more if the budget of boxes runs out.
+    """
+    (low, least), (high, greatest) = (
+        _extreme(constraints, name, box, sign, start, tolerance, budget) for sign in (-1, 1)
+    )
+    return Interval(low, high), Interval(least, greatest)
+
+
+def _extreme(
+    constraints: Sequence[Constraint],
+    name: str,
+    box: Box,
+    sign: int,
+    start: Fraction,
+    tolerance: Fraction,
+    budget: int,
+) -> tuple[Fraction, Fraction]:
+    """The best value attained, and a bound that no value passes, in the direction of the sign."""
+
+    def end(part: Box) -> Fraction:
+        return part[name][sign > 0]
+
+    attained, scales = start, _scales(box)
+    queue = [(-sign * end(box), 0, dict(box), list(constraints))]
+    for count in range(1, budget + 1):
+        if not queue or sign * (end(queue[0][2]) - attained) <= tolerance:
+            break
+        _, _, part, remaining = heapq.heappop(queue)
+        undecided = _undecided(remaining, part)
+        if undecided is None:
+            continue
+        for number, half in enumerate(_halves(part, scales)):
+            heapq.heappush(queue, (-sign * end(half), 2 * count + number, half, undecided))
+        near = part[name][sign < 0]
+        sides = [ends if key != name else (near,) for key, ends in part.items()]
+        corners = ({k: (x, x) for k, x in zip(part, c, strict=True)} for c in product(*sides))
+        if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
+            attained = near
+    return attained, end(queue[0][2]) if queue else attained
+
+
+def _holds(constraints: Sequence[Constraint], box: Box) -> bool | None:
     """True if all hold all over the box, False if one fails all over it, else None."""
-    answer: bool | None = True
+    undecided = _undecided(constraints, box)
+    return False if undecided is None else True if not undecided else None
+
+
+def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:
+    """The constraints not proven to hold all over the box; None if one fails all over it."""
+    undecided = []
     for function, target in constraints:
         ends = evaluate(function, box)
         if target.excludes(*ends):
-            return False
+            return None
         if not target.encloses(*ends):
-            answer = None
-    return answer
+            undecided.append((function, target))
+    return undecided
 
 
 def _merged(parts: list[tuple[Fraction, Fraction]]) -> list[tuple[Fraction, Fraction]]:

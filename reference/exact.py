@@ -18,11 +18,13 @@ __all__ = [
     "Reals",
     "Row",
     "cap_volume",
-    "contact_area",
+    "centerline_stress",
+    "contact_share",
     "crater_normalized_depth",
     "final_depth",
     "frank_zook_diameters",
     "midpoint",
+    "particle_velocity",
     "sheet_depth",
 ]
 
@@ -57,6 +59,9 @@ class Arithmetic(Protocol):
 
     def hull(self, numbers: list[Number]) -> Number:
         """A number that stands for all of them."""
+
+    def meet(self, x: Number, y: Number) -> Number:
+        """What is known of one number that is both x and y."""
 
 
 class Reals:
@@ -93,14 +98,18 @@ class Reals:
         (only,) = numbers
         return only
 
+    def meet(self, x: Number, y: Number) -> Number:  # noqa: ARG002  (equal but for rounding)
+        return x
 
-def contact_area(ar: Arithmetic, x: Number, radius: Number) -> Number:
-    """Projected contact area pi a^2 [m^2] at depth x [m] (Eq. 12; pi R^2 beyond the radius).
 
-    As pi (R^2 - max(R - x, 0)^2): the same polynomial as D x - x^2, with x standing in it once.
+def contact_share(ar: Arithmetic, y: Number) -> Number:
+    """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond.
+
+    In two forms of the one polynomial, y (2 - y) = 1 - (1 - y)^2: in interval arithmetic the first
+    is narrow for a small y, the second for an uncertain one, and the truth is in both.
     """
-    clear = ar.positive_part(radius - x)
-    return ar.context.pi * (radius * radius - clear * clear)
+    pressed, clear = ar.least(y, ar.number(1)), ar.positive_part(1 - y)
+    return ar.meet(pressed * (2 - pressed), 1 - clear * clear)
 
 
 def cap_volume(depth: Fraction, radius: Fraction) -> Fraction:
@@ -167,21 +176,42 @@ def midpoint(
     target_density: Number,
     resistance: Number,
     step: Number,
+    mass: Number | None = None,
+    centered: bool = False,
+    stop_velocity: Number | None = None,
 ) -> Iterator[Row]:
-    """The rows of the appendix's scheme after row 0, without end (Eqs. A-1 to A-3).
+    """The rows of the appendix's scheme after row 0 (Eqs. A-1 to A-3).
 
     x of the first row is V dt/2, later rows add v dt with the row's initial velocity; the
-    deceleration belongs to that x and that velocity.
+    deceleration belongs to that x and that velocity, or, in the centered variant, to that x and the
+    velocity half a step on. The mass is the sphere's unless another is given. It ends with the
+    first row that is certain to end below the stop velocity, or never if there is none.
     """
-    mass = particle_density * 4 * ar.context.pi * radius**3 / 3
+    if mass is None:
+        # pi R^2 over the sphere's mass: shorter, so that an uncertain R counts once.
+        area_over_mass = 3 / (4 * radius * particle_density)
+    else:
+        area_over_mass = ar.context.pi * radius * radius / mass
+
+    def deceleration(x: Number, v: Number) -> Number:
+        stress = target_density * v**2 / 2 + resistance
+        return stress * contact_share(ar, x / radius) * area_over_mass
+
     time, x, v = ar.number(0), velocity * step / 2, velocity
     while True:
         time = time + step
-        stress = target_density * v**2 / 2 + resistance
-        a = stress * contact_area(ar, x, radius) / mass
+        a = deceleration(x, v)
+        if centered:
+            a = deceleration(x, v - a * step / 2)
         v_final = v - a * step
         yield Row(time, v, x, a, v_final)
-        x, v = x + v_final * step, v_final
+        v = v_final
+        if stop_velocity is not None:
+            if ar.is_below(v, stop_velocity):
+                return
+            # Where a box of inputs is run, only those that have not stopped go on.
+            v = stop_velocity + ar.positive_part(v - stop_velocity)
+        x = x + v * step
 
 
 def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:
@@ -189,13 +219,19 @@ def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> N
 
     In interval arithmetic: the hull over every row that may be the first.
     """
-    candidates: list[Number] = []
-    for row in rows:
-        if ar.may_be_below(row.velocity_final, stop_velocity):
-            candidates.append(row.depth)
-            if ar.is_below(row.velocity_final, stop_velocity):
-                break
-    return ar.hull(candidates)
+    return ar.hull([r.depth for r in rows if ar.may_be_below(r.velocity_final, stop_velocity)])
+
+
+def particle_velocity(
+    ar: Arithmetic, average_velocity: Number, mass: Number, average_mass: Number
+) -> Number:
+    """V_p = V (m_o / m)^(1/2) [m/s] (Eq. 1)."""
+    return average_velocity * ar.context.sqrt(average_mass / mass)
+
+
+def centerline_stress(target_density: Number, velocity: Number, resistance: Number) -> Number:
+    """Sigma [Pa] of Eq. 5 at u = v, where the particle's term is its strength alone (Eq. 6)."""
+    return resistance + target_density * velocity**2 / 2
 
 
 def frank_zook_diameters(

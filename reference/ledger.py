@@ -49,14 +49,13 @@ class Place:
     end: int
     line: int
     section: str
-    paragraph: int
     equation: str | None
     cell: str | None
 
     def __str__(self) -> str:
         if self.cell:
             return f"Table A-1, cell {self.cell}"
-        where = f"{self.section}, paragraph {self.paragraph}"
+        where = f"{self.section}, line {self.line}"
         return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
@@ -83,6 +82,8 @@ class Claim:
     inputs: Mapping[str, tuple[str, ...]]
     readings: Mapping[str, Computation]
     given: str | None
+    chosen: bool
+    relation: str | None
     as_printed_inputs: bool
 
     @property
@@ -100,8 +101,15 @@ class Claim:
         return to_si(self.unit)
 
     def as_input(self, loose: bool = False) -> Interval:
-        """The values, in SI, that this number may stand for where another claim rests on it."""
+        """The values, in SI, that this number may stand for where another claim rests on it.
+
+        What the author chose is what he printed; what is measured or computed is a rounding; an
+        approximation has the fewest digits that its text allows. `loose` allows that of all.
+        """
         assert self.printed is not None
+        exact = self.interval is not None and self.interval.lower == self.interval.upper
+        if exact or (self.chosen and not loose):
+            return Interval.point(self.printed.value * self.si)
         about = loose or self.kind == "approximation"
         printed = self.printed.about() if about and self.printed.quantum else self._rounded()
         return printed.scaled(self.si)
@@ -119,13 +127,15 @@ class Inferred:
     title: str
     symbol: str
     unit: str
-    parameter: str
     nominal: Fraction
     nominal_source: str
     search: tuple[Fraction, Fraction]
     resolution: Fraction
     evidence: tuple[str, ...]
-    handbook: Mapping[str, Fraction]
+    header: tuple[str, ...]
+    mass: str
+    results: tuple[str, ...]
+    handbook: Mapping[str, Printed]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,7 +169,7 @@ class Ledger:
 
 _NUMBER = re.compile(
     r"\d+|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|half|halves|thirds?|quarters?"
-    r"|sixths?|twice|thrice|double|dozen|hundred|thousand|million)\b",
+    r"|sixths?|several|twice|thrice|double|dozen|hundred|thousand|million)\b",
     re.IGNORECASE,
 )
 
@@ -217,14 +227,38 @@ def _rounding(cell: str | None) -> Rounding:
 
 def _cells(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
     """A blank entry stands for every cell of its range; any other for itself."""
-    if "cells" not in entry:
+    if "cells" not in entry or "id" not in entry:
         return [dict(entry)]
     match = re.fullmatch(r"([A-F])(\d+):([A-F])(\d+)", entry["cells"])
     if match is None:
         raise LedgerError(f"claim {entry.get('id')!r}: {entry['cells']!r} is no range of cells")
     columns = range(ord(match[1]), ord(match[3]) + 1)
+    if not columns or int(match[2]) > int(match[4]):
+        raise LedgerError(f"claim {entry.get('id')!r}: the cells {entry['cells']} run backwards")
     addresses = [f"{chr(c)}{r}" for r in range(int(match[2]), int(match[4]) + 1) for c in columns]
     return [{**entry, "id": f"{entry['id']}-{cell}", "cell": cell} for cell in addresses]
+
+
+_KEYS = {
+    "id",
+    "title",
+    "quote",
+    "unit",
+    "kind",
+    "computed_by",
+    "rests_on",
+    "given",
+    "relation",
+    "against",
+    "prints_like",
+    "exact",
+    "row",
+    "readings",
+    "as_printed_inputs",
+    "equation",
+    "cell",
+    "cells",
+}
 
 
 class _Reader:
@@ -242,6 +276,11 @@ class _Reader:
         missing = {"id", "title", "kind"} - set(entry)
         if missing:
             raise self.error(f"lacks {', '.join(sorted(missing))}")
+        unknown = set(entry) - _KEYS
+        if unknown:
+            raise self.error(f"there is no key {min(unknown)!r}")
+        if entry["kind"] in ("bound", "order of magnitude") and "relation" not in entry:
+            raise self.error(f"kind {entry['kind']!r} needs a relation")
         if entry["kind"] not in KINDS:
             raise self.error(f"kind {entry['kind']!r} is none of {', '.join(KINDS)}")
         unit = entry.get("unit", "1")
@@ -266,6 +305,8 @@ class _Reader:
             inputs=self.inputs(),
             readings={k: self.named(v) for k, v in entry.get("readings", {}).items()},
             given=self.given(),
+            chosen=entry.get("given") == "choice",
+            relation=entry.get("relation"),
             as_printed_inputs=entry.get("as_printed_inputs", False),
         )
 
@@ -289,11 +330,9 @@ class _Reader:
         headings = list(_HEADING.finditer(self.text, 0, start + 1))
         heading = headings[-1] if headings else None
         section = _section(heading)
-        since = self.text[heading.end() if heading else 0 : start]
-        paragraph = len(re.findall(r"\n\s*\n(?=\s*\S)", since))
         equation, cell = self.entry.get("equation"), self.entry.get("cell")
         line = _line(self.text, start)
-        return Place(start, end, line, section, paragraph, equation, cell)
+        return Place(start, end, line, section, equation, cell)
 
     def printed(self, text: str) -> Printed | None:
         if self.entry["kind"] in ("blank", "comparison"):
@@ -343,6 +382,8 @@ class _Reader:
         decided = self.entry.get("computed_by") is not None or self.entry["kind"] == "blank"
         if decided == (key is not None):
             raise self.error("needs either computed_by or given")
+        if "computed_by" not in self.entry and "rests_on" in self.entry:
+            raise self.error("rests_on needs computed_by")
         reasons: Mapping[str, str] = self.document.get("reasons", {})
         if key is not None and key not in reasons:
             raise self.error(f"there is no reason {key!r}")
@@ -365,22 +406,21 @@ def _against(claim: Claim, entry: Mapping[str, Any], claims: Mapping[str, Claim]
     if claim.kind != "comparison":
         return claim
     reader = _Reader(entry, {}, "")
-    name = entry.get("against", entry.get("within_half_digit_of", ""))
+    name = entry.get("against", entry.get("prints_like", ""))
     if name not in claims or (other := claims[name]).printed is None:
-        raise reader.error("a comparison needs `against` or `within_half_digit_of`, another claim")
+        raise reader.error("a comparison needs `against` or `prints_like`, another claim")
     if claim.unit != other.unit:
         raise reader.error(f"is in {claim.unit}, but {name} in {other.unit}")
     if "against" in entry:
         return replace(
             claim, interval=reader.related(entry.get("relation", ""), other.printed.value)
         )
-    half = other.printed.quantum / 2
-    return replace(claim, interval=Interval(-half, half))
+    return replace(claim, interval=other.interval)
 
 
 def _check_inputs(claims: Mapping[str, Claim], inferred: Mapping[str, Inferred]) -> None:
     for entry in inferred.values():
-        for name in entry.evidence:
+        for name in (*entry.evidence, *entry.header, entry.mass, *entry.results):
             if name not in claims:
                 raise LedgerError(f"inferred {entry.id!r}: there is no claim {name!r}")
     for claim in claims.values():
@@ -440,11 +480,13 @@ def _inferred(name: str, entry: Mapping[str, Any]) -> Inferred:
         title=entry["title"],
         symbol=entry["symbol"],
         unit=entry["unit"],
-        parameter=entry["parameter"],
         nominal=Fraction(entry["nominal"]),
         nominal_source=entry["nominal_source"],
         search=(low, high),
         resolution=Fraction(entry["resolution"]),
         evidence=tuple(entry["evidence"]),
-        handbook={item["name"]: Fraction(item["value"]) for item in entry["handbook"]},
+        header=tuple(entry["header"]),
+        mass=entry["mass"],
+        results=tuple(entry["results"]),
+        handbook={item["name"]: parse(item["value"]) for item in entry["handbook"]},
     )

@@ -109,12 +109,14 @@ class Printed:
     """A printed number: its text, the value that the text spells, the place of its last digit.
 
     `quantum` is the unit of the last digit (0 for exact text), `quanta` the places that the last
-    significant digit may have: several where an integer ends in zeros.
+    significant digit may have: several where an integer ends in zeros. `floating` says that the
+    digits before an exponent were counted, as in "1.00E+03", and not the decimals.
     """
 
     text: str
     value: Fraction
     quanta: tuple[Fraction, ...]
+    floating: bool = False
 
     @property
     def quantum(self) -> Fraction:
@@ -128,6 +130,8 @@ class Printed:
 
         >>> print(parse("700").interval(), parse("700").interval(quantum=Fraction(100)))
         [699.5, 700.5] [650, 750]
+        >>> print(parse("100").interval(quantum=Fraction(100)), parse("1.0E+02").interval())
+        [95, 150] [99.5, 105]
         >>> print(parse("7.67").interval(Rounding.TRUNCATED))
         [7.67, 7.68)
         """
@@ -138,7 +142,10 @@ class Printed:
         if rounding is Rounding.TRUNCATED:
             low, high, closed = size, size + quantum, False
         else:
-            low, high = size - quantum / 2, size + quantum / 2
+            # Just below a power of ten, digits that are counted stand ten times closer.
+            counted = self.floating or (self.quantum and quantum != self.quantum)
+            below = quantum / 10 if counted and _is_power_of_ten(size / quantum) else quantum
+            low, high = size - below / 2, size + quantum / 2
             closed = rounding is Rounding.NEAREST
         if self.value == 0 and rounding is not Rounding.NEAREST:
             return Interval(-high, high, False, False)
@@ -163,9 +170,14 @@ class Printed:
         return Interval((1 / n + 1 / (n + 1)) / 2, (1 / n + 1 / (n - 1)) / 2)
 
 
+def _is_power_of_ten(number: Fraction) -> bool:
+    return number.denominator == 1 and str(number.numerator).rstrip("0") == "1"
+
+
 _WORDS = {
     "one": "1",
     "two": "2",
+    "several times": "2",  # in a bound: more than two
     "twice": "2",
     "three": "3",
     "four": "4",
@@ -177,8 +189,8 @@ _DECIMAL = re.compile(
         (?:[Ee](?P<e>[-+]?\d+)|\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d+|\{[-+]?\d+\}))?""",
     re.VERBOSE,
 )
-_FRACTION = re.compile(r"(?:\\frac\{)?(\d+)(?:/|\}\{)([1-9]\d*)\}?")
-_POWER = re.compile(r"10\^\{?(?P<power>[-+]?\d+)\}?")
+_FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
+_POWER = re.compile(r"10\^(?P<power>[-+]?\d+|\{[-+]?\d+\})")
 
 
 def parse(text: str) -> Printed:
@@ -197,9 +209,10 @@ def parse(text: str) -> Printed:
     if word := _WORDS.get(bare.lower()):
         return Printed(text, Fraction(word), (Fraction(0),))
     if match := _FRACTION.fullmatch(bare):
-        return Printed(text, Fraction(int(match[1]), int(match[2])), (Fraction(0),))
+        over, under = (int(part) for part in match.groups() if part)
+        return Printed(text, Fraction(over, under), (Fraction(0),))
     if match := _POWER.fullmatch(bare):
-        return Printed(text, Fraction(10) ** int(match["power"]), (Fraction(0),))
+        return Printed(text, Fraction(10) ** int(match["power"].strip("{}")), (Fraction(0),))
     match = _DECIMAL.fullmatch(bare)
     if match is None:
         raise ValueError(f"cannot read {text!r} as a printed number")
@@ -213,4 +226,5 @@ def _decimal(text: str, match: re.Match[str]) -> Printed:
     value = int(match["sign"] + whole + part) * scale
     digits = whole.lstrip("0") if not part and match["e"] is None and match["power"] is None else ""
     zeros = len(digits) - len(digits.rstrip("0"))
-    return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)))
+    floating = match["e"] is not None or match["power"] is not None
+    return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)

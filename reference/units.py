@@ -23,19 +23,27 @@ def _registry() -> Any:
     return pint.UnitRegistry(non_int_type=Fraction)
 
 
+_NAME = r"[^\W\d]\w*(?:(?:\^|\*\*)-?[1-9])?"
+_UNIT = re.compile(rf"1|(?:1\s*/\s*)?{_NAME}(?:(?:\s*[*/]\s*|\s+){_NAME})*")
+"""Names with powers, times or over each other: all that a unit needs of pint's expressions."""
+
+
 @cache
 def _base(unit: str) -> tuple[Fraction, str]:
     """The factor to SI base units, and the dimension as comparable text."""
     import pint
 
+    if not _UNIT.fullmatch(unit):
+        raise UnitError(f"{unit!r} is no unit such as 'um', 'MPa' or 'kg/m^3'")
     registry = _registry()
     text = "dimensionless" if unit == "1" else unit
     try:
         base = registry.Quantity(Fraction(1), registry.parse_units(text)).to_base_units()
-    except (pint.errors.PintError, AttributeError, TypeError, ValueError, SyntaxError) as error:
+    except (pint.errors.PintError, AttributeError) as error:
         raise UnitError(f"unknown unit {unit!r}") from error
     factor = base.magnitude
-    if not isinstance(factor, Fraction):
+    nothing = registry.Quantity(Fraction(0), base.units if unit == "1" else text)
+    if not isinstance(factor, Fraction) or nothing.to_base_units().magnitude != 0:
         raise UnitError(f"unit {unit!r} has no exact factor to SI")
     dimension = sorted((name, str(power)) for name, power in base.dimensionality.items())
     return factor, repr(dimension)

@@ -2,13 +2,14 @@
 
 import tomllib
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 from replication.impact import CASES, Impact
 
-__all__ = ["INPUTS", "inputs_of", "read_case"]
+__all__ = ["INPUTS", "inputs_of", "read_case", "read_number"]
 
 INPUTS = {
     "velocity": "m/s",
@@ -35,36 +36,46 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     """
     if name not in CASES:
         raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
-    impact = CASES[name]
-    if file is not None:
-        impact = _changed(impact, _file(file), f"{file}: ")
-    return _changed(impact, given, "")
-
-
-def _changed(impact: Impact, given: Mapping[str, str], where: str) -> Impact:
+    from_file = {} if file is None else _displaced(_file(file), given)
+    places = {**dict.fromkeys(from_file, f"{file}: "), **dict.fromkeys(given, "")}
     values: dict[str, Any] = {}
-    for name, text in given.items():
+    for key, text in {**from_file, **given}.items():
         try:
-            values[name] = _number(text, INPUTS[name])
+            values[key] = read_number(text, INPUTS[key])
         except ValueError as error:
-            raise ValueError(f"{where}{name}: {error}") from error
+            raise ValueError(f"{places[key]}{key}: {error}") from error
     if "resistance" in values:
         values = {"beta": None, "flow_stress": None, **values}
-    elif {"beta", "flow_stress"} & set(values):
-        values = {"resistance": None, **values}
     try:
-        return replace(impact, **values)
+        return replace(CASES[name], **values)
     except ValueError as error:
-        raise ValueError(f"{where}{error}") from error
+        raise ValueError(f"{file}: {error}" if from_file else str(error)) from error
 
 
-def _number(text: str, unit: str) -> float:
-    try:
+_PRODUCT = {"beta", "flow_stress"}
+
+
+def _displaced(from_file: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
+    """What the file gives, less what the inputs given singly take the place of."""
+    gone = _PRODUCT if "resistance" in given else set()
+    gone = {"resistance"} if _PRODUCT & set(given) else gone
+    return {key: text for key, text in from_file.items() if key not in gone}
+
+
+def read_number(text: str, unit: str) -> float:
+    """A number with or without a unit, as SI; `unit` tells what it must measure.
+
+    >>> read_number("0.5 ns", "s")
+    5e-10
+    """
+    with suppress(ValueError):
         return float(text)
-    except ValueError:
-        from reference.units import quantity  # needed only where a unit is written
+    from reference.units import quantity  # needed only where a unit is written
 
+    try:
         return float(quantity(text, unit))
+    except OverflowError as error:
+        raise ValueError(f"{text!r} is beyond the range of doubles") from error
 
 
 def _file(path: Path) -> dict[str, str]:

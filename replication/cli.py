@@ -1,14 +1,14 @@
 """The command `coldspray`. Each command imports what it needs when it runs."""
 
 import argparse
+import io
 import os
 import sys
-from collections.abc import Callable, Sequence
-from errno import EISDIR
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from replication.case import INPUTS, inputs_of, read_case
+from replication.case import INPUTS, inputs_of, read_case, read_number
 from replication.impact import Impact
 
 __all__ = ["main"]
@@ -16,14 +16,22 @@ __all__ = ["main"]
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
+            stream.reconfigure(errors="backslashreplace")
     options = _parser().parse_args(arguments)
     try:
         status = options.run(options)
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except BrokenPipeError:
         # The reader of a pipe has seen enough; nothing more can be said to it.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except KeyboardInterrupt:
+        print(f"coldspray {options.command}: interrupted, nothing written", file=sys.stderr)
+        return 130
     except (ValueError, OSError) as error:
         print(f"coldspray {options.command}: {_one_line(error)}", file=sys.stderr)
         return 2
@@ -57,9 +65,51 @@ def _parser() -> argparse.ArgumentParser:
     _workbook_options(_command(commands, "workbook", _workbook, "write the live workbook"))
     sheet = _command(commands, "sheet", _sheet, "the Excel scheme's rows for a case")
     depth = _command(commands, "depth", _depth, "final depth of a case, without time steps")
-    for command in (sheet, depth):
-        _case_options(command)
+    converge = _command(
+        commands, "converge", _converge, "error against time step, observed order, limit"
+    )
+    for command in (sheet, depth, converge):
+        _input_options(command, "beta-5")
+    for command in (sheet, converge):
+        command.add_argument(
+            "--scheme", metavar="NAME", default="published", help="published (default) or centered"
+        )
+    sheet.add_argument("--csv", action="store_true", help="print CSV")
+    _converge_options(converge)
+    stability = _command(
+        commands, "stability", _stability, "the hard cases: sheet, closed form and reference"
+    )
+    _stability_options(stability)
+    for command in (sheet, depth, converge, stability):
+        command.add_argument("--json", action="store_true", help="print JSON")
+        command.add_argument("--quiet", action="store_true", help="no warnings")
     return parser
+
+
+def _converge_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--steps", metavar="X,X,...", help="steps, coarsest first (default: from 16 times --step)"
+    )
+    command.add_argument(
+        "--levels", type=int, default=8, metavar="N", help="number of halvings to run (8)"
+    )
+    command.add_argument(
+        "--digits", type=int, metavar="N", help="also find the largest step for N correct digits"
+    )
+
+
+def _stability_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--random", type=int, default=100_000, metavar="N", help="random cases (100000)"
+    )
+    command.add_argument("--seed", type=int, default=1, metavar="N", help="of the random cases (1)")
+
+
+def _path(text: str) -> Path:
+    """A path from the command line; an unset variable must not mean this folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("a path is wanted, not an empty text")
+    return Path(text)
 
 
 class _Version(argparse.Action):
@@ -82,7 +132,13 @@ def _command(
 
 def _audit_options(command: argparse.ArgumentParser) -> None:
     folder = Path("coldspray-audit")
-    command.add_argument("--out", type=Path, default=folder, metavar="DIR", help=f"{folder}/")
+    command.add_argument(
+        "--out",
+        type=_path,
+        default=folder,
+        metavar="DIR",
+        help=f"default: {folder}/",
+    )
     command.add_argument(
         "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
     )
@@ -98,22 +154,20 @@ def _claims_options(command: argparse.ArgumentParser) -> None:
 def _workbook_options(command: argparse.ArgumentParser) -> None:
     output = Path("workbook.xlsx")
     command.add_argument(
-        "-o", "--output", type=Path, default=output, metavar="FILE", help=f"{output}"
+        "-o", "--output", type=_path, default=output, metavar="FILE", help=f"{output}"
     )
     command.add_argument("--quiet", action="store_true", help="do not say what was written")
     _input_options(command, "the report's two cases")
 
 
-def _case_options(command: argparse.ArgumentParser) -> None:
-    _input_options(command, "beta-5")
-    command.add_argument("--json", action="store_true", help="print JSON")
-    if command.prog.endswith("sheet"):
-        command.add_argument("--csv", action="store_true", help="print CSV")
-
-
 def _input_options(command: argparse.ArgumentParser, default: str) -> None:
     command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
-    command.add_argument("--case-file", type=Path, metavar="FILE", help="TOML with [impact]")
+    command.add_argument(
+        "--case-file",
+        type=_path,
+        metavar="FILE",
+        help="TOML, table [impact]",
+    )
     for name, unit in INPUTS.items():
         flag = "--" + name.replace("_", "-")
         shown = "" if unit == "1" else f" in {unit}, or with its unit"
@@ -127,7 +181,8 @@ def _given(options: argparse.Namespace) -> dict[str, str]:
 
 
 def _case(options: argparse.Namespace) -> Impact:
-    return read_case(options.case or "beta-5", options.case_file, _given(options))
+    name = "beta-5" if options.case is None else options.case
+    return read_case(name, options.case_file, _given(options))
 
 
 def _print_json(record: Any) -> None:
@@ -186,9 +241,7 @@ def _nearest(name: str, known: Any) -> str:
 def _workbook(options: argparse.Namespace) -> int:
     from replication import workbook
 
-    if options.output.is_dir():
-        raise IsADirectoryError(EISDIR, "is a folder; a file is wanted", str(options.output))
-    own = options.case or options.case_file or _given(options)
+    own = options.case is not None or options.case_file is not None or _given(options)
     cases = {"Sheet": _case(options)} if own else workbook.REPORT
     workbook.write(options.output, cases)
     if not options.quiet:
@@ -196,21 +249,30 @@ def _workbook(options: argparse.Namespace) -> int:
     return 0
 
 
+def _warn(options: argparse.Namespace, warnings: Iterable[str]) -> None:
+    if not options.quiet:
+        for warning in warnings:
+            print(f"coldspray {options.command}: warning: {warning}", file=sys.stderr)
+
+
 def _sheet(options: argparse.Namespace) -> int:
     from replication.midpoint import run
 
-    sheet = run(_case(options))
+    sheet = run(_case(options), options.scheme)
     if options.json:
         _print_json(
             {
                 "inputs": inputs_of(sheet.impact),
+                "scheme": sheet.scheme,
                 "rows": [row._asdict() for row in sheet.rows],
                 "final_depth": sheet.final_depth,
                 "normalized_depth": sheet.normalized_depth,
                 "steps": sheet.steps,
+                "warnings": sheet.warnings,
             }
         )
-    elif options.csv:
+        return 0
+    if options.csv:
         from replication.reports.plain import rows_csv
 
         sys.stdout.write(rows_csv([row._asdict() for row in sheet.rows]))
@@ -218,6 +280,42 @@ def _sheet(options: argparse.Namespace) -> int:
         from replication.reports.sheet import sheet_table
 
         print(sheet_table(sheet))
+    _warn(options, sheet.warnings)
+    return 0
+
+
+def _converge(options: argparse.Namespace) -> int:
+    from replication.analysis import convergence
+    from replication.reports import numerics
+
+    case = _case(options)
+    if options.steps is None:
+        steps = convergence.ladder(case.step, options.levels)
+    else:
+        steps = [read_number(text, "s") for text in options.steps.split(",")]
+    found = convergence.converge(case, steps, options.scheme)
+    digits = None
+    if options.digits is not None:
+        digits = convergence.step_for_digits(case, options.digits, options.scheme)
+    if options.json:
+        _print_json(numerics.convergence_record(found, digits))
+    else:
+        print(numerics.convergence_text(found, digits))
+    return 0
+
+
+def _stability(options: argparse.Namespace) -> int:
+    from replication.analysis import stability
+    from replication.reports import numerics
+
+    if options.random < 1 or options.seed < 0:
+        raise ValueError("--random wants one case or more, --seed zero or more")
+    outcomes = [stability.outcome(case) for case in stability.HARD_CASES]
+    worst = stability.worst_of(options.random, options.seed)
+    if options.json:
+        _print_json(numerics.stability_record(outcomes, worst))
+    else:
+        print(numerics.stability_text(outcomes, worst))
     return 0
 
 

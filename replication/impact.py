@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 
 __all__ = ["BETA_3", "BETA_5", "CASES", "Impact"]
 
-_MAY_BE_ZERO = {"stop_velocity"}
+_MAY_BE_ZERO = {"stop_velocity", "resistance"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,7 +18,8 @@ class Impact:
     default to the appendix's 0.2 ns and 1 m/s.
 
     Raises ValueError naming the input that is not finite, not positive (the stop velocity may be
-    zero), missing, or given twice.
+    zero), missing, or given twice; and where mass, resistance or dynamic pressure leave the range
+    of doubles.
 
     >>> Impact(velocity=500, radius=11e-6, particle_density=8900, target_density=7850,
     ...        beta=5, flow_stress=700e6).target_resistance
@@ -41,8 +42,16 @@ class Impact:
             value = getattr(self, field.name)
             if value is not None:
                 object.__setattr__(self, field.name, _checked(field.name, value))
+        if self.target_resistance == 0:
+            raise ValueError("target resistance is 0.0: nothing would bring the particle to rest")
         _checked("target resistance", self.target_resistance)
         _checked("particle mass", self.mass)
+        pressure = 0.5 * self.target_density * self.velocity * self.velocity
+        _checked("dynamic pressure", pressure)
+        _checked("dynamic pressure over target resistance", pressure / self.target_resistance)
+        _checked(
+            "particle density over target density", self.particle_density / self.target_density
+        )
 
     def _require_one_resistance(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)

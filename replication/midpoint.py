@@ -1,5 +1,9 @@
 """The report's Excel sheet, row by row (appendix, Eqs. A-1 to A-3; both branches of Eq. 13).
 
+Two variants: "published" takes a row's deceleration at the row's middle depth but at its *initial*
+velocity, which makes the scheme first order for all its name; "centered" takes it at the middle
+velocity too, predicted by half a step, and is second order.
+
 The order of every operation is part of the result: the workbook's formulas use the same one, so
 that both give the same double in every cell. Products of three are written out (`x * x`, never a
 power), and a row's time is `k * dt`, not a running sum.
@@ -10,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from replication import closed_form
 from replication.impact import Impact
 
 if TYPE_CHECKING:
@@ -17,7 +22,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     import pandas as pd
 
-__all__ = ["MAX_STEPS", "Row", "Sheet", "run"]
+__all__ = ["MAX_STEPS", "SCHEMES", "Row", "Sheet", "run"]
+
+SCHEMES = ("published", "centered")
 
 MAX_STEPS = 1_000_000
 """More steps than this do not fit an Excel worksheet (1,048,576 rows) with its head."""
@@ -43,6 +50,7 @@ class Sheet:
 
     impact: Impact
     rows: tuple[Row, ...]
+    scheme: str = "published"
 
     @property
     def steps(self) -> int:
@@ -58,6 +66,26 @@ class Sheet:
     def normalized_depth(self) -> float:
         """X/R [1]."""
         return self.final_depth / self.impact.radius
+
+    @property
+    def warnings(self) -> list[str]:
+        """Signs that the step is too long for the motion, each with by how much."""
+        last, impact = self.rows[-1], self.impact
+        found = []
+        if last.velocity_final is not None and last.velocity_final < -impact.stop_velocity:
+            share = 100 * -last.velocity_final / impact.velocity
+            found.append(
+                f"the last step reverses the velocity to {last.velocity_final:.4g} m/s, "
+                f"{share:.2g} % of the impact velocity"
+            )
+        rest = _rest_depth(impact)
+        # The report prints three digits; half a unit of the third is at least 5e-4.
+        if last.depth > rest * (1 + 5e-4):
+            found.append(
+                f"the depth exceeds that of the exact solution at rest, {rest:.6g} m, "
+                f"by {100 * (last.depth / rest - 1):.3g} %"
+            )
+        return found
 
     def arrays(self) -> "dict[str, npt.NDArray[np.float64]]":
         """The columns, each of shape (steps + 1,), float64; the blank of row 0 is NaN."""
@@ -76,33 +104,67 @@ class Sheet:
         return pd.DataFrame(self.arrays()).rename_axis("row")
 
 
-def run(impact: Impact) -> Sheet:
+def run(impact: Impact, scheme: str = "published") -> Sheet:
     """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
 
-    Raises ValueError when more than `MAX_STEPS` rows would be needed.
+    `scheme` is one of `SCHEMES`. Raises ValueError when more than `MAX_STEPS` rows would be needed,
+    found before the first is computed from the exact time to rest.
 
     >>> from replication.impact import BETA_5
     >>> sheet = run(BETA_5)
     >>> sheet.steps, f"{sheet.final_depth * 1e6:.2f}"
     (131, '7.67')
     """
-    return Sheet(impact, tuple(_rows(impact)))
+    if scheme not in SCHEMES:
+        raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
+    _refuse_too_many_steps(impact)
+    return Sheet(impact, tuple(_rows(impact, scheme == "centered")), scheme)
 
 
-def _rows(impact: Impact) -> Iterator[Row]:
+def _refuse_too_many_steps(impact: Impact) -> None:
+    if impact.velocity < impact.stop_velocity:
+        return
+    steps = (
+        closed_form.stop_time(
+            impact.velocity,
+            impact.radius,
+            impact.particle_density,
+            impact.target_density,
+            impact.target_resistance,
+        )
+        / impact.step
+    )
+    if not steps <= MAX_STEPS:
+        raise ValueError(
+            f"the sheet would take about {steps:.4g} steps of {impact.step!r} s until rest, more "
+            f"than {MAX_STEPS:,}: take a larger step"
+        )
+
+
+def _rest_depth(impact: Impact) -> float:
+    return float(
+        closed_form.final_depth(
+            impact.velocity,
+            impact.radius,
+            impact.particle_density,
+            impact.target_density,
+            impact.target_resistance,
+        )
+    )
+
+
+def _rows(impact: Impact, centered: bool) -> Iterator[Row]:
     dt, v_stop = impact.step, impact.stop_velocity
     x, v = 0.0, impact.velocity
     yield Row(0.0, v, 0.0, 0.0, None)
     k = 0
     while v >= v_stop:
         k += 1
-        if k > MAX_STEPS:
-            raise ValueError(
-                f"the sheet needs more than {MAX_STEPS:,} steps of {dt!r} s: take a larger step"
-            )
         # The half step to start: x is half a step behind the velocity that closes the row.
         x = v * (dt / 2) if k == 1 else x + v * dt
         a = deceleration(impact, x, v)
+        if centered:
+            a = deceleration(impact, x, v - a * (dt / 2))
         v_final = v - a * dt
         yield Row(k * dt, v, x, a, v_final)
         v = v_final

@@ -1,9 +1,10 @@
 """Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
 
+from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
-__all__ = ["number", "outward", "with_unit"]
+__all__ = ["aligned", "inward", "number", "outward", "with_unit"]
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -37,7 +38,27 @@ def outward(low: Fraction, high: Fraction, digits: int = 6) -> str:
     return f"[{_rounded(low, digits, ROUND_FLOOR)}, {_rounded(high, digits, ROUND_CEILING)}]"
 
 
+def inward(low: Fraction, high: Fraction, digits: int = 6) -> str:
+    """An interval shortened to some significant digits, never made wider.
+
+    >>> inward(Fraction(1, 3), Fraction(2, 3), 3)
+    '[0.334, 0.666]'
+    """
+    return f"[{_rounded(low, digits, ROUND_CEILING)}, {_rounded(high, digits, ROUND_FLOOR)}]"
+
+
 def _rounded(value: Fraction, digits: int, rounding: str) -> str:
     context = Context(prec=digits, rounding=rounding)
     shortened = context.divide(Decimal(value.numerator), Decimal(value.denominator))
     return f"{float(shortened):.{digits}g}"
+
+
+def aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """Rows of texts as lines, each column as wide as its widest text.
+
+    >>> aligned([("a", "bc"), ("def", "g")])
+    ['a    bc', 'def  g']
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    padded = (zip(row, widths, strict=True) for row in rows)
+    return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]

@@ -4,7 +4,6 @@ The same plan and values give the same bytes wherever and whenever they are writ
 """
 
 import math
-import os
 from collections.abc import Mapping
 from datetime import datetime
 from io import BytesIO
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
+from spreadsheets.safely import write_bytes
 from spreadsheets.styles import STYLES
 
 __all__ = ["cell_values", "to_bytes", "write"]
@@ -37,13 +37,7 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
 
 def write(path: Path, plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
     """Write the workbook to `path`, whole or not at all. Raises as `cell_values` does."""
-    content = to_bytes(plan, values)
-    draft = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        draft.write_bytes(content)
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
+    write_bytes(path, to_bytes(plan, values))
 
 
 def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:

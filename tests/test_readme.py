@@ -14,7 +14,9 @@ README = (ROOT / "README.md").read_text("utf-8")
 EXAMPLES = [
     (command, output)
     for block in re.findall(r"```console\n(.*?)```", README, re.DOTALL)
-    for command, output in re.findall(r"^\$ coldspray (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE)
+    for command, output in re.findall(
+        r"^\$ coldspray (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE
+    )
 ]
 
 

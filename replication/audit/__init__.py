@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 
 from reference import ledger as ledgers
 from reference.ledger import Ledger
 from replication import workbook
 from replication.audit.findings import Finding, findings
 from replication.audit.verdict import Assessment, Verdict, assess
+from spreadsheets.plan import Cell
 
 __all__ = ["Audit", "Verdict", "assess_claim", "audit"]
 
@@ -25,6 +27,12 @@ class Audit:
         """How many claims got each verdict."""
         verdicts = [assessment.verdict for assessment in self.assessments.values()]
         return {verdict.value: verdicts.count(verdict) for verdict in Verdict}
+
+    @property
+    def reproduced_kinds(self) -> dict[str, int]:
+        """How many reproduced claims are computed, merely repeat another, or are blank cells."""
+        kinds = [_kind(assessment) for assessment in self.with_verdict(Verdict.REPRODUCED)]
+        return {kind: kinds.count(kind) for kind in ("computed", "restated", "blank cells")}
 
     def with_verdict(self, verdict: Verdict) -> list[Assessment]:
         """The claims that got this verdict."""
@@ -47,7 +55,18 @@ def assess_claim(ledger: Ledger, name: str) -> Assessment:
     return assess(ledger, ledger.claims[name], _cell_is_blank)
 
 
+def _kind(assessment: Assessment) -> str:
+    if assessment.reading is None:
+        return "blank cells"
+    restates = assessment.reading.computation.name in ("same_as", "count")
+    return "restated" if restates else "computed"
+
+
 def _cell_is_blank(address: str) -> bool:
-    table = next(sheet for sheet in workbook.build()[0].sheets if sheet.name == "Table A-1")
-    cell = table.cells.get(address)
+    cell = _table_cells().get(address)
     return cell is None or not (cell.text.strip() or cell.key)
+
+
+@cache
+def _table_cells() -> Mapping[str, Cell]:
+    return next(s.cells for s in workbook.build()[0].sheets if s.name == "Table A-1")

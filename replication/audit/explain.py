@@ -4,10 +4,9 @@ from fractions import Fraction
 
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval
-from reference.units import to_si
-from replication.audit.inference import infer
+from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading, Verdict
-from replication.text import number, outward, with_unit
+from replication.text import inward, number, outward, with_unit
 
 __all__ = ["assumptions", "explanation"]
 
@@ -17,7 +16,7 @@ def explanation(ledger: Ledger, assessment: Assessment) -> str:
     claim, reading = assessment.claim, assessment.reading
     if claim.kind == "blank":
         leaves = "leaves" if assessment.verdict is Verdict.REPRODUCED else "does not leave"
-        return f"The re-run sheet {leaves} this cell blank too."
+        return f"Our copy of the table {leaves} this cell blank, too."
     if reading is None:
         return f"Not decided by the report: {claim.given}."
     sentences = [_value(claim, reading), *_reason(claim, reading)]
@@ -29,6 +28,8 @@ def explanation(ledger: Ledger, assessment: Assessment) -> str:
 
 def _value(claim: Claim, reading: Reading) -> str:
     what = _capital(reading.computation.summary)
+    if reading.computation.name == "same_as":
+        what += f" ({claim.inputs['value'][0]})"
     inside = reading.verdict is Verdict.REPRODUCED
     value = with_unit(number(reading.computed), claim.unit)
     assert claim.interval is not None
@@ -52,10 +53,7 @@ def _reason(claim: Claim, reading: Reading) -> list[str]:
 def _reproduced(claim: Claim, reading: Reading) -> list[str]:
     if not _inferred(claim):
         return []
-    admitted = outward(*reading.enclosure)
-    if reading.robust:
-        return [f"So for every admitted target density: {admitted}."]
-    return [f"But not for every admitted target density, which gives {admitted}."]
+    return [f"So for every admitted target density: {outward(*reading.enclosure)}."]
 
 
 def _within(reading: Reading) -> list[str]:
@@ -67,16 +65,21 @@ def _within(reading: Reading) -> list[str]:
 def _not_reproduced(claim: Claim, reading: Reading) -> list[str]:
     low, high = reading.enclosure
     if low == high:
-        return ["It rests on no rounded input: no input can change it."]
+        return ["No rounded input enters, so none could change it."]
     assert claim.interval is not None
-    inputs = "all inputs that print like the report's"
+    inputs = "all inputs that print like the report's and every possible target density"
     if claim.as_printed_inputs:
         inputs = "every admitted target density"
     side = _side(claim.interval, reading.enclosure)
     proof = f"Proven for {inputs}: it lies in {outward(low, high)}, {side}."
     if reading.loose:
-        proof += " Only with trailing zeros of the inputs taken as insignificant could it agree."
+        proof += f" {_LOOSE}"
     return [proof]
+
+
+_LOOSE = (
+    "It could agree only if inputs such as 500 m/s were themselves rounded to their first digits."
+)
 
 
 def _side(interval: Interval, enclosure: tuple[Fraction, Fraction]) -> str:
@@ -89,13 +92,11 @@ def _side(interval: Interval, enclosure: tuple[Fraction, Fraction]) -> str:
 
 
 def _other(claim: Claim, other: Reading) -> str:
-    value = with_unit(number(other.computed), claim.unit)
-    ends = outward(*other.enclosure)
-    text = f"As {other.name} it is {value} (for inputs that print alike {ends}): "
-    text += other.verdict.value
-    if other.loose:
-        text += ", unless trailing zeros of the inputs are insignificant"
-    return text + "."
+    shown = with_unit(number(other.computed), claim.unit)
+    text = f"Read as {other.name}: {shown}, {other.verdict.value}"
+    if other.verdict is not Verdict.REPRODUCED and other.enclosure[0] != other.enclosure[1]:
+        text += f" (for inputs that print like the report's {outward(*other.enclosure)})"
+    return f"{text}. {_LOOSE}" if other.loose else f"{text}."
 
 
 def _capital(text: str) -> str:
@@ -114,20 +115,20 @@ def _evidence(ledger: Ledger) -> set[str]:
 def assumptions(ledger: Ledger, assessment: Assessment) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     claim = assessment.claim
-    assumed = []
-    for name in _inferred(claim):
-        inference = infer(ledger, name)
-        entry, inner = inference.entry, inference.inner
-        assert inner.lower is not None
-        assert inner.upper is not None
-        si = to_si(entry.unit)
-        # Inwards would be safe for a claim of admission; outwards is for reading.
-        ends = outward(inner.lower / si, inner.upper / si)
-        value = with_unit(number(entry.nominal), entry.unit)
-        assumed.append(f"{entry.title} {value}, inferred from Table A-1, which admits {ends}")
+    assumed = [_density(infer(ledger, name)) for name in _inferred(claim)]
     if claim.as_printed_inputs:
-        assumed.append("both runs take the printed inputs as exact")
+        assumed.append("the inputs exactly as printed, as the same sheet is run twice")
+        assumed.append("significant is what changes a printed digit; the report gives no criterion")
     return assumed + _digits(assessment)
+
+
+def _density(inference: Inference) -> str:
+    entry, inner = inference.entry, inference.inner
+    assert inner.lower is not None
+    assert inner.upper is not None
+    nominal = with_unit(number(entry.nominal), entry.unit)
+    admitted = inward(inner.lower, inner.upper)
+    return f"{entry.title} {nominal}, inferred: Table A-1 as printed admits {admitted}"
 
 
 def _digits(assessment: Assessment) -> list[str]:

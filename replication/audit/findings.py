@@ -7,9 +7,10 @@ from reference.enclosure import explore
 from reference.exact import Arithmetic, Number
 from reference.ledger import Ledger
 from reference.printed import Interval
+from replication.audit.entries import rounding
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment
-from replication.text import number, outward
+from replication.text import inward, number, outward
 
 __all__ = ["Finding", "findings"]
 
@@ -45,11 +46,13 @@ def _equation_16(assessments: dict[str, Assessment]) -> Finding:
         kind="formula",
         claims=("eq16-denominator", "frank-zook-rha", "frank-zook-stainless"),
         evidence=(
-            f"As printed it gives {number(armor.reading.computed, 4)} and "
-            f"{number(stainless.reading.computed, 4)} for 0.278 and 0.297. Solved from Eqs. 14 "
-            f"and 15, X/R is twice that, {number(armor.others[0].computed, 4)} and "
-            f"{number(stainless.others[0].computed, 4)}: the 2 before k_t belongs to X/D. So the "
-            f"printed values stem from the derived form or another, not from Eq. 16 as printed."
+            f"With the work done on the way in, Eqs. 14 and 15 give X = (L rho_p + k_1 rho_t D) "
+            f"ln(1 + k_t rho_t V^2 / R_t) / (2 k_t rho_t). Divided by D this is the right side of "
+            f"Eq. 16; divided by R, as its left side says, it is twice that. As printed it gives "
+            f"{number(armor.reading.computed, 4)} and {number(stainless.reading.computed, 4)}, as "
+            f"derived {number(armor.others[0].computed, 4)} and "
+            f"{number(stainless.others[0].computed, 4)}, for 0.278 and 0.297: neither form gives "
+            f"0.278, and only the derived one comes near 0.297."
         ),
     )
 
@@ -68,9 +71,9 @@ def _frank_zook_pair(ledger: Ledger) -> Finding:
     printed = _ratio(lower.interval, upper.interval)
     inputs = {"armor": "fz-resistance-rha", "stainless": "fz-resistance-stainless",
               "k_t": "fz-kt", "velocity": "a1-initial-velocity"}  # fmt: skip
-    intervals = {key: ledger.claims[name].as_input() for key, name in inputs.items()}
-    intervals["target_density"] = infer(ledger, "target-density").outer
-    found = explore(_log_ratio, {k: _ends(v) for k, v in intervals.items()}, printed)
+    box = {key: rounding(ledger, name) for key, name in inputs.items()}
+    box["target_density"] = _ends(infer(ledger, "target-density").possible)
+    found = explore(_log_ratio, box, printed)
     outcome = "no one set of inputs gives both" if found.never else "one set can give both"
     return Finding(
         id="frank-zook-pair",
@@ -80,7 +83,8 @@ def _frank_zook_pair(ledger: Ledger) -> Finding:
         evidence=(
             f"Between the two only R_t changes, so everything in Eq. 16 but the logarithm cancels "
             f"from their ratio, the left side and any constant factor too. The printed pair has "
-            f"the ratio {outward(*_ends(printed))}; inputs that print like the report's give "
+            f"the ratio {outward(*_ends(printed))}; inputs that print like the report's, "
+            f"with any possible target density, give "
             f"{outward(found.lower, found.upper)}: {outcome}."
         ),
     )
@@ -101,49 +105,49 @@ def _ends(interval: Interval) -> tuple[Fraction, Fraction]:
 
 def _target_density(inference: Inference) -> Finding:
     entry = inference.entry
-    listed = {
-        admits: [f"{name} {number(value)}" for name, (value, a) in inference.handbook.items()
-                 if a is admits]
-        for admits in (True, False)
-    }  # fmt: skip
-    low, high = _ends(inference.inner)
+    words: dict[str, list[str]] = {verdict: [] for _, verdict in inference.handbook.values()}
+    for name, (printed, verdict) in inference.handbook.items():
+        words[verdict].append(f"{name} ({number(printed.value)})")
+    listed = ". ".join(f"{verdict.capitalize()}: {', '.join(n)}" for verdict, n in words.items())
     return Finding(
         id="target-density",
-        title="The target density is printed nowhere; Table A-1 excludes that of 304 stainless",
+        title="The target density is printed nowhere; Table A-1 fits plain steel best",
         kind="unstated input",
         claims=entry.evidence,
         evidence=(
-            f"With the header of Table A-1 as printed, its accelerations and velocities admit "
-            f"{number(low, 8)} to {number(high, 8)} {entry.unit} and nothing else. Inside: "
-            f"{'; '.join(listed[True])}. Outside: {'; '.join(listed[False])}. The audit computes "
-            f"with {number(entry.nominal)} and checks that no verdict depends on the choice."
+            f"With the header of Table A-1 exactly as printed, its accelerations and velocities "
+            f"admit {inward(*_ends(inference.inner), 8)} {entry.unit} (with the printed mass in "
+            f"place of the computed one {inward(*_ends(inference.with_mass), 8)}), and "
+            f"{inward(*_ends(inference.with_results), 8)} serves both final depths as well. If "
+            f"radius, particle density and resistance may be anything that prints like the header, "
+            f"every density outside {outward(*_ends(inference.possible))} is excluded, and some "
+            f"from {inward(*_ends(inference.attained))} are attained. {listed}. The audit computes "
+            f"with {number(entry.nominal)}; no verdict holds for that choice only."
         ),
     )
 
 
 def _coarse_step(assessments: dict[str, Assessment]) -> Finding:
-    (change_3, before_3, after_3), (change_5, before_5, after_5) = (
-        _depths(assessments, beta) for beta in (3, 5)
-    )
+    (before_3, after_3), (before_5, after_5) = (_depths(assessments, beta) for beta in (3, 5))
     return Finding(
         id="coarse-step",
-        title="At 0.5 ns the final depth prints differently in its third digit",
+        title="At 0.5 ns one of the two final depths prints differently",
         kind="method",
         claims=("coarse-step-beta-3", "coarse-step-beta-5", "depth-beta-3", "depth-beta-5"),
         evidence=(
-            f"From 0.2 to 0.5 ns the final depth changes by {number(change_3, 3)} um for beta = 3, "
-            f"from {before_3:.1f} to {after_3:.1f} as printed, and by {number(change_5, 3)} um "
-            f"({100 * change_5 / before_5:.2f} %) for beta = 5, from {before_5:.2f} to "
-            f"{after_5:.2f}. Both agree to two digits; whether the change is significant depends "
-            f"on the third, which is printed."
+            f"From 0.2 to 0.5 ns the depth changes by {100 * (after_3 / before_3 - 1):.2f} % for "
+            f"beta = 3, from {before_3:.1f} to {after_3:.1f} um as printed, and by "
+            f"{100 * (after_5 / before_5 - 1):.2f} % for beta = 5, from {before_5:.2f} to "
+            f"{after_5:.2f} um. The report does not say what it calls significant; a printed digit "
+            f"changes only for beta = 5."
         ),
     )
 
 
-def _depths(assessments: dict[str, Assessment], beta: int) -> tuple[float, float, float]:
-    """Change of the final depth, and the depth at the published and at the coarse step [um]."""
-    change = assessments[f"coarse-step-beta-{beta}"].reading
-    depth = assessments[f"depth-beta-{beta}"].reading
-    assert change is not None
-    assert depth is not None
-    return change.computed, depth.computed, depth.computed + change.computed
+def _depths(assessments: dict[str, Assessment], beta: int) -> tuple[float, float]:
+    """Final depth at the published and at the coarse step [um]."""
+    published = assessments[f"depth-beta-{beta}"].reading
+    coarse = assessments[f"coarse-step-beta-{beta}"].reading
+    assert published is not None
+    assert coarse is not None
+    return published.computed, coarse.computed

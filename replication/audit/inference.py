@@ -5,71 +5,102 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
-from reference.enclosure import admitted
+from reference.enclosure import Box, Constraint, admitted, extent
 from reference.ledger import Inferred, Ledger
-from reference.printed import Interval
-from reference.units import to_si
+from reference.printed import Interval, Printed
+from replication.audit.entries import function_of, rounding, value
 
 __all__ = ["Inference", "infer"]
 
 
 @dataclass(frozen=True, slots=True)
 class Inference:
-    """The values of an input that reproduce all of its evidence, other inputs as printed.
+    """The values of an input that reproduce all of its evidence (SI units).
 
-    `inner`: each of these values is proven to; `outer`: no value outside does. SI units.
+    With the other inputs exactly as printed: each value of `inner` is proven to, none outside
+    `outer` does. `with_mass`: the same where the particle mass is the printed one. `with_results`:
+    the values that serve the evidence and both final depths at once. With the other inputs anywhere
+    within their rounding, and the printed mass and diameter as evidence, too: `attained` is the
+    hull of values that were found, `possible` holds all that there are.
     """
 
     entry: Inferred
     inner: Interval
     outer: Interval
+    with_mass: Interval
+    with_results: Interval
+    attained: Interval
+    possible: Interval
 
     @property
-    def handbook(self) -> Mapping[str, tuple[Fraction, bool | None]]:
-        """Handbook values, and whether the evidence admits each (None: within the resolution)."""
-        return {name: (value, self._admits(value)) for name, value in self.entry.handbook.items()}
+    def handbook(self) -> Mapping[str, tuple[Printed, str]]:
+        """Handbook values, and what the evidence says of each, a rounded number itself."""
+        return {name: (v, self._verdict(v.interval())) for name, v in self.entry.handbook.items()}
 
-    def _admits(self, value: Fraction) -> bool | None:
-        if self.inner.contains(value):
-            return True
-        return None if self.outer.contains(value) else False
+    def _verdict(self, handbook: Interval) -> str:
+        if _overlap(handbook, self.inner):
+            return "admitted"
+        if _overlap(handbook, self.attained):
+            return "admitted only if the other inputs are rounded"
+        return "undecided" if _overlap(handbook, self.possible) else "excluded"
+
+
+def _overlap(one: Interval, other: Interval) -> bool:
+    assert one.lower is not None
+    assert one.upper is not None
+    return not other.excludes(one.lower, one.upper)
 
 
 @cache
 def infer(ledger: Ledger, name: str) -> Inference:
-    """Infer one input from its evidence, by proof (see `reference.enclosure.admitted`).
+    """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
     Raises ValueError if the nominal value of the ledger is not admitted.
     """
     entry = ledger.inferred[name]
-    claims = [ledger.claims[evidence] for evidence in entry.evidence]
-    constraints = []
-    inputs: dict[str, tuple[Fraction, Fraction]] = {}
-    for claim in claims:
-        assert claim.interval is not None
-        constraints.append((claim.functions[""], claim.interval.scaled(claim.si)))
-        for parameter, names in claim.inputs.items():
-            value = nominal(ledger, names)
-            inputs[parameter] = (value, value)
-    inner, outer = admitted(constraints, entry.parameter, entry.search, inputs, entry.resolution)
+    unknown = f"inferred:{name}"
+
+    def constraints(
+        claims: tuple[str, ...], free: frozenset[str], **fixed: Fraction
+    ) -> list[Constraint]:
+        found = []
+        for claim in (ledger.claims[claim] for claim in claims):
+            assert claim.interval is not None
+            function = function_of(ledger, claim, claim.functions[""], free, **fixed)
+            found.append((function, claim.interval.scaled(claim.si)))
+        return found
+
+    def single(claims: tuple[str, ...], **fixed: Fraction) -> tuple[Interval, Interval]:
+        alone = constraints(claims, frozenset({unknown}), **fixed)
+        return admitted(alone, unknown, entry.search, entry.resolution)
+
+    inner, outer = single(entry.evidence)
     if not inner.contains(entry.nominal):
         raise ValueError(f"the evidence does not admit {entry.title} {entry.nominal}: {inner}")
-    return Inference(entry, inner, outer)
+    rounded = _rounded_inputs(ledger, entry)
+    free = frozenset({*rounded, unknown})
+    box: Box = {**rounded, unknown: entry.search}
+    joint = constraints((*entry.header, *entry.evidence), free)
+    attained, possible = extent(joint, unknown, box, entry.nominal, tolerance=Fraction(1))
+    return Inference(
+        entry=entry,
+        inner=inner,
+        outer=outer,
+        with_mass=single(entry.evidence, mass=value(ledger, entry.mass))[0],
+        with_results=single((*entry.evidence, *entry.results))[0],
+        attained=attained,
+        possible=possible,
+    )
 
 
-def nominal(ledger: Ledger, names: tuple[str, ...]) -> Fraction:
-    """The product of the named entries' values as printed, in SI."""
-    product = Fraction(1)
-    for name in names:
-        product *= _value(ledger, name)
-    return product
-
-
-def _value(ledger: Ledger, name: str) -> Fraction:
-    kind, _, inferred = name.partition(":")
-    if inferred:
-        entry = ledger.inferred[inferred]
-        return entry.nominal * to_si(entry.unit)
-    claim = ledger.claims[kind]
-    assert claim.printed is not None
-    return claim.printed.value * claim.si
+def _rounded_inputs(ledger: Ledger, entry: Inferred) -> Box:
+    """The inputs that the evidence rests on and that may be other than printed."""
+    names = {
+        name
+        for claim in entry.evidence
+        for names in ledger.claims[claim].inputs.values()
+        for name in names
+        if not name.startswith("inferred:")
+    }
+    ends = {name: rounding(ledger, name) for name in sorted(names)}
+    return {name: (low, high) for name, (low, high) in ends.items() if low != high}

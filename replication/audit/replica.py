@@ -7,6 +7,8 @@ written separately and the audit compares them.
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from replication import frank_zook, midpoint, resistance, sphere, stream
 from replication.impact import Impact
 
@@ -61,12 +63,9 @@ def _betas(
     )
 
 
-_FZ_EXAMPLE = (2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0)
-_FZ_PRINTED = frank_zook.depth_as_printed(*_FZ_EXAMPLE)
-_FZ_DERIVED = frank_zook.depth_derived(*_FZ_EXAMPLE)
-
 REPLICA: dict[str, Callable[..., float]] = {
     "same_as": lambda value: value,
+    "ratio": lambda numerator, denominator: numerator / denominator,
     "half": lambda value: value / 2,
     "twice": lambda value: 2 * value,
     "count": lambda **values: float(len(values)),
@@ -79,7 +78,7 @@ REPLICA: dict[str, Callable[..., float]] = {
     "sphere_volume_power": lambda: math.log2(sphere.volume(2.0) / sphere.volume(1.0)),
     "contact_area_power": lambda: math.log2(_missing_area(0.25) / _missing_area(0.125)),
     "sphere_length_ratio": frank_zook.sphere_length_ratio,
-    "sphere_volume": lambda radius: sphere.volume(radius),
+    "sphere_volume": lambda diameter: sphere.volume(diameter / 2),
     "crater_normalized_depth": lambda volume_ratio: sphere.depth_from_volume_ratio(volume_ratio),
     "crater_depth": lambda volume_ratio, diameter: (
         sphere.depth_from_volume_ratio(volume_ratio) * diameter / 2
@@ -109,12 +108,13 @@ REPLICA: dict[str, Callable[..., float]] = {
     "sheet_depth": _depth,
     "sheet_normalized_depth": _normalized_depth,
     "sheet_over_observed": lambda observed, **inputs: _normalized_depth(**inputs) / observed,
-    "sheet_depth_change": lambda coarse_step, step, **inputs: (
-        _depth(step=coarse_step, **inputs) - _depth(step=step, **inputs)
+    "sheet_excess_over_observed": lambda observed, **inputs: (
+        _normalized_depth(**inputs) / observed - 1
     ),
     "frank_zook_as_printed": frank_zook.depth_as_printed,
     "frank_zook_derived": frank_zook.depth_derived,
-    "frank_zook_denominator": lambda: 2 * _FZ_PRINTED / _FZ_DERIVED,
+    "frank_zook_denominator": lambda: _frank_zook_multiple(2.0),
+    "frank_zook_denominator_for_diameters": lambda: _frank_zook_multiple(1.0),
     "frank_zook_offset": lambda: math.exp(frank_zook.depth_derived(2 / 3, 1, 1, 1, 1, 1, 0.0)),
 }
 
@@ -122,3 +122,21 @@ REPLICA: dict[str, Callable[..., float]] = {
 def _missing_area(x: float) -> float:
     """D x - a^2 of a unit sphere at depth x, from the contact circle's diameter."""
     return 2 * x - float(sphere.contact_diameter(x, 2.0)) ** 2 / 4
+
+
+def _frank_zook_multiple(per_diameter: float) -> float:
+    """The multiple of k_t that makes the right side of Eq. 16 the depth in D / per_diameter.
+
+    Against Eqs. 14 and 15 integrated numerically, dx = -L rho_p v dv / Y_p with the unsteady term
+    on the left side, in 20 Gauss points.
+    """
+    length, diameter, particle, target = 2 / 3, 1.0, 8900.0, 7850.0
+    k_1, k_t, strength, velocity = 0.557, 1.046, 9.13e9, 500.0
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    v = velocity * (1 + nodes) / 2
+    inertia = length * particle + k_1 * target * diameter
+    depth = velocity / 2 * np.sum(weights * inertia * v / (k_t * target * v * v + strength))
+    printed = frank_zook.depth_as_printed(
+        length / diameter, particle, target, k_1, k_t, strength, velocity
+    )
+    return float(2 * printed / (depth * per_diameter / diameter))

@@ -4,13 +4,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from math import prod
 
 from reference.computations import Computation
-from reference.enclosure import Exploration, Function, explore
+from reference.enclosure import Box, Exploration, Function, explore
 from reference.exact import Reals
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval
-from replication.audit.inference import infer, nominal
+from replication.audit.entries import function_of, rounding, value
+from replication.audit.inference import Inference, infer
 from replication.audit.replica import REPLICA
 
 __all__ = ["Assessment", "Reading", "Verdict", "assess"]
@@ -35,9 +37,8 @@ class Reading:
     `computed` is the replica's double at the inputs as printed, `reference` the same to 50 digits.
     `enclosure` is a proven range of the value: over all admitted values of the inferred inputs if
     the claim is reproduced, otherwise over all inputs that print like the report's. `witness`
-    holds inputs (SI) that reproduce the claim where those as printed do not; `loose` says, where
-    no inputs do, whether some would with every trailing zero taken as insignificant; `robust`
-    whether a reproduced claim is reproduced by every admitted value of the inferred inputs.
+    holds entries (SI) that reproduce the claim where the printed ones do not; `loose` says, where
+    none do, whether some would if no trailing zero were significant and no choice exact.
     """
 
     name: str
@@ -47,7 +48,6 @@ class Reading:
     reference: str
     enclosure: tuple[Fraction, Fraction]
     witness: dict[str, Fraction] | None = None
-    robust: bool | None = None
     loose: bool | None = None
 
 
@@ -62,11 +62,13 @@ class Assessment:
 
     @property
     def error_in_last_digit(self) -> float | None:
-        """Computed minus printed, in units of the last printed digit; None where there is none."""
-        printed = self.claim.printed
-        if self.reading is None or printed is None or printed.quantum == 0:
+        """Computed minus printed, in units of the last digit; None where no digit counts."""
+        claim = self.claim
+        printed = claim.printed
+        if self.reading is None or printed is None or claim.relation or printed.quantum == 0:
             return None
-        return float((Fraction(self.reading.computed) - printed.value) / printed.quantum)
+        quantum = printed.quanta[-1] if claim.kind == "approximation" else printed.quantum
+        return float((Fraction(self.reading.computed) - printed.value) / quantum)
 
 
 def assess(ledger: Ledger, claim: Claim, cell_is_blank: Callable[[str], bool]) -> Assessment:
@@ -96,64 +98,67 @@ class _Question:
         self.ledger, self.claim, self.name, self.function = ledger, claim, name, function
         self.computation = claim.readings.get(name, claim.computation)
         self.target = claim.interval.scaled(claim.si)
-        self.nominal = {key: nominal(ledger, names) for key, names in claim.inputs.items()}
-        self.point = {key: (value, value) for key, value in self.nominal.items()}
+        self.entries = sorted({entry for names in claim.inputs.values() for entry in names})
+        self.of_entries = function_of(ledger, claim, function, frozenset(self.entries))
+
+    def explore(self, box: Box) -> Exploration:
+        return explore(self.of_entries, box, self.target)
 
     def answer(self) -> Reading:
-        at_nominal = explore(self.function, self.point, self.target)
+        at_nominal = self.explore(self.as_printed())
         if at_nominal.always:
-            everywhere = explore(self.function, self.admitted(), self.target)
-            return self.reading(Verdict.REPRODUCED, everywhere, robust=everywhere.always)
+            everywhere = self.explore({**self.as_printed(), **self.inferred(_inner)})
+            if everywhere.always:
+                return self.reading(Verdict.REPRODUCED, everywhere)
+            # Only some admitted values do: the printed evidence does not tell which is meant.
+            return self.reading(Verdict.WITHIN_ROUNDING, everywhere, witness=at_nominal.inside)
         if not at_nominal.never:
             return self.reading(Verdict.UNDECIDED, at_nominal)
         return self.search()
 
     def search(self) -> Reading:
         """The inputs as printed do not give the number: do any that print like them?"""
-        found = explore(self.function, self.box(), self.target)
+        # With other inputs rounded, the inferred ones may be what is attained, or possible, at all.
+        some, all_of_them = (_attained, _possible)
+        if self.claim.as_printed_inputs:
+            some, all_of_them = (_inner, _outer)
+        found = self.explore({**self.rounded(), **self.inferred(some)})
         if found.inside is not None:
             return self.reading(Verdict.WITHIN_ROUNDING, found, witness=found.inside)
-        widest = explore(self.function, self.box(outer=True), self.target)
-        if not widest.never:
-            return self.reading(Verdict.UNDECIDED, widest)
-        loose = explore(self.function, self.box(outer=True, loose=True), self.target)
-        return self.reading(Verdict.NOT_REPRODUCED, widest, loose=not loose.never)
+        widest = self.inferred(all_of_them)
+        found = self.explore({**self.rounded(), **widest})
+        if not found.never:
+            return self.reading(Verdict.UNDECIDED, found)
+        loosely = self.explore({**self.rounded(loose=True), **widest})
+        return self.reading(Verdict.NOT_REPRODUCED, found, loose=loosely.inside is not None)
 
-    def admitted(self) -> dict[str, tuple[Fraction, Fraction]]:
-        """Inputs as printed, with every admitted value of the inferred ones."""
-        return {key: self.range(key, as_printed=True) for key in self.point}
+    def as_printed(self) -> dict[str, tuple[Fraction, Fraction]]:
+        values = {name: value(self.ledger, name) for name in self.entries}
+        return {name: (number, number) for name, number in values.items()}
 
-    def box(self, outer: bool = False, loose: bool = False) -> dict[str, tuple[Fraction, Fraction]]:
-        """Every input that prints like the report's."""
-        as_printed = self.claim.as_printed_inputs
-        return {key: self.range(key, as_printed, outer, loose) for key in self.point}
+    def rounded(self, loose: bool = False) -> dict[str, tuple[Fraction, Fraction]]:
+        """Every printed entry that prints like the report's."""
+        if self.claim.as_printed_inputs:
+            return self.as_printed()
+        printed = (name for name in self.entries if not name.startswith("inferred:"))
+        return {name: rounding(self.ledger, name, loose) for name in printed}
 
-    def range(
-        self, key: str, as_printed: bool, outer: bool = False, loose: bool = False
-    ) -> tuple[Fraction, Fraction]:
-        low = high = Fraction(1)
-        for name in self.claim.inputs[key]:
-            ends = self.entry(name, outer, loose)
-            if as_printed and not name.startswith("inferred:"):
-                ends = Interval.point(nominal(self.ledger, (name,)))
-            assert ends.lower is not None
-            assert ends.upper is not None
-            low, high = low * ends.lower, high * ends.upper
-        return low, high
-
-    def entry(self, name: str, outer: bool, loose: bool) -> Interval:
-        _, _, inferred = name.partition("inferred:")
-        if not inferred:
-            return self.ledger.claims[name].as_input(loose)
-        inference = infer(self.ledger, inferred)
-        return inference.outer if outer else inference.inner
+    def inferred(self, which: Callable[[Inference], Interval]) -> Box:
+        ends = {}
+        for name in self.entries:
+            _, _, inferred = name.partition("inferred:")
+            if inferred:
+                interval = which(infer(self.ledger, inferred))
+                assert interval.lower is not None
+                assert interval.upper is not None
+                ends[name] = (interval.lower, interval.upper)
+        return ends
 
     def reading(
         self,
         verdict: Verdict,
         explored: Exploration,
         witness: dict[str, Fraction] | None = None,
-        robust: bool | None = None,
         loose: bool | None = None,
     ) -> Reading:
         si = self.claim.si
@@ -165,20 +170,38 @@ class _Question:
             reference=self.reference(),
             enclosure=(explored.lower / si, explored.upper / si),
             witness=witness,
-            robust=robust,
             loose=loose,
         )
 
     def replica(self) -> float:
         row = {} if self.claim.row is None else {"row": self.claim.row}
-        inputs = {key: float(value) for key, value in self.nominal.items()}
-        value = float(REPLICA[self.computation.name](**row, **inputs))
-        return float(Fraction(value) / self.claim.si)
+        inputs = {
+            key: float(prod(value(self.ledger, name) for name in names))
+            for key, names in self.claim.inputs.items()
+        }
+        result = float(REPLICA[self.computation.name](**row, **inputs))
+        return float(Fraction(result) / self.claim.si)
 
     def reference(self) -> str:
-        numbers = {key: _REALS.number(value) for key, value in self.nominal.items()}
-        value = self.function(_REALS, **numbers)
-        if isinstance(value, Fraction):
-            value = _REALS.number(value)
+        numbers = {name: _REALS.number(value(self.ledger, name)) for name in self.entries}
+        result = self.of_entries(_REALS, **numbers)
+        if isinstance(result, Fraction):
+            result = _REALS.number(result)
         digits = 25  # shown; computed to 50
-        return str(_REALS.context.nstr(value / _REALS.number(self.claim.si), digits))
+        return str(_REALS.context.nstr(result / _REALS.number(self.claim.si), digits))
+
+
+def _inner(inference: Inference) -> Interval:
+    return inference.inner
+
+
+def _outer(inference: Inference) -> Interval:
+    return inference.outer
+
+
+def _attained(inference: Inference) -> Interval:
+    return inference.attained
+
+
+def _possible(inference: Inference) -> Interval:
+    return inference.possible

@@ -9,6 +9,7 @@ from replication import workbook
 from replication.audit import Audit
 from replication.reports.markdown import markdown
 from replication.reports.plain import json_text, rows_csv
+from spreadsheets.safely import check_target
 
 __all__ = ["write_audit"]
 
@@ -19,21 +20,24 @@ def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> list[Path
     `record` is the audit as `reports.records.audit_record` gives it. The files are made beside the
     folder first and moved in when all are done. Raises OSError when the folder cannot be written.
     """
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(folder))
     texts = {
-        "audit.md": markdown(audit),
+        "audit.md": markdown(audit, record),
         "audit.json": json_text(record),
         "audit.csv": _claims_csv(record["claims"]),
     }
+    names = ["workbook.xlsx", *texts]
     existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not existing.is_dir():
+        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(existing))
+    if folder.is_dir():
+        for name in names:
+            check_target(folder / name)
     with tempfile.TemporaryDirectory(dir=existing, prefix=".coldspray-") as temporary:
         made = Path(temporary)
         for name, text in texts.items():
             (made / name).write_text(text, encoding="utf-8", newline="\n")
         workbook.write(made / "workbook.xlsx")
         folder.mkdir(parents=True, exist_ok=True)
-        names = ["workbook.xlsx", *texts]
         return [(made / name).replace(folder / name) for name in names]
 
 

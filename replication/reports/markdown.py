@@ -1,6 +1,7 @@
 """The audit as Markdown, for people who read it in a repository."""
 
 from collections.abc import Iterable
+from typing import Any
 
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
@@ -12,8 +13,11 @@ from replication.text import number, outward, with_unit
 __all__ = ["markdown"]
 
 
-def markdown(audit: Audit) -> str:
-    """The whole audit: summary, findings, inferred inputs, then every claim by section."""
+def markdown(audit: Audit, record: dict[str, Any]) -> str:
+    """The whole audit, `record` its numbers as `reports.records.audit_record` gives them.
+
+    Summary, findings, inferred inputs, failed claims, error budget, hard cases, then every claim.
+    """
     ledger = audit.ledger
     blocks = [
         f"# Audit of {ledger.author}, *{ledger.title}* ({ledger.year})",
@@ -21,12 +25,22 @@ def markdown(audit: Audit) -> str:
         "Computed values are those of the re-run sheet and formulas; a range in brackets is proven "
         "by interval arithmetic and rounded outwards.",
         _table(("verdict", "claims"), ((v, str(n)) for v, n in audit.summary.items())),
+        "Of the reproduced ones "
+        + ", ".join(f"{count} are {kind}" for kind, count in audit.reproduced_kinds.items())
+        + ".",
         "## Findings",
         *(_finding(finding) for finding in audit.findings),
         "## Inferred inputs",
         *(_inferred(audit, name) for name in ledger.inferred),
         "## Claims that are not plainly reproduced",
         *(_proof(audit, a) for a in audit.assessments.values() if _is_open(a)),
+        "## Where the error of the sheet comes from",
+        "Final depth of the sheet minus the exact depth at rest, and its parts [µm]; the parts are "
+        "computed each on its own and add up.",
+        _budgets(record["error_budget"]),
+        "## Hard cases",
+        "The sheet, the closed form (error in units of its last place) and the reference.",
+        _hard_cases(record["stability"]),
         "## Every claim",
         *_sections(audit),
     ]
@@ -50,13 +64,11 @@ def _claims(names: Iterable[str]) -> str:
 
 def _inferred(audit: Audit, name: str) -> str:
     inference = infer(audit.ledger, name)
-    words = {True: "admitted", False: "excluded", None: "undecided"}
-    rows = [(n, number(v, 8), words[a]) for n, (v, a) in inference.handbook.items()]
+    rows = [(n, p.text, verdict) for n, (p, verdict) in inference.handbook.items()]
     entry = inference.entry
     return (
-        f"{entry.title}, {number(entry.nominal)} {entry.unit} ({entry.nominal_source}); the "
-        f"evidence admits {inference.inner.lower and number(inference.inner.lower, 9)} to "
-        f"{inference.inner.upper and number(inference.inner.upper, 9)}: {_claims(entry.evidence)}."
+        f"{_capital(entry.title)}, {number(entry.nominal)} {entry.unit} ({entry.nominal_source}); "
+        f"evidence: {_claims(entry.evidence)}. How it was found is told under the finding above."
         "\n\n" + _table(("handbook value", entry.unit, "verdict"), rows)
     )
 
@@ -79,6 +91,42 @@ def _capital(text: str) -> str:
 def _text(assessment: Assessment) -> str:
     claim = assessment.claim
     return claim.text if claim.printed is None else with_unit(claim.text, claim.unit)
+
+
+_PARTS = ("total", "time_step", "stop_rule", "half_step", "rounding")
+
+
+def _budgets(budgets: list[dict[str, Any]]) -> str:
+    heads = ("beta", "step [ns]", "steps", *(part.replace("_", " ") for part in _PARTS))
+    rows = (
+        (
+            number(b["beta"]),
+            number(b["step"] * 1e9),
+            str(b["steps"]),
+            *(number(b[part] * 1e6, 4) for part in _PARTS),
+        )
+        for b in budgets
+    )
+    return _table(heads, rows)
+
+
+def _hard_cases(stability: dict[str, Any]) -> str:
+    heads = ("case", "sheet off by", "closed form [m]", "ulp", "remarks")
+    worst = stability["random"]
+    inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
+    return (
+        _table(heads, (_hard_case(case) for case in stability["cases"]))
+        + f"\n\nOver {worst['cases']} random cases the closed form is at worst "
+        f"{worst['ulps']:.2f} ulp off, at {inputs}."
+    )
+
+
+def _hard_case(case: dict[str, Any]) -> tuple[str, ...]:
+    off = "" if case["sheet_error"] is None else f"{100 * case['sheet_error']:+.3g} %"
+    depth = "" if case["closed_form"] is None else repr(case["closed_form"])
+    ulps = "" if case["ulps"] is None else f"{case['ulps']:+.2f}"
+    remarks = [r for r in (case["refused"], case["sheet_refused"], *case["warnings"]) if r]
+    return case["name"], off, depth, ulps, "; ".join(remarks)
 
 
 def _sections(audit: Audit) -> list[str]:

@@ -10,14 +10,19 @@ from typing import Any
 
 from reference.ledger import Claim, Inferred, Ledger
 from reference.printed import Interval
+from replication.analysis.stability import HARD_CASES, outcome, worst_of
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
+from replication.reports.numerics import budget_record, budget_sheets, stability_record
 
 __all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
 
 SCHEMA = "coldspray-audit-1"
+
+RANDOM_CASES = 10_000
+"""For the audit's files; `coldspray stability` runs ten times as many."""
 
 
 def audit_record(audit: Audit) -> dict[str, Any]:
@@ -27,6 +32,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "schema": SCHEMA,
         "report": {"title": ledger.title, "author": ledger.author, "year": ledger.year},
         "summary": audit.summary,
+        "reproduced": audit.reproduced_kinds,
         "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
         "findings": [
             {
@@ -39,6 +45,10 @@ def audit_record(audit: Audit) -> dict[str, Any]:
             for finding in audit.findings
         ],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
+        "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
+        "stability": stability_record(
+            [outcome(case) for case in HARD_CASES], worst_of(RANDOM_CASES, seed=1)
+        ),
         "provenance": _provenance(),
     }
 
@@ -114,10 +124,13 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
         "nominal": float(entry.nominal),
         "nominal_source": entry.nominal_source,
         "interval": _interval(inference.inner),
+        "interval_with_printed_mass": _interval(inference.with_mass),
+        "interval_with_results": _interval(inference.with_results),
+        "interval_with_rounded_inputs": _interval(inference.possible),
         "evidence": list(entry.evidence),
         "handbook": [
-            {"name": name, "value": float(value), "admitted": admitted}
-            for name, (value, admitted) in inference.handbook.items()
+            {"name": name, "value": float(printed.value), "verdict": verdict}
+            for name, (printed, verdict) in inference.handbook.items()
         ],
     }
 

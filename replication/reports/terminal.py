@@ -1,13 +1,12 @@
 """What `coldspray audit` and `coldspray claims` print for a person."""
 
-from collections.abc import Sequence
-from textwrap import fill
+from textwrap import fill, shorten
 
 from reference.ledger import Claim, Ledger
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.verdict import Assessment, Verdict
-from replication.text import number, with_unit
+from replication.text import aligned, number, with_unit
 
 __all__ = ["audit_summary", "claim_proof", "ledger_table"]
 
@@ -19,16 +18,15 @@ _HEADLINES = (
 
 def audit_summary(audit: Audit) -> str:
     """The audit on one screen: counts, the best-known numbers, all that fail, the findings."""
-    counts = [f"{count:5d} {verdict}" for verdict, count in audit.summary.items() if count]
-    blank = sum(a.claim.kind == "blank" for a in audit.assessments.values())
+    failed = audit.with_verdict(Verdict.NOT_REPRODUCED)
     shown = [audit.assessments[name] for name in _HEADLINES]
-    shown += audit.with_verdict(Verdict.NOT_REPRODUCED)
+    shown += failed
     lines = [
         f"{audit.ledger.author}, {audit.ledger.title} ({audit.ledger.year})",
-        f"{len(audit.assessments)} claims, {blank} of them blank cells of Table A-1",
-        *counts,
+        f"{len(audit.assessments)} claims",
+        *aligned([(f"{n:5d} {verdict}", note) for verdict, n, note in _counts(audit) if n]),
         "",
-        *_aligned([("", "printed", "computed", "verdict"), *map(_headline, shown)]),
+        *aligned([("", "printed", "computed", "verdict"), *map(_headline, shown)]),
         "",
         "Findings",
         *(f"  {finding.id}: {finding.title}" for finding in audit.findings),
@@ -36,17 +34,24 @@ def audit_summary(audit: Audit) -> str:
     return "\n".join(lines)
 
 
+def _counts(audit: Audit) -> list[tuple[str, int, str]]:
+    """Verdict, count, and for the reproduced ones what they amount to."""
+    kinds = audit.reproduced_kinds
+    note = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+    notes = {Verdict.REPRODUCED.value: f"({note})"}
+    return [(verdict, count, notes.get(verdict, "")) for verdict, count in audit.summary.items()]
+
+
 def _headline(assessment: Assessment) -> tuple[str, ...]:
     claim, reading = assessment.claim, assessment.reading
     computed = "" if reading is None else with_unit(number(reading.computed), claim.unit)
-    printed = with_unit(claim.text, claim.unit) if claim.printed else f"“{claim.text}”"
-    return claim.title, printed, computed, assessment.verdict.value
+    printed = shorten(_printed(claim), 16, placeholder="…")
+    return shorten(claim.title, 40, placeholder="…"), printed, computed, assessment.verdict.value
 
 
-def _aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    padded = (zip(row, widths, strict=True) for row in rows)
-    return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]
+def _printed(claim: Claim) -> str:
+    """The printed text with its unit, if it is a number."""
+    return with_unit(claim.text, claim.unit) if claim.printed else claim.text
 
 
 def claim_proof(ledger: Ledger, assessment: Assessment) -> str:
@@ -54,9 +59,9 @@ def claim_proof(ledger: Ledger, assessment: Assessment) -> str:
     claim, reading = assessment.claim, assessment.reading
     rows = [
         ("claim", f"{claim.id}: {claim.title} ({claim.kind})"),
-        ("where", f"{claim.place} (line {claim.place.line} of the text)"),
+        ("where", str(claim.place)),
         ("quote", claim.quote),
-        ("printed", with_unit(claim.text, claim.unit) or "(blank)"),
+        ("printed", _printed(claim) or "(blank)"),
         ("agrees", "" if claim.interval is None else with_unit(str(claim.interval), claim.unit)),
         ("rests on", ", ".join(f"{k} = {' * '.join(v)}" for k, v in claim.inputs.items())),
     ]
@@ -81,5 +86,5 @@ def _labeled(label: str, text: str) -> str:
 
 def ledger_table(claims: list[Claim]) -> str:
     """The ledger, one line a claim."""
-    rows = [(c.id, with_unit(c.text, c.unit), c.kind, str(c.place)) for c in claims]
-    return "\n".join(_aligned(rows))
+    rows = [(c.id, _printed(c), c.kind, str(c.place)) for c in claims]
+    return "\n".join(aligned(rows))

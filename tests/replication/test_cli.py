@@ -50,7 +50,7 @@ def test_sheet_prints_rows_as_text_csv_and_json(capsys: pytest.CaptureFixture[st
     text = run(capsys, "sheet")[1]
     assert re.search(r"^steps +131$", text, re.MULTILINE)
     record = json.loads(run(capsys, "sheet", "--json")[1])
-    assert list(record) == ["inputs", "rows", "final_depth", "normalized_depth", "steps"]
+    assert {"inputs", "rows", "final_depth", "normalized_depth", "steps"} <= set(record)
     names = ["time", "velocity_initial", "depth", "deceleration", "velocity_final"]
     assert all(list(row) == names for row in record["rows"])
     assert record["rows"][0]["velocity_final"] is None
@@ -114,7 +114,7 @@ WRONG = {
     "unknown command": (["dept"], "invalid choice: 'dept'"),
     "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
     "no command": ([], "required: COMMAND"),
-    "too many rows": (["sheet", "--step", "1e-18"], "more than 1,000,000 steps"),
+    "too many rows": (["sheet", "--step", "1e-18"], r"about 2\.608e\+10 steps"),
     "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
     "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
     "file for a folder": (["audit", "--out", "taken"], "taken: is a file"),

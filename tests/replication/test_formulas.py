@@ -32,7 +32,7 @@ def reference(name: str, **inputs: float) -> float:
 
 
 FORMULAS: dict[str, tuple[dict[str, Any], float]] = {
-    "sphere_volume": ({"radius": POSITIVE}, FEW_ROUNDINGS),
+    "sphere_volume": ({"diameter": POSITIVE}, FEW_ROUNDINGS),
     "particle_mass": ({"radius": POSITIVE, "particle_density": DENSITY}, FEW_ROUNDINGS),
     "crater_normalized_depth": ({"volume_ratio": st.floats(1e-12, 0.5)}, FEW_ROUNDINGS),
     "contact_diameter": (

@@ -25,7 +25,9 @@ def test_senseless_inputs_are_refused_by_name(name: str, value: float) -> None:
 
 
 def test_zero_resistance_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"resistance is 0\.0.*greater than zero"):
+    with pytest.raises(
+        ValueError, match=r"resistance is 0\.0: nothing would bring the particle to rest"
+    ):
         replace(BETA_5, beta=None, flow_stress=None, resistance=0.0)
 
 
@@ -52,7 +54,7 @@ def test_inputs_are_doubles_whatever_was_given() -> None:
     assert all(isinstance(value, float) for value in inputs_of(impact).values() if value)
 
 
-@given(st.floats(min_value=1e-300, max_value=1e300))
+@given(st.floats(min_value=1e-100, max_value=1e100))
 def test_plain_numbers_are_read_as_the_double_they_spell(value: float) -> None:
     assert read_case("beta-5", None, {"velocity": repr(value)}).velocity == value
 
