@@ -86,10 +86,14 @@ class Trajectory(_Motion):
 
     def velocity_at_depth(self, depth: Number) -> Number:
         """Velocity [m/s] at a depth [m], which must not exceed the final one."""
-        short = self._final - self.context.convert(depth) / self.radius
-        if short < 0:
+        return self.velocity * self._velocity(self._final * self._left(depth))
+
+    def _left(self, depth: Number) -> Number:
+        """The share of the final depth that is still ahead at a depth [m]."""
+        left = 1 - self.context.convert(depth) / self.final_depth
+        if left < -8 * self.context.eps:
             raise ValueError(f"the particle never gets to a depth of {depth} m")
-        return self.velocity * self._velocity(short)
+        return self.reals.positive_part(left)
 
     def depth_at_velocity(self, velocity: Number) -> Number:
         """Depth [m] at which the velocity has fallen to a value [m/s]; only its square counts."""
@@ -99,10 +103,7 @@ class Trajectory(_Motion):
 
     def time_to_depth(self, depth: Number) -> Number:
         """Time [s] to a depth [m], which must not exceed the final one."""
-        left = 1 - self.context.convert(depth) / self.final_depth
-        if left < 0:
-            raise ValueError(f"the particle never gets to a depth of {depth} m")
-        return self._time_from(self.context.sqrt(left))
+        return self._time_from(self.context.sqrt(self._left(depth)))
 
     def stop_time(self, stop_velocity: Number = 0) -> Number:
         """Time [s] until the velocity has fallen to the stop velocity [m/s], 0 for rest."""
@@ -132,8 +133,9 @@ class Trajectory(_Motion):
         time, whole = self.context.convert(time), self.stop_time()
         if time >= whole:
             return self.final_depth
-        ctx = self.context
-        s = ctx.findroot(lambda s: (self._time_from(abs(s)) - time) / whole, 1 - time / whole)
+        s = self.context.findroot(
+            lambda s: (self._time_from(s) - time) / whole, (0, 1), solver="anderson"
+        )
         return self.final_depth * (1 - s * s)
 
 

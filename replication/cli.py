@@ -193,10 +193,11 @@ def _print_json(record: Any) -> None:
 
 def _audit(options: argparse.Namespace) -> int:
     from replication.audit import Verdict, audit
-    from replication.reports.files import write_audit
+    from replication.reports.files import check_folder, write_audit
     from replication.reports.records import audit_record
     from replication.reports.terminal import audit_summary
 
+    check_folder(options.out)
     done = audit()
     record = audit_record(done)
     paths = write_audit(done, record, options.out)

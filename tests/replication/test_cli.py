@@ -5,24 +5,16 @@ import json
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from replication.cli import main
+Command = Callable[..., tuple[int, str, str]]
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    try:
-        status = main([str(argument) for argument in arguments])
-    except SystemExit as done:
-        status = int(str(done.code))
-    captured = capsys.readouterr()
-    return status, captured.out, captured.err
-
-
-def test_depth_prints_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(capsys, "depth", "--json")
+def test_depth_prints_the_promised_keys(coldspray: Command) -> None:
+    status, out, err = coldspray("depth", "--json")
     record = json.loads(out)
     assert (status, err) == (0, "")
     assert list(record) == ["inputs", "depth", "normalized_depth", "beyond_radius"]
@@ -30,49 +22,49 @@ def test_depth_prints_the_promised_keys(capsys: pytest.CaptureFixture[str]) -> N
     assert record["inputs"]["resistance"] == 3.5e9
 
 
-def test_depth_of_a_case_with_units(capsys: pytest.CaptureFixture[str]) -> None:
+def test_depth_of_a_case_with_units(coldspray: Command) -> None:
     arguments = ["--radius", "22 um", "--resistance", "98 ksi", "--velocity", "2 km/s", "--json"]
-    record = json.loads(run(capsys, "depth", *arguments)[1])
+    record = json.loads(coldspray("depth", *arguments)[1])
     assert record["beyond_radius"] is True
     assert record["inputs"]["radius"] == 22e-6
     assert record["inputs"]["beta"] is None
 
 
-def test_case_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_case_file(tmp_path: Path, coldspray: Command) -> None:
     file = tmp_path / "case.toml"
     file.write_text('[impact]\nvelocity = 450\nradius = "5.5 um"\nbeta = 3.0\n')
-    record = json.loads(run(capsys, "depth", "--case-file", file, "--velocity", "460", "--json")[1])
+    record = json.loads(coldspray("depth", "--case-file", file, "--velocity", "460", "--json")[1])
     inputs = record["inputs"]
     assert (inputs["velocity"], inputs["radius"], inputs["beta"]) == (460.0, 5.5e-6, 3.0)
 
 
-def test_sheet_prints_rows_as_text_csv_and_json(capsys: pytest.CaptureFixture[str]) -> None:
-    text = run(capsys, "sheet")[1]
+def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
+    text = coldspray("sheet")[1]
     assert re.search(r"^steps +131$", text, re.MULTILINE)
-    record = json.loads(run(capsys, "sheet", "--json")[1])
+    record = json.loads(coldspray("sheet", "--json")[1])
     assert {"inputs", "rows", "final_depth", "normalized_depth", "steps"} <= set(record)
     names = ["time", "velocity_initial", "depth", "deceleration", "velocity_final"]
     assert all(list(row) == names for row in record["rows"])
     assert record["rows"][0]["velocity_final"] is None
-    rows = list(csv.DictReader(run(capsys, "sheet", "--csv")[1].splitlines()))
+    rows = list(csv.DictReader(coldspray("sheet", "--csv")[1].splitlines()))
     assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
 
 
-def test_claims_are_listed_and_proven(capsys: pytest.CaptureFixture[str]) -> None:
-    listing = run(capsys, "claims")[1].splitlines()
-    records = json.loads(run(capsys, "claims", "--json")[1])
+def test_claims_are_listed_and_proven(coldspray: Command) -> None:
+    listing = coldspray("claims")[1].splitlines()
+    records = json.loads(coldspray("claims", "--json")[1])
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
-    proof = run(capsys, "claims", "frank-zook-rha")[1]
+    proof = coldspray("claims", "frank-zook-rha")[1]
     assert "not reproduced" in proof
     assert "0.127273" in proof
-    assert json.loads(run(capsys, "claims", "depth-beta-5", "--json")[1])["verdict"] == "reproduced"
+    assert json.loads(coldspray("claims", "depth-beta-5", "--json")[1])["verdict"] == "reproduced"
 
 
 def test_audit_writes_its_files_and_a_summary_of_one_screen(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, coldspray: Command
 ) -> None:
     folder = tmp_path / "new" / "out"
-    status, out, err = run(capsys, "audit", "--out", folder)
+    status, out, err = coldspray("audit", "--out", folder)
     assert (status, err) == (0, "")
     assert {"workbook.xlsx", "audit.md", "audit.json", "audit.csv"} <= names(folder)
     assert len(out.splitlines()) <= 40
@@ -83,21 +75,19 @@ def names(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
 
-def test_audit_exit_code_json_and_quiet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(capsys, "audit", "--out", tmp_path, "--exit-code", "--json")
+def test_audit_exit_code_json_and_quiet(tmp_path: Path, coldspray: Command) -> None:
+    status, out, _ = coldspray("audit", "--out", tmp_path, "--exit-code", "--json")
     assert status == 1
     assert json.loads(out) == json.loads((tmp_path / "audit.json").read_text("utf-8"))
-    assert run(capsys, "audit", "--out", tmp_path, "--quiet") == (0, "", "")
+    assert coldspray("audit", "--out", tmp_path, "--quiet") == (0, "", "")
 
 
-def test_workbook_of_the_report_and_of_a_case(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_workbook_of_the_report_and_of_a_case(tmp_path: Path, coldspray: Command) -> None:
     import openpyxl
 
     report, own = tmp_path / "report.xlsx", tmp_path / "own.xlsx"
-    assert run(capsys, "workbook", "-o", report)[0] == 0
-    assert run(capsys, "workbook", "-o", own, "--velocity", "600 m/s")[0] == 0
+    assert coldspray("workbook", "-o", report)[0] == 0
+    assert coldspray("workbook", "-o", own, "--velocity", "600 m/s")[0] == 0
     assert {"Sheet beta 3", "Sheet beta 5"} <= set(openpyxl.load_workbook(report).sheetnames)
     assert "Sheet" in openpyxl.load_workbook(own).sheetnames
 
@@ -127,12 +117,12 @@ def test_bad_input_gets_one_line_and_status_2(
     problem: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    coldspray: Command,
 ) -> None:
     arguments, message = WRONG[problem]
     monkeypatch.chdir(tmp_path)
     Path("taken").write_text("mine")
-    status, out, err = run(capsys, *arguments)
+    status, out, err = coldspray(*arguments)
     assert (status, out) == (2, "")
     assert len(err.splitlines()) == 1
     assert re.search(message, err)
@@ -152,22 +142,20 @@ BAD_FILES = {
 
 
 @pytest.mark.parametrize("problem", BAD_FILES)
-def test_bad_case_files_name_the_file(
-    problem: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_bad_case_files_name_the_file(problem: str, tmp_path: Path, coldspray: Command) -> None:
     text, message = BAD_FILES[problem]
     file = tmp_path / "case.toml"
     file.write_text(text)
-    status, out, err = run(capsys, "depth", "--case-file", file)
+    status, out, err = coldspray("depth", "--case-file", file)
     assert (status, out) == (2, "")
     assert re.search(rf"case\.toml.*{message}", err)
     assert len(err.splitlines()) == 1
 
 
-def test_a_binary_case_file_is_no_toml(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_binary_case_file_is_no_toml(tmp_path: Path, coldspray: Command) -> None:
     file = tmp_path / "case.toml"
     file.write_bytes(b"\xff\xfe\x00")
-    status, _, err = run(capsys, "depth", "--case-file", file)
+    status, _, err = coldspray("depth", "--case-file", file)
     assert status == 2
     assert "is no TOML file" in err
 
@@ -179,6 +167,6 @@ def test_a_closed_pipe_is_no_error() -> None:
     assert done.stderr == ""
 
 
-def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
-    assert re.fullmatch(r"coldspray \d+\.\d+\.\d+\n", run(capsys, "--version")[1])
-    assert "COMMAND" in run(capsys, "--help")[1]
+def test_version_and_help(coldspray: Command) -> None:
+    assert re.fullmatch(r"coldspray \d+\.\d+\.\d+\n", coldspray("--version")[1])
+    assert "COMMAND" in coldspray("--help")[1]

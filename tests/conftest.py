@@ -1,0 +1,22 @@
+"""What all tests share."""
+
+from collections.abc import Callable
+
+import pytest
+
+from replication.cli import main
+
+
+@pytest.fixture
+def coldspray(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
+    """Run the command in this process: status, standard output, standard error."""
+
+    def run(*arguments: object) -> tuple[int, str, str]:
+        try:
+            status = main([str(argument) for argument in arguments])
+        except SystemExit as done:
+            status = int(str(done.code))
+        captured = capsys.readouterr()
+        return status, captured.out, captured.err
+
+    return run

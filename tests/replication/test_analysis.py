@@ -1,0 +1,271 @@
+"""Error budget, convergence and hard cases."""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reference.trajectory import Trajectory
+from replication import closed_form
+from replication.analysis import convergence, stability
+from replication.analysis.budget import exact_motion, split
+from replication.impact import BETA_3, BETA_5, CASES, Impact
+from replication.midpoint import run
+
+Command = Callable[..., tuple[int, str, str]]
+
+PARTS = ("rounding", "half_step", "time_step", "stop_rule")
+
+SENSIBLE = st.builds(
+    Impact,
+    velocity=st.floats(10, 3000),
+    radius=st.floats(1e-7, 1e-3),
+    particle_density=st.floats(1000, 20000),
+    target_density=st.floats(1000, 20000),
+    resistance=st.floats(1e8, 1e11),
+    step=st.just(1.0),
+    stop_velocity=st.floats(0, 2),
+)
+
+
+def with_steps(impact: Impact, steps: float) -> Impact:
+    return replace(impact, step=float(exact_motion(impact).stop_time()) / steps)
+
+
+@given(SENSIBLE, st.floats(50, 500), st.sampled_from(["published", "centered"]))
+@settings(max_examples=60, deadline=None)
+def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: str) -> None:
+    budget = split(run(with_steps(impact, steps), scheme))
+    parts = [getattr(budget, part) for part in PARTS]
+    assert None not in parts
+    # Each part is rounded to a double once, and so is the total.
+    rounding = 2.0**-53 * (sum(map(abs, parts)) + abs(budget.total))
+    assert abs(math.fsum(parts) - budget.total) <= rounding
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("step", [2e-10, 5e-10])
+def test_the_reports_error_is_that_of_the_time_step(case: str, step: float) -> None:
+    budget = split(run(replace(CASES[case], step=step)))
+    assert budget.time_step == pytest.approx(budget.total, rel=0.05)
+    assert budget.total < 0, "the sheet is short of the exact depth"
+    assert abs(budget.rounding or 1) < 1e-18
+
+
+def test_without_a_row_all_the_depth_is_missing() -> None:
+    budget = split(run(replace(BETA_5, velocity=0.5)))
+    assert (budget.rounding, budget.half_step, budget.time_step) == (0, 0, 0)
+    assert budget.total == budget.stop_rule
+
+
+def test_a_velocity_that_no_motion_has_leaves_the_budget_undefined() -> None:
+    budget = split(run(replace(BETA_5, step=1e-7)))
+    assert [getattr(budget, part) for part in PARTS] == [None] * 4
+    assert budget.total > 0
+
+
+@pytest.mark.parametrize("scheme", convergence.ORDER)
+@pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
+def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
+    found = convergence.converge(impact, convergence.ladder(1e-10, 7), scheme)
+    assert found.levels[-1].time_step_order == pytest.approx(convergence.ORDER[scheme], abs=0.02)
+
+
+def test_without_drag_the_published_scheme_is_second_order() -> None:
+    """Why it is first order: only the drag depends on the velocity that it takes too early."""
+    dragless = replace(BETA_5, target_density=1e-6)
+    found = convergence.converge(dragless, convergence.ladder(1e-10, 6))
+    assert found.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
+
+
+def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
+    found = convergence.converge(BETA_5, convergence.ladder(2e-10, 9))
+    assert found.limit is not None
+    gci = found.levels[-1].gci
+    assert gci is not None
+    # The stop rule's jitter is of the size of one step's travel at the stop velocity.
+    jitter = 5 * found.levels[-1].step
+    assert abs(found.limit - found.exact_at_stop) <= gci * found.exact + jitter
+    assert found.exact_at_stop < found.exact
+
+
+def test_regimes_go_from_coarse_to_floor() -> None:
+    published = convergence.converge(BETA_5, convergence.ladder(2e-10, 7))
+    assert published.levels[0].regime == "not yet asymptotic"
+    assert published.levels[-1].regime == "asymptotic"
+    centered = convergence.converge(BETA_5, convergence.ladder(2e-10, 9), "centered")
+    assert centered.levels[-1].regime == "stop-rule floor"
+    meaningless = convergence.converge(BETA_5, [1e-7, 5e-8])
+    assert {level.regime for level in meaningless.levels} == {"meaningless"}
+
+
+@pytest.mark.parametrize(
+    ("steps", "reason"),
+    [
+        ([4e-10, 2e-10], "three levels"),
+        ([4e-10, 2e-10, 1.5e-10], "constant ratio"),
+        # No row is ever made: equal depths.
+        ([4e-10, 2e-10, 1e-10], "equal"),
+    ],
+)
+def test_the_limit_is_undefined_for_a_reason(steps: list[float], reason: str) -> None:
+    case = replace(BETA_5, velocity=0.5) if reason == "equal" else BETA_5
+    found = convergence.converge(case, steps)
+    assert found.limit is None
+    assert reason in found.levels[-1].undefined
+
+
+def test_oscillating_depths_have_no_limit() -> None:
+    found = convergence.converge(BETA_5, convergence.ladder(2e-10, 9), "centered")
+    undefined = {level.undefined for level in found.levels if level.limit is None}
+    assert "the depths oscillate" in undefined
+
+
+@pytest.mark.parametrize("steps", [[], [1e-10], [1e-10, 1e-10], [1e-10, 2e-10]])
+def test_a_ladder_must_descend(steps: list[float]) -> None:
+    with pytest.raises(ValueError, match="two steps or more, each shorter"):
+        convergence.converge(BETA_5, steps)
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3, 4])
+@pytest.mark.parametrize("scheme", convergence.ORDER)
+def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
+    found = convergence.step_for_digits(BETA_5, digits, scheme)
+    rest = float(exact_motion(BETA_5).final_depth)
+    allowed = 0.5 * 10.0 ** (-5 - digits)  # the depth is 7.67e-6 m
+    for step in (found.step, found.step / 2, found.step / 4):
+        depth = run(replace(BETA_5, step=step), scheme).final_depth
+        assert abs(depth - rest) <= allowed
+    assert found.step < found.fails <= 1.0101 * found.step
+    failing = [
+        abs(run(replace(BETA_5, step=found.fails / 2**k), scheme).final_depth - rest) > allowed
+        for k in range(4)
+    ]
+    assert any(failing)
+
+
+def test_digits_that_the_stop_rule_forbids_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"stopping at 1\.0 m/s alone leaves out 2\.05e-11 m"):
+        convergence.step_for_digits(BETA_5, 6)
+    with pytest.raises(ValueError, match="ask for one or more"):
+        convergence.step_for_digits(BETA_5, 0)
+    with pytest.raises(ValueError, match="need more than 1,000,000 steps"):
+        convergence.step_for_digits(replace(BETA_5, stop_velocity=0.0), 9)
+
+
+@pytest.mark.parametrize("case", stability.HARD_CASES, ids=lambda case: case.name)
+def test_hard_case(case: stability.HardCase) -> None:
+    """The closed form holds; the sheet holds, warns, or is refused with the reason."""
+    outcome = stability.outcome(case)
+    if outcome.refused:
+        assert outcome.closed_form is None
+        assert "must be" in outcome.refused or "nothing would bring" in outcome.refused
+        return
+    assert outcome.ulps is not None
+    assert abs(outcome.ulps) <= 4
+    if outcome.sheet_refused:
+        assert "steps" in outcome.sheet_refused
+        return
+    assert outcome.sheet_error is not None
+    if outcome.sheet_error > 5e-4:
+        assert any("exceeds that of the exact solution" in note for note in outcome.warnings)
+
+
+def test_refusals_name_the_number_of_steps() -> None:
+    outcomes = {case.name: stability.outcome(case) for case in stability.HARD_CASES}
+    assert "about 2.608e+10 steps" in outcomes["step far too short"].sheet_refused
+    assert outcomes["no resistance"].refused.endswith("nothing would bring the particle to rest")
+    assert outcomes["at the stop velocity"].steps == 1
+    assert outcomes["below the stop velocity"].steps == 0
+    assert any("-2933 m/s" in note for note in outcomes["step longer than the impact"].warnings)
+
+
+def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
+    worst = stability.worst_of(100_000, seed=1)
+    assert worst.skipped == 0
+    assert 0.5 < abs(worst.ulps) <= 4, "and the measure is alive"
+
+
+def test_the_measure_of_ulps_sees_an_error() -> None:
+    from reference.exact import Reals
+
+    inputs = stability.random_cases(200, seed=3)
+    depths = closed_form.final_depth(**inputs)
+    cases = list(stability._rows(inputs))
+    reals = Reals(40)
+    for depth, case in zip(np.nextafter(depths, np.inf).tolist(), cases, strict=True):
+        before = stability._ulps(reals, float(np.nextafter(depth, 0)), case)
+        after = stability._ulps(reals, depth, case)
+        assert after - before == pytest.approx(1, abs=0.51)  # an ulp doubles at powers of two
+
+
+@given(SENSIBLE)
+@settings(max_examples=60, deadline=None)
+def test_stop_time_in_doubles_agrees_with_the_exact_one(impact: Impact) -> None:
+    motion: Trajectory = exact_motion(impact)
+    stop = closed_form.stop_time(
+        impact.velocity,
+        impact.radius,
+        impact.particle_density,
+        impact.target_density,
+        impact.target_resistance,
+    )
+    assert stop == pytest.approx(float(motion.stop_time()), rel=1e-10)
+
+
+def test_converge_prints_the_promised_keys(coldspray: Command) -> None:
+    status, out, _ = coldspray("converge", "--json", "--digits", 3)
+    record = json.loads(out)
+    assert status == 0
+    assert {"inputs", "levels", "limit", "exact", "exact_at_stop"} <= set(record)
+    names = {"step", "steps", "depth", "error", "order"}
+    assert all(names <= set(level) for level in record["levels"])
+    assert record["levels"][0]["order"] is None
+    assert record["digits"]["digits"] == 3
+
+
+def test_converge_as_text(coldspray: Command) -> None:
+    text = coldspray("converge", "--steps", "0.5 ns,0.2 ns")[1]
+    assert "first order" in text
+    assert "7.660299" in text
+    text = coldspray("converge", "--scheme", "centered")[1]
+    assert "second order" in text
+
+
+def test_stability_as_text_and_json(coldspray: Command) -> None:
+    text = coldspray("stability", "--random", 500)[1]
+    assert "no resistance: refused: target resistance is 0.0" in text
+    record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
+    assert len(record["cases"]) == len(stability.HARD_CASES)
+    assert record["random"]["cases"] == 500
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of published"),
+        (["converge", "--steps", "1 ns"], "two steps or more"),
+        (["converge", "--levels", "1"], "two steps or more"),
+        (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
+        (["converge", "--digits", "6"], "lower the stop velocity"),
+        (["sheet", "--scheme", "upwind"], "no scheme 'upwind'"),
+        (["stability", "--random", "0"], "--random wants one case or more"),
+    ],
+)
+def test_bad_input(arguments: list[str], message: str, coldspray: Command) -> None:
+    status, out, err = coldspray(*arguments)
+    assert (status, out) == (2, "")
+    assert message in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_sheet_that_reverses_says_so(coldspray: Command) -> None:
+    _, out, err = coldspray("sheet", "--csv")
+    assert "reverses the velocity to -3.316 m/s" in err
+    assert "warning" not in out
+    assert coldspray("sheet", "--csv", "--quiet")[2] == ""
