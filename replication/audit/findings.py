@@ -1,5 +1,6 @@
 """What failed or surprising claims teach. The evidence is computed anew with every audit."""
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -7,7 +8,7 @@ from reference.enclosure import explore
 from reference.exact import Arithmetic, Number
 from reference.ledger import Ledger
 from reference.printed import Interval
-from replication.audit.entries import rounding
+from replication.audit.entries import rounding, value
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment
 from replication.text import inward, number, outward
@@ -57,24 +58,23 @@ def _equation_16(assessments: dict[str, Assessment]) -> Finding:
     )
 
 
-def _log_ratio(
-    ar: Arithmetic, armor: Number, stainless: Number, k_t: Number, target_density: Number,
-    velocity: Number,
-) -> Number:  # fmt: skip
-    """X/R at one target resistance over X/R at the other: all else in Eq. 16 cancels."""
-    drag = k_t * target_density * velocity**2
+def _log_ratio(ar: Arithmetic, drag: Number, armor: Number, stainless: Number) -> Number:
+    """X/R at one target resistance over X/R at the other; drag is k_t rho_t V^2, all in Pa."""
     return ar.context.log(1 + drag / stainless) / ar.context.log(1 + drag / armor)
 
 
 def _frank_zook_pair(ledger: Ledger) -> Finding:
     lower, upper = (ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
     printed = _ratio(lower.interval, upper.interval)
-    inputs = {"armor": "fz-resistance-rha", "stainless": "fz-resistance-stainless",
-              "k_t": "fz-kt", "velocity": "a1-initial-velocity"}  # fmt: skip
-    box = {key: rounding(ledger, name) for key, name in inputs.items()}
-    box["target_density"] = _ends(infer(ledger, "target-density").possible)
-    found = explore(_log_ratio, box, printed)
-    outcome = "no one set of inputs gives both" if found.never else "one set can give both"
+    names = {"armor": "fz-resistance-rha", "stainless": "fz-resistance-stainless"}
+    strengths = {key: rounding(ledger, name, loose=True) for key, name in names.items()}
+    drag = _drag(ledger)
+    found = explore(_log_ratio, {"drag": drag, **strengths}, printed)
+    # Octave by octave, as the ratio's two logarithms both vanish with the drag.
+    octaves = [(_PAIR_BOUND / 2 ** (k + 1), _PAIR_BOUND / 2**k) for k in range(_PAIR_OCTAVES)]
+    never = all(explore(_log_ratio, {"drag": ends, **strengths}, printed).never for ends in octaves)
+    outcome = "no one set of inputs gives both" if never else "one set may give both"
+    slowest, fastest = (_velocity_at(ledger, drag) for drag in (octaves[-1][0], _PAIR_BOUND))
     return Finding(
         id="frank-zook-pair",
         title="0.278 and 0.297 do not belong together",
@@ -83,11 +83,32 @@ def _frank_zook_pair(ledger: Ledger) -> Finding:
         evidence=(
             f"Between the two only R_t changes, so everything in Eq. 16 but the logarithm cancels "
             f"from their ratio, the left side and any constant factor too. The printed pair has "
-            f"the ratio {outward(*_ends(printed))}; inputs that print like the report's, "
-            f"with any possible target density, give "
-            f"{outward(found.lower, found.upper)}: {outcome}."
+            f"the ratio {outward(*_ends(printed))}. With k_t rho_t V^2 in "
+            f"{outward(drag[0] / 10**9, drag[1] / 10**9, 4)} GPa, as the report's inputs and any "
+            f"possible target density have it, the ratio is {outward(found.lower, found.upper)}; "
+            f"from {slowest:.0f} to {fastest:.0f} m/s it is proven to stay above the printed one: "
+            f"{outcome}."
         ),
     )
+
+
+_PAIR_BOUND = Fraction(60 * 10**9)
+_PAIR_OCTAVES = 12
+"""The drags of which `explore` proves that they cannot give the pair; no results themselves."""
+
+
+def _drag(ledger: Ledger) -> tuple[Fraction, Fraction]:
+    """Least and greatest k_t rho_t V^2 [Pa] of inputs that print like the report's."""
+    k_t, velocity = rounding(ledger, "fz-kt"), rounding(ledger, "a1-initial-velocity")
+    density = _ends(infer(ledger, "target-density").possible)
+    low, high = (k_t[end] * density[end] * velocity[end] ** 2 for end in (0, 1))
+    return low, high
+
+
+def _velocity_at(ledger: Ledger, drag: Fraction) -> float:
+    low, high = _drag(ledger)
+    velocity = value(ledger, "a1-initial-velocity")
+    return float(velocity) * math.sqrt(2 * drag / (low + high))
 
 
 def _ratio(below: Interval | None, above: Interval | None) -> Interval:

@@ -1,5 +1,6 @@
 """One test for every number that the report prints, by its id."""
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -175,9 +176,10 @@ def test_findings_touch_claims_and_show_numbers(whole: Audit) -> None:
 def test_no_one_set_of_inputs_gives_both_frank_zook_values(whole: Audit) -> None:
     finding = next(f for f in whole.findings if f.id == "frank-zook-pair")
     assert "no one set of inputs gives both" in finding.evidence
-    # ln(1 + z / 7.6) / ln(1 + z / 9.13) with z = k_t rho_t V^2 in GPa; 0.297 / 0.278 is 1.068.
-    low = float(finding.evidence.split("density, give [")[1].split(",")[0])
-    assert 1.1 < low < 1.18
+    # ln(1 + z / 7.6) / ln(1 + z / 9.13) falls with z = k_t rho_t V^2; 0.297 / 0.278 is 1.068.
+    assert math.log1p(2.053 / 7.6) / math.log1p(2.053 / 9.13) == pytest.approx(1.179, abs=1e-3)
+    assert math.log1p(60 / 7.65) / math.log1p(60 / 9.125) > 0.2975 / 0.2775
+    assert math.log1p(300 / 7.6) / math.log1p(300 / 9.13) < 0.2965 / 0.2785
 
 
 def test_the_coarse_step_prints_7_66(whole: Audit) -> None:
