@@ -32,15 +32,7 @@ def depth_as_printed(
     return inertia * np.log(1 + k_t * target_density * velocity * velocity / resistance)
 
 
-def depth_derived(
-    length_ratio: Any,
-    particle_density: Any,
-    target_density: Any,
-    k_1: Any,
-    k_t: Any,
-    resistance: Any,
-    velocity: Any,
-) -> Any:
+def depth_derived(*inputs: Any, **named: Any) -> Any:
     """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
 
     Arguments as for `depth_as_printed`.
@@ -48,9 +40,7 @@ def depth_derived(
     >>> f"{depth_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.255'
     """
-    return 2 * depth_as_printed(
-        length_ratio, particle_density, target_density, k_1, k_t, resistance, velocity
-    )
+    return 2 * depth_as_printed(*inputs, **named)
 
 
 def sphere_length_ratio() -> float:

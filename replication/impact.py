@@ -70,6 +70,17 @@ class Impact:
         return self.beta * self.flow_stress
 
     @property
+    def motion(self) -> dict[str, float]:
+        """What the motion depends on (Eq. 13), as arguments of the closed form and the reference."""
+        return {
+            "velocity": self.velocity,
+            "radius": self.radius,
+            "particle_density": self.particle_density,
+            "target_density": self.target_density,
+            "resistance": self.target_resistance,
+        }
+
+    @property
     def diameter(self) -> float:
         """D = 2R [m] (below Eq. 12)."""
         return 2 * self.radius

@@ -78,7 +78,7 @@ class Sheet:
                 f"the last step reverses the velocity to {last.velocity_final:.4g} m/s, "
                 f"{share:.2g} % of the impact velocity"
             )
-        rest = _rest_depth(impact)
+        rest = float(closed_form.final_depth(**impact.motion))
         # The report prints three digits; half a unit of the third is at least 5e-4.
         if last.depth > rest * (1 + 5e-4):
             found.append(
@@ -124,33 +124,12 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
 def _refuse_too_many_steps(impact: Impact) -> None:
     if impact.velocity < impact.stop_velocity:
         return
-    steps = (
-        closed_form.stop_time(
-            impact.velocity,
-            impact.radius,
-            impact.particle_density,
-            impact.target_density,
-            impact.target_resistance,
-        )
-        / impact.step
-    )
+    steps = closed_form.stop_time(**impact.motion) / impact.step
     if not steps <= MAX_STEPS:
         raise ValueError(
             f"the sheet would take about {steps:.4g} steps of {impact.step!r} s until rest, more "
             f"than {MAX_STEPS:,}: take a larger step"
         )
-
-
-def _rest_depth(impact: Impact) -> float:
-    return float(
-        closed_form.final_depth(
-            impact.velocity,
-            impact.radius,
-            impact.particle_density,
-            impact.target_density,
-            impact.target_resistance,
-        )
-    )
 
 
 def _rows(impact: Impact, centered: bool) -> Iterator[Row]:

@@ -35,13 +35,7 @@ class Budget:
 
 def exact_motion(impact: Impact) -> Trajectory:
     """The exact motion for a case, its inputs taken as the doubles that they are."""
-    return Trajectory(
-        Fraction(impact.velocity),
-        Fraction(impact.radius),
-        Fraction(impact.particle_density),
-        Fraction(impact.target_density),
-        Fraction(impact.target_resistance),
-    )
+    return Trajectory(**{name: Fraction(value) for name, value in impact.motion.items()})
 
 
 def split(sheet: Sheet) -> Budget:
@@ -77,11 +71,7 @@ def _last_row(reals: Reals, sheet: Sheet) -> tuple[Number, Number, Number]:
     step = reals.number(Fraction(impact.step))
     rows = exact.midpoint(
         reals,
-        velocity=reals.number(Fraction(impact.velocity)),
-        radius=reals.number(Fraction(impact.radius)),
-        particle_density=reals.number(Fraction(impact.particle_density)),
-        target_density=reals.number(Fraction(impact.target_density)),
-        resistance=reals.number(Fraction(impact.target_resistance)),
+        **{name: reals.number(Fraction(value)) for name, value in impact.motion.items()},
         step=step,
         centered=sheet.scheme == "centered",
     )

@@ -126,15 +126,7 @@ def outcome(case: HardCase) -> Outcome:
         return Outcome(case.name, case.changes, refused=str(error))
     motion = exact_motion(impact)
     exact = motion.final_depth
-    depth = float(
-        closed_form.final_depth(
-            impact.velocity,
-            impact.radius,
-            impact.particle_density,
-            impact.target_density,
-            impact.target_resistance,
-        )
-    )
+    depth = float(closed_form.final_depth(**impact.motion))
     common: dict[str, Any] = {
         "closed_form": depth,
         "reference": motion.context.nstr(exact, 20),

@@ -208,13 +208,7 @@ def test_the_measure_of_ulps_sees_an_error() -> None:
 @settings(max_examples=60, deadline=None)
 def test_stop_time_in_doubles_agrees_with_the_exact_one(impact: Impact) -> None:
     motion: Trajectory = exact_motion(impact)
-    stop = closed_form.stop_time(
-        impact.velocity,
-        impact.radius,
-        impact.particle_density,
-        impact.target_density,
-        impact.target_resistance,
-    )
+    stop = closed_form.stop_time(**impact.motion)
     assert stop == pytest.approx(float(motion.stop_time()), rel=1e-10)
 
 
