@@ -33,6 +33,7 @@ class _Motion:
         particle_density: Fraction,
         target_density: Fraction,
         resistance: Fraction,
+        *,
         digits: int = 50,
     ) -> None:
         self.reals = Reals(digits + self.guard)

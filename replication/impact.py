@@ -71,7 +71,7 @@ class Impact:
 
     @property
     def motion(self) -> dict[str, float]:
-        """What the motion depends on (Eq. 13), as arguments of the closed form and the reference."""
+        """What Eq. 13 depends on, as arguments of the closed form and the reference, in order."""
         return {
             "velocity": self.velocity,
             "radius": self.radius,

@@ -35,7 +35,7 @@ class Budget:
 
 def exact_motion(impact: Impact) -> Trajectory:
     """The exact motion for a case, its inputs taken as the doubles that they are."""
-    return Trajectory(**{name: Fraction(value) for name, value in impact.motion.items()})
+    return Trajectory(*map(Fraction, impact.motion.values()))
 
 
 def split(sheet: Sheet) -> Budget:
