@@ -6,6 +6,7 @@ decides, or the question stays undecided: never a guess.
 """
 
 import heapq
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -27,6 +28,7 @@ __all__ = [
     "evaluate",
     "explore",
     "extent",
+    "satisfiable",
 ]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
@@ -100,7 +102,10 @@ class Intervals:
 
     def meet(self, x: Number, y: Number) -> Number:
         (low, high), (least, greatest) = self._ends(x), self._ends(y)
-        return self.context.mpf([max(low, least), min(high, greatest)])
+        low, high = max(low, least), min(high, greatest)
+        if low > high:
+            raise ArithmeticError("one number was enclosed in two intervals that do not meet")
+        return self.context.mpf([low, high])
 
 
 _INTERVALS = Intervals(30)
@@ -279,13 +284,33 @@ def extent(
     """How far one input can range while the others may be anywhere in the box.
 
     An inner interval whose ends are attained (by some point of the box that satisfies every
-    constraint; `start` must be one such value), and an outer one beyond which none is; apart by the
-    tolerance, or by more if the budget of boxes runs out.
+    constraint; `start` must be one such value), and an outer one beyond which no value of the box
+    is; apart by the tolerance, or by more if the budget of boxes runs out.
     """
     (low, least), (high, greatest) = (
         _extreme(constraints, name, box, sign, start, tolerance, budget) for sign in (-1, 1)
     )
     return Interval(low, high), Interval(least, greatest)
+
+
+def satisfiable(constraints: Sequence[Constraint], box: Box, budget: int = 2000) -> bool | None:
+    """Whether some point of the box satisfies every constraint: proven by one, or for all of it.
+
+    None if the budget of boxes runs out.
+    """
+    queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
+    for _ in range(budget):
+        if not queue:
+            return False
+        part, remaining = queue.popleft()
+        undecided = _undecided(remaining, part)
+        if undecided is None:
+            continue
+        middle = {name: ((low + high) / 2,) * 2 for name, (low, high) in part.items()}
+        if not undecided or _undecided(undecided, middle) == []:
+            return True
+        queue += [(half, undecided) for half in _halves(part, scales)]
+    return None
 
 
 def _extreme(

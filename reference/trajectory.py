@@ -3,8 +3,9 @@
 Two routes, written apart. `Trajectory` separates Eq. 13: the energy integral gives velocity and
 depth in closed form, and time by quadrature of dx/v with x = X (1 - s^2), which removes the square
 root singularity at rest. `Integration` follows the differential equation itself by mpmath's Taylor
-series integrator, restarted where the sphere is half buried and Eq. 13 changes its branch. Lengths
-are in m, velocities in m/s, times in s; both end at rest.
+series integrator, restarted where the sphere is half buried and Eq. 13 changes its branch; it is
+a check on the other, for depths, velocities and times within the motion. Lengths are in m,
+velocities in m/s, times in s.
 """
 
 from fractions import Fraction
@@ -92,13 +93,15 @@ class Trajectory(_Motion):
     def _left(self, depth: Number) -> Number:
         """The share of the final depth that is still ahead at a depth [m]."""
         left = 1 - self.context.convert(depth) / self.final_depth
-        if left < -8 * self.context.eps:
+        if not -8 * self.context.eps <= left <= 1:
             raise ValueError(f"the particle never gets to a depth of {depth} m")
         return self.reals.positive_part(left)
 
     def depth_at_velocity(self, velocity: Number) -> Number:
         """Depth [m] at which the velocity has fallen to a value [m/s]; only its square counts."""
         u = self.context.convert(velocity) / self.velocity
+        if abs(u) > 1:
+            raise ValueError(f"the particle never has a velocity of {velocity} m/s")
         lost = (1 - u) * (1 + u) * self.drag / (self.push + self.drag * u * u)
         return self.radius * self._buried(self.context.log1p(lost) / (2 * self.drag))
 
@@ -132,6 +135,8 @@ class Trajectory(_Motion):
     def depth_at_time(self, time: Number) -> Number:
         """Depth [m] at a time [s]; the final one from the stop time on."""
         time, whole = self.context.convert(time), self.stop_time()
+        if time < 0:
+            raise ValueError(f"a time of {time} s is before the impact")
         if time >= whole:
             return self.final_depth
         s = self.context.findroot(

@@ -91,7 +91,11 @@ def _converge_options(command: argparse.ArgumentParser) -> None:
         "--steps", metavar="X,X,...", help="steps, coarsest first (default: from 16 times --step)"
     )
     command.add_argument(
-        "--levels", type=int, default=8, metavar="N", help="number of halvings to run (8)"
+        "--levels",
+        type=int,
+        default=8,
+        metavar="N",
+        help="number of steps, by halves (8)",
     )
     command.add_argument(
         "--digits", type=int, metavar="N", help="also find the largest step for N correct digits"
@@ -290,6 +294,8 @@ def _converge(options: argparse.Namespace) -> int:
     from replication.reports import numerics
 
     case = _case(options)
+    if not 2 <= options.levels <= 40:
+        raise ValueError("--levels wants 2 to 40")
     if options.steps is None:
         steps = convergence.ladder(case.step, options.levels)
     else:
@@ -302,6 +308,7 @@ def _converge(options: argparse.Namespace) -> int:
         _print_json(numerics.convergence_record(found, digits))
     else:
         print(numerics.convergence_text(found, digits))
+        _warn(options, (f"{x.step!r} s: {note}" for x in found.levels for note in x.warnings))
     return 0
 
 
@@ -309,8 +316,8 @@ def _stability(options: argparse.Namespace) -> int:
     from replication.analysis import stability
     from replication.reports import numerics
 
-    if options.random < 1 or options.seed < 0:
-        raise ValueError("--random wants one case or more, --seed zero or more")
+    if not 1 <= options.random <= 10_000_000 or options.seed < 0:
+        raise ValueError("--random wants 1 to 10,000,000 cases, --seed zero or more")
     outcomes = [stability.outcome(case) for case in stability.HARD_CASES]
     worst = stability.worst_of(options.random, options.seed)
     if options.json:

@@ -38,7 +38,8 @@ def _volume_ratio(
 ) -> tuple[Any, Any]:
     """3c/4 = (rho_p / rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and what rounding left out of it.
 
-    The logarithm is the only rounding that remains, so that the depth keeps within 4 ulp.
+    The logarithm is the only rounding that remains, so that the depth keeps within 4 ulp; where
+    these products and quotients stay between 1e-250 and 1e250, which `Impact` sees to.
     """
     square, square_low = _product(velocity, velocity)
     dynamic, dynamic_low = _product(square, target_density)
@@ -90,11 +91,13 @@ def stop_time(
     particle_density: float,
     target_density: float,
     resistance: float,
+    stop_velocity: float = 0.0,
 ) -> float:
-    """Time from touch to rest [s], to about ten digits; arguments as for `final_depth`, scalars.
+    """Time from touch to the stop velocity [s], to about ten digits; scalars as for `final_depth`.
 
     The integral of dx/v with x = X (1 - s^2), which removes the square root singularity at rest, by
-    Gauss-Legendre panels no wider than the velocity's exponential fall allows.
+    Gauss-Legendre panels no wider than the velocity's exponential fall allows. The stop velocity
+    [m/s] must not exceed V.
 
     >>> f"{stop_time(500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.9f}"
     '26.079233782'
@@ -102,17 +105,24 @@ def stop_time(
     c = 4 / 3 * float(_volume_ratio(velocity, particle_density, target_density, resistance)[0])
     final = float(normalized_depth(velocity, particle_density, target_density, resistance))
     decay = 3 * target_density / (4 * particle_density)
+    rest_velocity = np.sqrt(2 * resistance / target_density)
+    left = np.log1p((stop_velocity / rest_velocity) ** 2) / decay
+    start = np.sqrt(max(0.0, 1 - _depth_for_work(max(0.0, c - left)) / final))
     cuts = int(decay * c) + 1
-    edges = {k / cuts for k in range(cuts + 1)}
+    edges = {float(start), 1.0, *(k / cuts for k in range(cuts))}
     if final > 1:
         edges.add(float(np.sqrt(1 - 1 / final)))
-    ends = np.array(sorted(edges))
+    ends = np.array(sorted(edge for edge in edges if edge >= start))
     nodes, weights = _gauss(16)
     half = np.diff(ends)[:, None] / 2
     s = ends[:-1, None] + half * (1 + nodes)
-    rest_velocity = np.sqrt(2 * resistance / target_density)
     v = rest_velocity * np.sqrt(np.expm1(decay * _work_left(final, final * s * s)))
     return float(radius * np.sum(weights * half * 2 * final * s / v))
+
+
+def _depth_for_work(c: float) -> float:
+    """The normalized depth that the work c digs."""
+    return float(depth_from_volume_ratio(0.75 * c)) if c <= 2 / 3 else 1 / 3 + c
 
 
 @cache

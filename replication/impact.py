@@ -44,14 +44,26 @@ class Impact:
                 object.__setattr__(self, field.name, _checked(field.name, value))
         if self.target_resistance == 0:
             raise ValueError("target resistance is 0.0: nothing would bring the particle to rest")
-        _checked("target resistance", self.target_resistance)
-        _checked("particle mass", self.mass)
+        for name, value in self._derived().items():
+            _checked(name, value)
+            if not 1e-250 <= value <= 1e250 and name != "particle mass":
+                raise ValueError(f"{name} is {value!r}: doubles carry 1e-250 to 1e250 safely")
+
+    def _derived(self) -> dict[str, float]:
+        """What the formulas form out of the inputs."""
         pressure = 0.5 * self.target_density * self.velocity * self.velocity
-        _checked("dynamic pressure", pressure)
-        _checked("dynamic pressure over target resistance", pressure / self.target_resistance)
-        _checked(
-            "particle density over target density", self.particle_density / self.target_density
-        )
+        return {
+            "target resistance": self.target_resistance,
+            "particle mass": self.mass,
+            "radius squared": self.radius * self.radius,
+            "velocity squared": self.velocity * self.velocity,
+            "particle density": self.particle_density,
+            "target density": self.target_density,
+            "dynamic pressure": pressure,
+            "dynamic pressure over target resistance": pressure / self.target_resistance,
+            "ratio of the densities": self.particle_density / self.target_density,
+            "work": pressure / self.target_resistance * self.particle_density / self.target_density,
+        }
 
     def _require_one_resistance(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)

@@ -108,7 +108,7 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
 
     `scheme` is one of `SCHEMES`. Raises ValueError when more than `MAX_STEPS` rows would be needed,
-    found before the first is computed from the exact time to rest.
+    found before the first is computed, from the exact time to the stop velocity.
 
     >>> from replication.impact import BETA_5
     >>> sheet = run(BETA_5)
@@ -124,11 +124,12 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
 def _refuse_too_many_steps(impact: Impact) -> None:
     if impact.velocity < impact.stop_velocity:
         return
-    steps = closed_form.stop_time(**impact.motion) / impact.step
+    time = closed_form.stop_time(**impact.motion, stop_velocity=impact.stop_velocity)
+    steps = time / impact.step
     if not steps <= MAX_STEPS:
         raise ValueError(
-            f"the sheet would take about {steps:.4g} steps of {impact.step!r} s until rest, more "
-            f"than {MAX_STEPS:,}: take a larger step"
+            f"the sheet would take about {steps:.4g} steps of {impact.step!r} s down to "
+            f"{impact.stop_velocity!r} m/s, more than {MAX_STEPS:,}: take a larger step"
         )
 
 
@@ -139,6 +140,8 @@ def _rows(impact: Impact, centered: bool) -> Iterator[Row]:
     k = 0
     while v >= v_stop:
         k += 1
+        if k > 1.1 * MAX_STEPS:  # the exact motion is slower than its estimate by a percent at most
+            raise ValueError(f"the sheet does not end in {MAX_STEPS:,} steps: take a larger step")
         # The half step to start: x is half a step behind the velocity that closes the row.
         x = v * (dt / 2) if k == 1 else x + v * dt
         a = deceleration(impact, x, v)

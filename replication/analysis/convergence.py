@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from replication import closed_form
 from replication.analysis.budget import Budget, exact_motion, split
 from replication.impact import Impact
 from replication.midpoint import MAX_STEPS, run
@@ -14,8 +15,9 @@ __all__ = ["Convergence", "Level", "StepForDigits", "converge", "ladder", "step_
 ORDER = {"published": 1, "centered": 2}
 """Of the time-step error; why, in `replication.midpoint`."""
 
-SAFETY = 1.25
-"""Factor of the grid convergence index for three levels and more (Roache)."""
+SAFETY, CAUTION = 1.25, 3.0
+"""Factors of the grid convergence index (Roache): for three levels and more whose observed order is
+within a tenth of the scheme's, and for others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,10 @@ class Level:
 
 @dataclass(frozen=True, slots=True)
 class Convergence:
-    """A ladder of steps for one case; depths in m. `limit` is that of the finest three levels."""
+    """A ladder of steps for one case; depths in m.
+
+    `limit` is that of the finest three levels; it estimates the depth at the stop velocity.
+    """
 
     impact: Impact
     scheme: str
@@ -64,7 +69,7 @@ def ladder(step: float, levels: int, ratio: float = 2.0) -> list[float]:
     >>> ladder(2e-10, 6)
     [3.2e-09, 1.6e-09, 8e-10, 4e-10, 2e-10, 1e-10]
     """
-    return [step * ratio**4 / ratio**k for k in range(levels)]
+    return [step * ratio ** (4 - k) for k in range(levels)]
 
 
 def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> Convergence:
@@ -106,7 +111,7 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
         time_step_order=time_step_order,
         regime=_regime(budget, time_step_order, ORDER[scheme]),
     )
-    return _extrapolated([*before[-2:], level])
+    return _extrapolated([*before[-2:], level], ORDER[scheme])
 
 
 def _order(coarse: float | None, fine: float | None, ratio: float) -> float | None:
@@ -124,17 +129,17 @@ def _regime(budget: Budget, time_step_order: float | None, order: int) -> str:
     assert budget.stop_rule is not None
     if abs(budget.rounding) > abs(budget.total) / 10:
         return "rounding floor"
+    if time_step_order is None:
+        return "order unknown"
+    if abs(time_step_order - order) > 0.1:
+        return "not yet asymptotic"
     stop = abs(budget.half_step + budget.stop_rule)
     if stop > abs(budget.time_step):
         return "stop-rule floor"
-    if stop > abs(budget.time_step) / 10:
-        return "stop rule shows"
-    if time_step_order is not None and abs(time_step_order - order) <= 0.1:
-        return "asymptotic"
-    return "not yet asymptotic"
+    return "stop rule shows" if stop > abs(budget.time_step) / 10 else "asymptotic"
 
 
-def _extrapolated(levels: Sequence[Level]) -> Level:
+def _extrapolated(levels: Sequence[Level], nominal: int) -> Level:
     """The last level with what three depths alone tell (Richardson)."""
     last = levels[-1]
     if len(levels) < 3:
@@ -150,20 +155,23 @@ def _extrapolated(levels: Sequence[Level]) -> Level:
         return replace(last, undefined="the depths oscillate")
     if shrink <= 1:
         return replace(last, undefined="the depths do not draw together")
-    correction = (fine - middle) / (shrink - 1)
+    order = math.log(shrink) / math.log(ratio)
+    # An observed order above the scheme's is chance, and would make the index too small.
+    cautious = min(max(order, 0.5), nominal)
+    factor = SAFETY if abs(order - nominal) <= 0.1 * nominal else CAUTION
     return replace(
         last,
-        observed_order=math.log(shrink) / math.log(ratio),
-        limit=fine + correction,
-        gci=SAFETY * abs(correction / fine),
+        observed_order=order,
+        limit=fine + (fine - middle) / (shrink - 1),
+        gci=factor * abs((fine - middle) / fine) / (ratio**cautious - 1),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class StepForDigits:
-    """The largest step that gives so many correct digits of the depth at rest, and its run.
+    """The largest step of a 1 % grid that gives so many correct digits of the depth at rest.
 
-    `fails` is a step, at most 1 % longer, that does not give them.
+    `fails` is the next longer step of the grid, which does not.
     """
 
     digits: int
@@ -179,10 +187,11 @@ _HALVINGS = 3
 
 
 def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> StepForDigits:
-    """The largest step from which on, halving it, the depth keeps so many correct digits.
+    """The largest step, of a grid of 1 %, that gives so many correct digits; so do its halvings.
 
-    Correct means: within half a unit of that digit of the exact depth at rest. Raises ValueError
-    where no step gives them: the stop rule alone is off by more, or too many rows are needed.
+    Correct means: within half a unit of that digit of the exact depth at rest. As the last row
+    falls by chance, single steps between may do better or worse. Raises ValueError where no
+    refinement gives them: the stop rule alone is off by more, or too many rows are needed.
     """
     if digits < 1:
         raise ValueError(f"{digits} digits cannot be met: ask for one or more")
@@ -192,8 +201,8 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> S
     floor = rest - float(motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity)))
     if floor > allowed:
         raise ValueError(
-            f"no step gives {digits} digits: stopping at {impact.stop_velocity!r} m/s alone leaves "
-            f"out {floor:.3g} m of the depth, more than {allowed:.3g} m; lower the stop velocity"
+            f"no refinement gives {digits} digits: stopping at {impact.stop_velocity!r} m/s alone "
+            f"leaves out {floor:.3g} m, more than {allowed:.3g} m; lower the stop velocity"
         )
 
     def error(step: float) -> float:
@@ -202,13 +211,17 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> S
     def keeps(step: float) -> bool:
         return all(abs(error(step / 2**k)) <= allowed for k in range(_HALVINGS + 1))
 
-    fails = step = float(motion.stop_time())
+    longest = 2 * closed_form.stop_time(**impact.motion)
+    step = longest
     while not keeps(step):
-        fails, step = step, step / 2
+        step /= 2
         if rest / impact.velocity / step > MAX_STEPS / 2**_HALVINGS:
             raise ValueError(f"{digits} digits need more than {MAX_STEPS:,} steps")
-    while fails / step > 1.01:
-        middle = math.sqrt(fails * step)
-        fails, step = (fails, middle) if keeps(middle) else (middle, step)
+    while keeps(4 * step):
+        step *= 4
+    fails = 4 * step
+    while not keeps(fails / 1.01):
+        fails /= 1.01
+    step = fails / 1.01
     final = run(replace(impact, step=step), scheme)
     return StepForDigits(digits, step, final.steps, final.final_depth, error(step), fails)

@@ -86,12 +86,17 @@ HARD_CASES = (
     HardCase("hypervelocity, 1e4 m/s", {"velocity": 1e4}),
     HardCase("hypervelocity, 1e5 m/s", {"velocity": 1e5}),
     HardCase("resistance 1 Pa", {"resistance": 1.0}),
+    HardCase("resistance 1 Pa, stop at 100 m/s", {"resistance": 1.0, "stop_velocity": 100.0}),
     HardCase("resistance 1e6 Pa", {"resistance": 1e6}),
     HardCase("resistance 1e12 Pa", {"resistance": 1e12}),
     HardCase("resistance 1e15 Pa", {"resistance": 1e15}),
     HardCase("resistance 1e15 Pa, fine step", {"resistance": 1e15, "step": 2e-13}),
     HardCase("no resistance", {"resistance": 0.0}),
     HardCase("density ratio 1e-6", {"particle_density": 8900e-6, "target_density": 8900.0}),
+    HardCase(
+        "density ratio 1e-6, fine step",
+        {"particle_density": 8900e-6, "target_density": 8900.0, "step": 2e-13},
+    ),
     HardCase("density ratio 1e6", {"particle_density": 8900.0, "target_density": 8900e-6}),
     HardCase("radius 1e-12 m", {"radius": 1e-12, "step": 2e-17}),
     HardCase("radius 1e-12 m, report's step", {"radius": 1e-12}),
@@ -115,6 +120,13 @@ HARD_CASES = (
     HardCase("particle density zero", {"particle_density": 0.0}),
     HardCase("target density zero", {"target_density": 0.0}),
     HardCase("step zero", {"step": 0.0}),
+    *(
+        HardCase(f"{name.replace('_', ' ')} {word}", {name: value})
+        for name in ("radius", "particle_density", "target_density", "resistance", "step")
+        for word, value in (("negative", -1.0), ("NaN", math.nan), ("infinite", math.inf))
+    ),
+    HardCase("radius squared underflows", {"radius": 1e-170, "particle_density": 1e302}),
+    HardCase("dynamic pressure below 1e-250", _shallow(1e-130)),
 )
 
 

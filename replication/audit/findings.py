@@ -50,9 +50,9 @@ def _equation_16(assessments: dict[str, Assessment]) -> Finding:
             f"With the work done on the way in, Eqs. 14 and 15 give X = (L rho_p + k_1 rho_t D) "
             f"ln(1 + k_t rho_t V^2 / R_t) / (2 k_t rho_t). Divided by D this is the right side of "
             f"Eq. 16; divided by R, as its left side says, it is twice that. As printed it gives "
-            f"{number(armor.reading.computed, 4)} and {number(stainless.reading.computed, 4)}, as "
-            f"derived {number(armor.others[0].computed, 4)} and "
-            f"{number(stainless.others[0].computed, 4)}, for 0.278 and 0.297: neither form gives "
+            f"{armor.reading.computed:.3f} and {stainless.reading.computed:.3f}, as "
+            f"derived {armor.others[0].computed:.3f} and "
+            f"{stainless.others[0].computed:.3f}, for 0.278 and 0.297: neither form gives "
             f"0.278, and only the derived one comes near 0.297."
         ),
     )
@@ -74,7 +74,8 @@ def _frank_zook_pair(ledger: Ledger) -> Finding:
     octaves = [(_PAIR_BOUND / 2 ** (k + 1), _PAIR_BOUND / 2**k) for k in range(_PAIR_OCTAVES)]
     never = all(explore(_log_ratio, {"drag": ends, **strengths}, printed).never for ends in octaves)
     outcome = "no one set of inputs gives both" if never else "one set may give both"
-    slowest, fastest = (_velocity_at(ledger, drag) for drag in (octaves[-1][0], _PAIR_BOUND))
+    velocity = value(ledger, "a1-initial-velocity")
+    fastest = float(velocity) * math.sqrt(_PAIR_BOUND / drag[1])
     return Finding(
         id="frank-zook-pair",
         title="0.278 and 0.297 do not belong together",
@@ -86,8 +87,8 @@ def _frank_zook_pair(ledger: Ledger) -> Finding:
             f"the ratio {outward(*_ends(printed))}. With k_t rho_t V^2 in "
             f"{outward(drag[0] / 10**9, drag[1] / 10**9, 4)} GPa, as the report's inputs and any "
             f"possible target density have it, the ratio is {outward(found.lower, found.upper)}; "
-            f"from {slowest:.0f} to {fastest:.0f} m/s it is proven to stay above the printed one: "
-            f"{outcome}."
+            f"at lower velocities it is higher, and up to {int(fastest)} m/s it is "
+            f"{'proven' if never else 'not proven'} to stay above the printed one: {outcome}."
         ),
     )
 
@@ -103,12 +104,6 @@ def _drag(ledger: Ledger) -> tuple[Fraction, Fraction]:
     density = _ends(infer(ledger, "target-density").possible)
     low, high = (k_t[end] * density[end] * velocity[end] ** 2 for end in (0, 1))
     return low, high
-
-
-def _velocity_at(ledger: Ledger, drag: Fraction) -> float:
-    low, high = _drag(ledger)
-    velocity = value(ledger, "a1-initial-velocity")
-    return float(velocity) * math.sqrt(2 * drag / (low + high))
 
 
 def _ratio(below: Interval | None, above: Interval | None) -> Interval:
@@ -130,9 +125,13 @@ def _target_density(inference: Inference) -> Finding:
     for name, (printed, verdict) in inference.handbook.items():
         words[verdict].append(f"{name} ({number(printed.value)})")
     listed = ". ".join(f"{verdict.capitalize()}: {', '.join(n)}" for verdict, n in words.items())
+    low, high = _ends(inference.inner)
     return Finding(
         id="target-density",
-        title="The target density is printed nowhere; Table A-1 fits plain steel best",
+        title=(
+            "The target density is printed nowhere; Table A-1 admits "
+            f"{number(low, 5)} to {number(high, 5)} {entry.unit}"
+        ),
         kind="unstated input",
         claims=entry.evidence,
         evidence=(
@@ -141,9 +140,12 @@ def _target_density(inference: Inference) -> Finding:
             f"place of the computed one {inward(*_ends(inference.with_mass), 8)}), and "
             f"{inward(*_ends(inference.with_results), 8)} serves both final depths as well. If "
             f"radius, particle density and resistance may be anything that prints like the header, "
-            f"every density outside {outward(*_ends(inference.possible))} is excluded, and some "
-            f"from {inward(*_ends(inference.attained))} are attained. {listed}. The audit computes "
-            f"with {number(entry.nominal)}; no verdict holds for that choice only."
+            f"densities as far apart as {inward(*_ends(inference.attained))} give the same table; of "
+            f"those from {number(entry.search[0])} to "
+            f"{number(entry.search[1])} none outside {outward(*_ends(inference.possible))} does. "
+            f"Handbook values are rounded, too (7.8 g/cm3 is 7750 to 7850). {listed}. The audit "
+            f'computes with {number(entry.nominal)}, and every verdict "reproduced" holds for all '
+            f"densities that the table admits."
         ),
     )
 

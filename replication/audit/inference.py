@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 
-from reference.enclosure import Box, Constraint, admitted, extent
+from reference.enclosure import Box, Constraint, admitted, extent, satisfiable
 from reference.ledger import Inferred, Ledger
 from reference.printed import Interval, Printed
 from replication.audit.entries import function_of, rounding, value
@@ -13,7 +13,7 @@ from replication.audit.entries import function_of, rounding, value
 __all__ = ["Inference", "infer"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Inference:
     """The values of an input that reproduce all of its evidence (SI units).
 
@@ -31,24 +31,32 @@ class Inference:
     with_results: Interval
     attained: Interval
     possible: Interval
+    joint: tuple[Constraint, ...]
+    box: Box
 
-    @property
+    @cached_property
     def handbook(self) -> Mapping[str, tuple[Printed, str]]:
         """Handbook values, and what the evidence says of each, a rounded number itself."""
         return {name: (v, self._verdict(v.interval())) for name, v in self.entry.handbook.items()}
 
+    def holds_at(self, point: Mapping[str, Fraction]) -> bool:
+        """Whether the evidence holds at a point; inputs that it leaves out are as printed."""
+        names = {**{name: (low + high) / 2 for name, (low, high) in self.box.items()}, **point}
+        return satisfiable(self.joint, {n: (names[n], names[n]) for n in self.box}) is True
+
     def _verdict(self, handbook: Interval) -> str:
-        if _overlap(handbook, self.inner):
+        assert handbook.lower is not None
+        assert handbook.upper is not None
+        if not self.inner.excludes(handbook.lower, handbook.upper):
             return "admitted"
-        if _overlap(handbook, self.attained):
-            return "admitted only if the other inputs are rounded"
-        return "undecided" if _overlap(handbook, self.possible) else "excluded"
-
-
-def _overlap(one: Interval, other: Interval) -> bool:
-    assert one.lower is not None
-    assert one.upper is not None
-    return not other.excludes(one.lower, one.upper)
+        name = f"inferred:{self.entry.id}"
+        ends = (handbook.lower, handbook.upper)
+        words = {
+            True: "admitted only if the other inputs are rounded",
+            False: "excluded",
+            None: "undecided",
+        }
+        return words[satisfiable(self.joint, {**self.box, name: ends})]
 
 
 @cache
@@ -90,6 +98,8 @@ def infer(ledger: Ledger, name: str) -> Inference:
         with_results=single((*entry.evidence, *entry.results))[0],
         attained=attained,
         possible=possible,
+        joint=tuple(joint),
+        box=box,
     )
 
 

@@ -110,6 +110,8 @@ class _Question:
             everywhere = self.explore({**self.as_printed(), **self.inferred(_inner)})
             if everywhere.always:
                 return self.reading(Verdict.REPRODUCED, everywhere)
+            if everywhere.outside is None:
+                return self.reading(Verdict.UNDECIDED, everywhere)
             # Only some admitted values do: the printed evidence does not tell which is meant.
             return self.reading(Verdict.WITHIN_ROUNDING, everywhere, witness=at_nominal.inside)
         if not at_nominal.never:
@@ -119,18 +121,22 @@ class _Question:
     def search(self) -> Reading:
         """The inputs as printed do not give the number: do any that print like them?"""
         # With other inputs rounded, the inferred ones may be what is attained, or possible, at all.
-        some, all_of_them = (_attained, _possible)
-        if self.claim.as_printed_inputs:
-            some, all_of_them = (_inner, _outer)
-        found = self.explore({**self.rounded(), **self.inferred(some)})
-        if found.inside is not None:
-            return self.reading(Verdict.WITHIN_ROUNDING, found, witness=found.inside)
-        widest = self.inferred(all_of_them)
+        fixed = self.claim.as_printed_inputs
+        for which in (_inner,) if fixed else (_inner, _attained):
+            found = self.explore({**self.rounded(), **self.inferred(which)})
+            if found.inside is not None and self.evidence_holds(found.inside):
+                return self.reading(Verdict.WITHIN_ROUNDING, found, witness=found.inside)
+        widest = self.inferred(_outer if fixed else _possible)
         found = self.explore({**self.rounded(), **widest})
         if not found.never:
             return self.reading(Verdict.UNDECIDED, found)
         loosely = self.explore({**self.rounded(loose=True), **widest})
         return self.reading(Verdict.NOT_REPRODUCED, found, loose=loosely.inside is not None)
+
+    def evidence_holds(self, witness: dict[str, Fraction]) -> bool:
+        """Whether the witness reproduces the evidence of the inferred inputs, too."""
+        names = (name.partition("inferred:")[2] for name in self.entries)
+        return all(infer(self.ledger, name).holds_at(witness) for name in names if name)
 
     def as_printed(self) -> dict[str, tuple[Fraction, Fraction]]:
         values = {name: value(self.ledger, name) for name in self.entries}

@@ -13,6 +13,7 @@ from replication.midpoint import Sheet, run
 from replication.text import aligned, number
 
 __all__ = [
+    "WHY",
     "budget_record",
     "budget_sheets",
     "convergence_record",
@@ -21,7 +22,7 @@ __all__ = [
     "stability_text",
 ]
 
-_WHY = {
+WHY = {
     "published": (
         "The published scheme is first order: it takes a row's deceleration at the middle depth, "
         "but at the initial velocity, and drag depends on velocity."
@@ -69,7 +70,7 @@ def convergence_text(found: Convergence, digits: StepForDigits | None) -> str:
         f"exact, at stop velocity   {_um(found.exact_at_stop, 10)} um",
         f"limit of the last three   {limit}",
         "The error is the sum of the four parts: time step, stop rule, half step, rounding.",
-        _WHY[found.scheme],
+        WHY[found.scheme],
     ]
     if digits is not None:
         lines.append(

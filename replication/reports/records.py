@@ -105,6 +105,19 @@ def _interval(interval: Interval) -> list[float | None]:
     return [None if end is None else float(end) for end in (interval.lower, interval.upper)]
 
 
+def _inside(interval: Interval) -> list[float]:
+    """Ends as doubles, rounded inwards: what is proven of the interval is true of these."""
+    assert interval.lower is not None
+    assert interval.upper is not None
+    return [_up(interval.lower), _down(interval.upper)]
+
+
+def _outside(interval: Interval) -> list[float]:
+    assert interval.lower is not None
+    assert interval.upper is not None
+    return [_down(interval.lower), _up(interval.upper)]
+
+
 def _down(value: Fraction) -> float:
     """The greatest double that is not above the value."""
     double = float(value)
@@ -123,10 +136,11 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
         "unit": entry.unit,
         "nominal": float(entry.nominal),
         "nominal_source": entry.nominal_source,
-        "interval": _interval(inference.inner),
-        "interval_with_printed_mass": _interval(inference.with_mass),
-        "interval_with_results": _interval(inference.with_results),
-        "interval_with_rounded_inputs": _interval(inference.possible),
+        "interval": _inside(inference.inner),
+        "interval_with_printed_mass": _inside(inference.with_mass),
+        "interval_with_results": _inside(inference.with_results),
+        "attained_with_rounded_inputs": _inside(inference.attained),
+        "possible_with_rounded_inputs": _outside(inference.possible),
         "evidence": list(entry.evidence),
         "handbook": [
             {"name": name, "value": float(printed.value), "verdict": verdict}

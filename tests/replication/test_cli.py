@@ -104,7 +104,7 @@ WRONG = {
     "unknown command": (["dept"], "invalid choice: 'dept'"),
     "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
     "no command": ([], "required: COMMAND"),
-    "too many rows": (["sheet", "--step", "1e-18"], r"about 2\.608e\+10 steps"),
+    "too many rows": (["sheet", "--step", "1e-18"], r"about 2\.604e\+10 steps"),
     "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
     "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
     "file for a folder": (["audit", "--out", "taken"], "taken: is a file"),
