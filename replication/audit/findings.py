@@ -140,7 +140,7 @@ def _target_density(inference: Inference) -> Finding:
             f"place of the computed one {inward(*_ends(inference.with_mass), 8)}), and "
             f"{inward(*_ends(inference.with_results), 8)} serves both final depths as well. If "
             f"radius, particle density and resistance may be anything that prints like the header, "
-            f"densities as far apart as {inward(*_ends(inference.attained))} give the same table; of "
+            f"densities as far apart as {inward(*_ends(inference.attained))} give the table; of "
             f"those from {number(entry.search[0])} to "
             f"{number(entry.search[1])} none outside {outward(*_ends(inference.possible))} does. "
             f"Handbook values are rounded, too (7.8 g/cm3 is 7750 to 7850). {listed}. The audit "
