@@ -53,11 +53,12 @@ def values(cases: Cases = REPORT) -> dict[str, Value]:
     return build(cases)[1]
 
 
-def build(cases: Cases = REPORT, rows: int = 0) -> tuple[WorkbookPlan, dict[str, Value]]:
-    """The plan of the workbook and its values by key, with at least so many prepared `rows`.
+def build(cases: Cases = REPORT, rows: int | None = None) -> tuple[WorkbookPlan, dict[str, Value]]:
+    """The plan of the workbook and its values by key.
 
-    Raises ValueError unless there are one or two cases that share every input but beta or the
-    resistance, and when a case needs more steps than `prepared_rows` admits.
+    `rows` are prepared on each sheet, by default as many as `prepared_rows` gives. Raises
+    ValueError unless there are one or two cases that share every input but beta or the resistance,
+    and when a case needs more steps than there are rows or `prepared_rows` admits.
 
     >>> plan, values = build()
     >>> plan.where["high.depth_um"], f"{values['high.depth_um']:.2f}"
@@ -66,7 +67,10 @@ def build(cases: Cases = REPORT, rows: int = 0) -> tuple[WorkbookPlan, dict[str,
     _require_shared_inputs(list(cases.values()))
     slugs = ("case",) if len(cases) == 1 else ("low", "high")
     sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
-    rows = max(rows, prepared_rows(max(sheet.steps for sheet in sheets.values())))
+    steps = max(sheet.steps for sheet in sheets.values())
+    rows = prepared_rows(steps) if rows is None else rows
+    if steps > rows:
+        raise ValueError(f"{steps:,} steps do not go into {rows:,} rows")
     plan = workbook_plan(
         [
             CaseSheet(
