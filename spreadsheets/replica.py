@@ -217,6 +217,7 @@ def _functions(number: Any) -> dict[str, Callable[..., Any]]:
         "ASIN": real(np.arcsin),
         "ABS": real(np.abs),
         "INT": real(np.floor),
+        "ROUND": real(_rounded),
         "MIN": lambda *areas: min(_numbers(areas), default=number(0)),
         "MAX": lambda *areas: max(_numbers(areas), default=number(0)),
         "COUNT": lambda *areas: number(sum(_kind(cell) == "number" for cell in _flat(areas))),
@@ -228,6 +229,13 @@ def _functions(number: Any) -> dict[str, Callable[..., Any]]:
         "NOT": lambda value: not _truth(value),
         "IFERROR": lambda value, other: other if isinstance(value, CellError) else value,
     }
+
+
+def _rounded(value: Any, digits: Any) -> Any:
+    """Half away from zero, in the arithmetic of `value`."""
+    scale = type(value)(10) ** digits
+    away = type(value)("0.5") if value >= 0 else type(value)("-0.5")
+    return type(value)(int(value * scale + away)) / scale
 
 
 _RANKS = ("number", "text", "truth")

@@ -23,6 +23,7 @@ FORMULAS = [
     '=A6&" or "&"no"', '=A6="YES"', '=A6<>"no"', '=A6>"no"', '=A6>=A1', '=A9=""', "=A9=0",
     "=A1<=A1", "=1/0", "=SQRT(-1)", '=""+1', "=A6+1", "=nobody", "=INDEX(A1:A6,9)", "=1/0&A6",
     "=two*2", "=TRUE", "=IF(1/0,1,2)", "=MIN(A1,1/0)", "=(1/0)=1", "=AND(A6)",
+    "=ROUND(A2,0)", "=ROUND(-A5/2,0)", "=ROUND(-A1*A5/3,3)", "=ROUND(A5*1000/3,-2)",
 ]  # fmt: skip
 """Over A1 to A5 numbers, A6 "yes" and A9 blank."""
 
