@@ -6,10 +6,13 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from replication.case import INPUTS, inputs_of, read_case, read_number
 from replication.impact import Impact
+
+if TYPE_CHECKING:
+    from replication.workbook import Cases
 
 __all__ = ["main"]
 
@@ -161,6 +164,10 @@ def _workbook_options(command: argparse.ArgumentParser) -> None:
         "-o", "--output", type=_path, default=output, metavar="FILE", help=f"{output}"
     )
     command.add_argument("--quiet", action="store_true", help="do not say what was written")
+    command.add_argument(
+        "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
+    )
+    command.add_argument("--json", action="store_true", help="with --verify: print JSON")
     _input_options(command, "the report's two cases")
 
 
@@ -248,10 +255,26 @@ def _workbook(options: argparse.Namespace) -> int:
 
     own = options.case is not None or options.case_file is not None or _given(options)
     cases = {"Sheet": _case(options)} if own else workbook.REPORT
+    if options.verify:
+        return _verified(options, cases)
+    if options.json:
+        raise ValueError("--json is for what --verify finds: give both")
     workbook.write(options.output, cases)
     if not options.quiet:
         print(f"Written: {options.output}")
     return 0
+
+
+def _verified(options: argparse.Namespace, cases: "Cases") -> int:
+    from replication import workbook
+    from replication.reports.verification import verification_record, verification_text
+
+    checks = workbook.write_verified(options.output, cases)
+    if options.json:
+        _print_json(verification_record(options.output, checks))
+    elif not options.quiet:
+        print(f"Written: {options.output}", "", verification_text(checks), sep="\n")
+    return 0 if all(check.passed for check in checks) else 1
 
 
 def _warn(options: argparse.Namespace, warnings: Iterable[str]) -> None:

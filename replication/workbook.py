@@ -13,11 +13,13 @@ from replication import midpoint
 from replication.impact import BETA_3, BETA_5, Impact
 from replication.workbook_values import pressure_ratio, values_by_key
 from spreadsheets import emit
+from spreadsheets.engines import ENGINES
 from spreadsheets.plan import Value, WorkbookPlan
 from spreadsheets.sheets import workbook_plan
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
+from spreadsheets.verify import EngineCheck, verify
 
-__all__ = ["REPORT", "Cases", "build", "relative_tolerance", "values", "write"]
+__all__ = ["REPORT", "Cases", "build", "relative_tolerance", "values", "write", "write_verified"]
 
 Cases = Mapping[str, Impact]
 """Sheet name -> case: one case, or two that differ in nothing but beta or the resistance."""
@@ -33,16 +35,30 @@ def write(path: Path, cases: Cases = REPORT) -> None:
     emit.write(path, *build(cases))
 
 
+def write_verified(path: Path, cases: Cases = REPORT) -> list[EngineCheck]:
+    """Write the workbook and recalculate it in every engine of this machine.
+
+    Raises as `build` does, and ValueError when there is no engine at all; nothing is written then.
+    """
+    if all(engine.missing() for engine in ENGINES):
+        raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
+    plan, values = build(cases)
+    emit.write(path, plan, values)
+    tolerances = dict.fromkeys(plan.transcendental, relative_tolerance(cases))
+    return verify(path, emit.cell_values(plan, values), tolerances, ENGINES)
+
+
 def values(cases: Cases = REPORT) -> dict[str, Value]:
     """The value of every key of the workbook. Raises as `build` does."""
     return build(cases)[1]
 
 
-def build(cases: Cases = REPORT) -> tuple[WorkbookPlan, dict[str, Value]]:
+def build(cases: Cases = REPORT, rows: int | None = None) -> tuple[WorkbookPlan, dict[str, Value]]:
     """The plan of the workbook and its values by key.
 
-    Raises ValueError unless there are one or two cases that share every input but beta or the
-    resistance, and when a case needs more steps than `prepared_rows` admits.
+    `rows` are prepared on each sheet, by default as many as `prepared_rows` gives. Raises
+    ValueError unless there are one or two cases that share every input but beta or the resistance,
+    and when a case needs more steps than there are rows or `prepared_rows` admits.
 
     >>> plan, values = build()
     >>> plan.where["high.depth_um"], f"{values['high.depth_um']:.2f}"
@@ -51,7 +67,10 @@ def build(cases: Cases = REPORT) -> tuple[WorkbookPlan, dict[str, Value]]:
     _require_shared_inputs(list(cases.values()))
     slugs = ("case",) if len(cases) == 1 else ("low", "high")
     sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
-    rows = prepared_rows(max(sheet.steps for sheet in sheets.values()))
+    steps = max(sheet.steps for sheet in sheets.values())
+    rows = prepared_rows(steps) if rows is None else rows
+    if steps > rows:
+        raise ValueError(f"{steps:,} steps do not go into {rows:,} rows")
     plan = workbook_plan(
         [
             CaseSheet(

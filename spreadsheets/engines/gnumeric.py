@@ -29,6 +29,7 @@ class Gnumeric(Engine):
     """Converts the workbook with ``--recalc``; without it, stored values would come back."""
 
     name = "gnumeric"
+    long_doubles = True
 
     def missing(self) -> str | None:
         if shutil.which("ssconvert") is not None:

@@ -15,7 +15,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -28,7 +28,7 @@ TIME_LIMIT_S = 120
 
 
 class LibreOffice(Engine):
-    """Starts an office of its own for every workbook, which takes one to two seconds."""
+    """Starts an office of its own, which takes one to two seconds; several workbooks share it."""
 
     name = "libreoffice"
 
@@ -46,36 +46,48 @@ class LibreOffice(Engine):
         return found[1]
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        for sheet, rows in json.loads(self._office(path)).items():
-            for row, values in enumerate(rows, start=1):
-                for column, value in enumerate(values, start=1):
-                    yield sheet, address(row, column), value
+        (cells,) = self._cells_of_each([path])
+        return cells
 
-    def _office(self, path: Path) -> str:
-        """Run the script on a copy, since LibreOffice puts a lock file beside what it opens."""
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        return map(_read, self._office(paths).splitlines())
+
+    def _office(self, paths: Sequence[Path]) -> str:
+        """Run the script on copies, since LibreOffice puts a lock file beside what it opens."""
         with TemporaryDirectory(prefix="coldspray-") as folder:
-            copy = shutil.copyfile(path, Path(folder, "workbook.xlsx"))
+            copies = [
+                str(shutil.copyfile(path, Path(folder, f"workbook{number}.xlsx")))
+                for number, path in enumerate(paths)
+            ]
             soffice = _soffice()
-            return self._run(
-                [_python(soffice), str(SCRIPT), soffice, str(copy), f"{folder}/profile"]
-            )
+            command = [_python(soffice), str(SCRIPT), soffice, f"{folder}/profile", *copies]
+            return self._run(command, len(paths))
 
-    def _run(self, command: list[str]) -> str:
+    def _run(self, command: list[str], workbooks: int = 1) -> str:
         """Run a command in a group of its own and leave none of its processes behind."""
+        limit = TIME_LIMIT_S * workbooks
         pipe = subprocess.PIPE
         with subprocess.Popen(
             command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
         ) as process:
             try:
-                output, complaint = process.communicate(timeout=TIME_LIMIT_S)
+                output, complaint = process.communicate(timeout=limit)
             except subprocess.TimeoutExpired as error:
-                raise EngineError(self.name, f"no answer within {TIME_LIMIT_S} s") from error
+                raise EngineError(self.name, f"no answer within {limit} s") from error
             finally:
                 _end_group(process)
         if process.returncode != 0:
             # The last line is the script's; those before it are soffice's own chatter.
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
+
+
+def _read(line: str) -> Iterator[Cell]:
+    """Yield the cells of one workbook from the line that the script printed for it."""
+    for sheet, rows in json.loads(line).items():
+        for row, values in enumerate(rows, start=1):
+            for column, value in enumerate(values, start=1):
+                yield sheet, address(row, column), value
 
 
 def _end_group(process: subprocess.Popen[str]) -> None:

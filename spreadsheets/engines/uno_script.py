@@ -1,6 +1,6 @@
-"""Recalculate one workbook in LibreOffice and print its values as JSON.
+"""Recalculate workbooks in LibreOffice and print the values of each as a line of JSON.
 
-Run by ``libreoffice.py`` as ``PYTHON uno_script.py SOFFICE WORKBOOK PROFILE`` with a Python that
+Run by ``libreoffice.py`` as ``PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...`` with a Python that
 has the UNO bindings, perhaps an old one: only ``uno`` and the standard library can be imported
 here, and no part of this project. On failure the last line of standard error says why. Whoever
 runs this script gives it a time limit and cleans up after it.
@@ -112,14 +112,15 @@ def error(sheet: Any, row: int, column: int) -> str:
 
 
 def main() -> None:
-    """Recalculate the workbook named on the command line."""
-    soffice, workbook, profile = sys.argv[1:]
+    """Recalculate the workbooks named on the command line."""
+    soffice, profile, *workbooks = sys.argv[1:]
     process, desktop = start(soffice, profile)
     try:
-        document = load(desktop, workbook)
-        document.calculateAll()  # loading alone would keep the stored values
-        print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
-        document.close(True)
+        for workbook in workbooks:
+            document = load(desktop, workbook)
+            document.calculateAll()  # loading alone would keep the stored values
+            print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
+            document.close(True)
     finally:
         stop(process, desktop)
 
