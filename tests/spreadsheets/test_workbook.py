@@ -20,7 +20,7 @@ from spreadsheets.compare import Difference, compare
 from spreadsheets.engines import Engine, engine
 from spreadsheets.plan import Value, WorkbookPlan
 from spreadsheets.readback import read
-from spreadsheets.sheets.results import NO_STOP, OUT_OF_ROWS
+from spreadsheets.sheets.results import NO_STOP, out_of_rows
 from spreadsheets.sheets.table_a1 import PRINTED
 
 DOUBLES = ("ironcalc", "formualizer", "libreoffice")
@@ -105,7 +105,7 @@ def test_a_workbook_that_runs_out_of_rows_says_so(exact_engine: Engine, tmp_path
         sheet, address = plan.where[key]
         return found[sheet][address]
 
-    assert at("low.message") == OUT_OF_ROWS
+    assert at("low.message") == out_of_rows(400)
     for result in ("final_depth", "depth_um", "normalized_depth", "steps", "stop_time"):
         assert at(f"low.{result}") == NO_STOP
     assert at("contents.low.depth_um") == NO_STOP
