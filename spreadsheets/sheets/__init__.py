@@ -29,7 +29,7 @@ def workbook_plan(cases: Sequence[CaseSheet], coarse: Sequence[CaseSheet] = ()) 
     is about the report alone: those sheets, the checks against what is printed, and Figure 5.
     """
     cases, coarse = tuple(cases), tuple(coarse)
-    table = table_a1.sheet(cases[-1])
+    table = table_a1.sheet(cases[-1], bool(coarse))
     sheets = [inputs.sheet(cases, bool(coarse)), table]
     if coarse:
         sheets.append(table_check.sheet(table))

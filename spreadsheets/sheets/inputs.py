@@ -140,7 +140,8 @@ def sheet(cases: tuple[CaseSheet, ...], report: bool) -> SheetPlan:
         "A1": Cell(text="Inputs", style="title"),
         "A2": Cell(
             text="Change a blue number on yellow; every other sheet follows. SI units, except the "
-            "strengths in ksi. To restore the report's value, copy it from column H to column C.",
+            "strengths in ksi. To restore the report's values, copy column H and paste values into "
+            "column C.",
             style="note",
         ),
     }

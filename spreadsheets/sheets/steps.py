@@ -15,13 +15,13 @@ FIRST_ROW = 6
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 
 _HEADS = (
-    ("A", "Row", ""),
-    ("B", "Time", "s"),
-    ("C", "dx/dt initial", "m/s"),
-    ("D", "x", "m"),
-    ("E", "d²x/dt²", "m/s²"),
-    ("F", "dx/dt final", "m/s"),
-    ("G", "x", "µm"),
+    ("A", "Row", "", ""),
+    ("B", "Time", "s", "Appendix"),
+    ("C", "dx/dt initial", "m/s", "Appendix"),
+    ("D", "x", "m", "Appendix"),
+    ("E", "d²x/dt²", "m/s²", "Eqs. 13, A-3"),
+    ("F", "dx/dt final", "m/s", "Appendix"),
+    ("G", "x", "µm", ""),
 )
 _FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000"}
 
@@ -30,10 +30,12 @@ def sheet(case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
     last = FIRST_ROW + case.rows
     cells = _title(case) | {"A2": Cell(text=_NOTE, style="note")}
-    for column, head, unit in _HEADS:
+    for column, head, unit, source in _HEADS:
         cells[f"{column}4"] = Cell(text=head, style="head right")
         if unit:
             cells[f"{column}5"] = Cell(text=unit, style="unit right")
+        if source:
+            cells[f"{column}3"] = Cell(text=source, style="printed")
     cells |= results(case, FIRST_ROW, last) | _impact_row(case)
     for step in range(1, case.rows + 1):
         cells |= _step_row(step, case)

@@ -41,17 +41,24 @@ _HEADER = {
 }
 
 
-def sheet(case: CaseSheet) -> SheetPlan:
-    """The table for a case: the report's is the one of beta = 5."""
+def sheet(case: CaseSheet, report: bool) -> SheetPlan:
+    """The table for a case: the report's is the one of beta = 5.
+
+    `report`: with the printed text beside it.
+    """
     cells = _header(case) | _impact_row()
     for step in range(1, ROWS):
         cells |= _step_row(step, (case.named("R_t"), case.step_named))
-    cells |= _printed()
-    note = (
+    if report:
+        cells |= _printed()
+    notes = (
         "Table A-1. Rigid body penetration. Columns A to F: live formulas, the inputs of "
-        f"{case.name}. Columns H to M: the report's text."
+        f"{case.name}." + (" Columns H to M: the report's text." if report else ""),
+        "M: Eq. 3 times the density. Rt: Eqs. 7, A-2. d²x/dt²: Eqs. 13, A-1, A-3. "
+        "Velocities and x: appendix.",
     )
-    cells["A14"] = Cell(text=note, style="note")
+    for row, note in enumerate(notes, start=14):
+        cells[f"A{row}"] = Cell(text=note, style="note")
     widths = dict.fromkeys("ABCDEF", 13.0) | {"G": 4.0} | dict.fromkeys("HIJKLM", 13.0)
     return SheetPlan(name="Table A-1", cells=cells, widths=widths)
 
