@@ -17,7 +17,7 @@ _NOTE = (
 def sheet(cases: tuple[CaseSheet, ...]) -> SheetPlan:
     """The sheet: one curve for each of the cases."""
     cells = {
-        "A1": Cell(text="Penetration depth against time (the report's Figure 3)", style="title"),
+        "A1": Cell(text="Penetration depth against time (as the report's Figure 3)", style="title"),
         "A2": Cell(text=_NOTE, style="note"),
     }
     series = []

@@ -28,7 +28,9 @@ _COLUMNS = (
 def sheet(case: CaseSheet) -> SheetPlan:
     """The sheet for the case that the figure is about: beta = 5."""
     cells = {
-        "A1": Cell(text="Normalized depth against velocity (the report's Figure 5)", style="title"),
+        "A1": Cell(
+            text="Normalized depth against velocity (as the report's Figure 5)", style="title"
+        ),
         "A2": Cell(text=_NOTE, style="note"),
     }
     for column, head, unit, _, _ in _COLUMNS:

@@ -1,10 +1,13 @@
 """What only the report's workbook has: its audit, its figures, its other time step, its checks."""
 
+import subprocess
+import zipfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from openpyxl import load_workbook
 
 from reference.ledger import load
 from replication import workbook
@@ -128,3 +131,40 @@ def test_an_input_out_of_range_gives_a_message_and_no_error(
         if isinstance(value, str) and value.startswith("#")
     ]
     assert errors == []
+
+
+def test_charts_store_the_numbers_that_they_show(tmp_path: Path) -> None:
+    path = tmp_path / "w.xlsx"
+    emit.write(path, PLAN, VALUES)
+    with zipfile.ZipFile(path) as archive:
+        charts = [archive.read(name).decode() for name in archive.namelist() if _CHART in name]
+    assert len(charts) == 3
+    for chart in charts:
+        assert "<c:numCache>" in chart
+        assert "<c:strRef>" not in chart
+
+
+def test_it_survives_opening_and_saving_in_libreoffice(
+    usable: Callable[[str], Engine], tmp_path: Path
+) -> None:
+    usable("libreoffice")
+    emit.write(tmp_path / "w.xlsx", PLAN, VALUES)
+    command = ["soffice", f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}", "--headless"]
+    command += ["--convert-to", "xlsx", "--outdir", str(tmp_path / "saved"), "w.xlsx"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    saved = tmp_path / "saved" / "w.xlsx"
+    with zipfile.ZipFile(saved) as archive:
+        assert len([name for name in archive.namelist() if _CHART in name]) == 3
+    before, after = load_workbook(tmp_path / "w.xlsx"), load_workbook(saved)
+    assert set(before.defined_names) <= set(after.defined_names)
+    for sheet in PLAN.sheets:
+        for address in list(sheet.cells)[:60]:
+            old, new = before[sheet.name][address], after[sheet.name][address]
+            assert old.number_format == new.number_format
+            assert old.fill.fgColor.rgb == new.fill.fgColor.rgb
+            assert old.font.b == new.font.b
+        validations = after[sheet.name].data_validations.dataValidation
+        assert len(validations) > 0 or sheet.name != "Inputs"
+
+
+_CHART = "charts/chart"
