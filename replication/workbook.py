@@ -38,16 +38,20 @@ def write(path: Path, cases: Cases = REPORT) -> None:
     emit.write(path, *build(cases))
 
 
-def values(cases: Cases = REPORT) -> dict[str, Value]:
+def values(cases: Cases = REPORT, written_for: Cases | None = None) -> dict[str, Value]:
     """The value of every key of the workbook. Raises as `build` does."""
-    return build(cases)[1]
+    return build(cases, written_for)[1]
 
 
-def build(cases: Cases = REPORT) -> tuple[WorkbookPlan, dict[str, Value]]:
+def build(
+    cases: Cases = REPORT, written_for: Cases | None = None
+) -> tuple[WorkbookPlan, dict[str, Value]]:
     """The plan of the workbook and its values by key.
 
-    Raises ValueError unless there are one or two cases that share every input but beta or the
-    resistance, and when a case needs more steps than `prepared_rows` admits.
+    With `written_for`, of a workbook with as many rows as those cases need: one that was written
+    for them and whose inputs were then changed. Raises ValueError unless there are one or two cases
+    that share every input but beta or the resistance, and when a case needs more steps than
+    `prepared_rows` admits, or than there are rows.
 
     >>> plan, values = build()
     >>> plan.where["high.depth_um"], f"{values['high.depth_um']:.2f}"
@@ -57,22 +61,31 @@ def build(cases: Cases = REPORT) -> tuple[WorkbookPlan, dict[str, Value]]:
     slugs = ("case",) if len(cases) == 1 else ("low", "high")
     sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
     names = dict(zip(slugs, cases, strict=True))
-    fine = _case_sheets(names, sheets)
+    sizing = list((cases if written_for is None else written_for).values())
+    fine = _case_sheets(names, sheets, _rows(sizing))
     if list(cases) != list(REPORT):
         return workbook_plan(fine), values_by_key(sheets, fine[0].rows)
     step = INPUTS["dt_coarse"].si
     again = {slug: midpoint.run(replace(s.impact, step=step)) for slug, s in sheets.items()}
-    coarse = _case_sheets(names, again, coarse=True)
+    rows = _rows([replace(impact, step=step) for impact in sizing])
+    coarse = _case_sheets(names, again, rows, coarse=True)
     plan = workbook_plan(fine, coarse)
     values = values_by_key(sheets, fine[0].rows)
     return plan, values | report_values(values, sheets, again, coarse[0].rows)
 
 
+def _rows(impacts: Sequence[Impact]) -> int:
+    """The rows that every sheet of a workbook for these cases has, after row 0."""
+    return prepared_rows(max(midpoint.run(impact).steps for impact in impacts))
+
+
 def _case_sheets(
-    names: Mapping[str, str], sheets: Mapping[str, Sheet], *, coarse: bool = False
+    names: Mapping[str, str], sheets: Mapping[str, Sheet], rows: int, *, coarse: bool = False
 ) -> list[CaseSheet]:
-    """What the plan must know of these cases' sheets, which all have as many rows."""
-    rows = prepared_rows(max(sheet.steps for sheet in sheets.values()))
+    """What the plan must know of these cases' sheets, of so many rows each."""
+    longest = max(sheet.steps for sheet in sheets.values())
+    if longest > rows:
+        raise ValueError(f"the case needs {longest} steps, and the workbook has {rows} rows")
     return [
         CaseSheet(
             name=coarse_name(names[slug]) if coarse else names[slug],
