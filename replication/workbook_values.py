@@ -9,11 +9,11 @@ from replication import closed_form, frank_zook, resistance, sphere, stream
 from replication.impact import Impact
 from replication.midpoint import Row, Sheet
 from spreadsheets.plan import Value
-from spreadsheets.sheets.inputs import INPUTS
+from spreadsheets.sheets.inputs import ALL_VALID, INPUTS, REPORT_INPUTS
 from spreadsheets.sheets.results import STOPPED
 from spreadsheets.sheets.table_a1 import ROWS
 
-__all__ = ["pressure_ratio", "values_by_key"]
+__all__ = ["pressure_ratio", "sheet_values", "values_by_key"]
 
 _HEADER = {
     "radius": "radius",
@@ -52,18 +52,26 @@ def values_by_key(sheets: Mapping[str, Sheet], rows: int) -> dict[str, Value]:
         "frank_zook": _frank_zook(last.impact),
         "crater": _crater(last.impact),
         "resistance": _resistance(sheets),
+        "figure_3": _figure_3(sheets, rows),
     }
+    held = {f"{part}.{what}": v for part, values in parts.items() for what, v in values.items()}
     for slug, sheet in sheets.items():
-        header = _header(sheet.impact, _HEADER | _HEADER_BESIDE)
-        result = _result(sheet)
-        parts[slug] = header | result | _rows(sheet, rows) | _beside_rows(sheet, rows)
-        headline = ("depth_um", "normalized_depth")
-        parts[f"contents.{slug}"] = {what: result[what] for what in headline}
-    return {
-        f"{part}.{what}": _plain(value)
-        for part, held in parts.items()
-        for what, value in held.items()
-    }
+        of_sheet = sheet_values(slug, sheet, rows)
+        held |= of_sheet
+        for what in ("depth_um", "normalized_depth"):
+            held[f"contents.{slug}.{what}"] = of_sheet[f"{slug}.{what}"]
+    return {key: _plain(value) for key, value in held.items()}
+
+
+def sheet_values(part: str, sheet: Sheet, rows: int) -> dict[str, Any]:
+    """The values of a sheet of so many prepared rows, under keys that begin with `part`."""
+    impact = sheet.impact
+    title: dict[str, Any] = {"title.step": impact.step}
+    if impact.resistance is None:
+        title["title.beta"] = impact.beta
+    held = _header(impact, _HEADER | _HEADER_BESIDE) | title | _result(sheet)
+    held |= _rows(sheet, rows) | _beside_rows(sheet, rows)
+    return {f"{part}.{what}": _plain(value) for what, value in held.items()}
 
 
 def pressure_ratio(impact: Impact) -> float:
@@ -78,13 +86,30 @@ def _plain(value: Any) -> Value:
 
 
 def _inputs(sheets: Mapping[str, Sheet]) -> dict[str, Any]:
-    by_case = {"Y_t", "beta_low", "beta_high", *_SHARED_INPUTS}
+    by_case = {"Y_t", "beta_low", "beta_high", *_SHARED_INPUTS, *REPORT_INPUTS}
     held: dict[str, Any] = {n: entry.si for n, entry in INPUTS.items() if n not in by_case}
+    held["half_step"] = next(iter(sheets.values())).impact.step / 2
     for slug, sheet in sheets.items():
         impact, suffix = sheet.impact, "" if slug == "case" else f"_{slug}"
         held |= _header(impact, _SHARED_INPUTS) | {f"R_t{suffix}": impact.target_resistance}
         if impact.resistance is None:
             held |= {f"beta{suffix}": impact.beta, "Y_t": impact.flow_stress}
+    typed = {name for name in held if name not in ("D_p", "half_step")}
+    if "Y_t" in held:
+        typed -= {"R_t", "R_t_low", "R_t_high"}
+    checks = {f"{name}.check": 1 for name in typed}
+    reports = {f"{name}.report": INPUTS[name].si for name in typed if name in INPUTS}
+    return held | checks | reports | {"ok": 1, "message": ALL_VALID}
+
+
+def _figure_3(sheets: Mapping[str, Sheet], rows: int) -> dict[str, Any]:
+    """The curves in ns and µm; after the stop they hold the last row."""
+    held = {}
+    for slug, sheet in sheets.items():
+        for k in range(rows + 1):
+            row = sheet.rows[min(k, sheet.steps)]
+            held[f"{slug}.time[{k}]"] = row.time * 1e9
+            held[f"{slug}.depth[{k}]"] = row.depth * 1e6
     return held
 
 
@@ -202,6 +227,8 @@ def _resistance(sheets: Mapping[str, Sheet]) -> dict[str, Any]:
         "brinell_beta": resistance.brinell_beta(INPUTS["HB_ratio"].si),
         "strain_rate": stream.strain_rate(impact.velocity, INPUTS["L_typ"].si),
     }
+    betas = [held[f"{route}_beta"] for route in ("goodier", "walker_anderson", "brinell")]
+    held |= {"least_beta": min(betas), "greatest_beta": max(betas)}
     for slug, sheet in sheets.items():
         held |= {f"{slug}.{what}": value for what, value in _stresses(sheet.impact).items()}
     return held | _strengths()
@@ -225,4 +252,9 @@ def _strengths() -> dict[str, Any]:
         for which in ("feathery", "clear", "bulk")
     }
     mean = (held["feathery"] + held["clear"]) / 2
-    return held | {"mean_grain": mean, "grain_over_bulk": mean / held["bulk"]}
+    least = held["clear"] / held["bulk"]
+    return held | {
+        "mean_grain": mean,
+        "clear_over_bulk": least,
+        "grain_over_bulk": mean / held["bulk"],
+    }

@@ -10,7 +10,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
+from spreadsheets.charts import draw
+from spreadsheets.plan import Cell, Limits, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import write_bytes
 from spreadsheets.styles import STYLES
 
@@ -18,8 +19,6 @@ __all__ = ["cell_values", "to_bytes", "write"]
 
 _CREATED = datetime(2006, 1, 1)
 """A fixed date, the report's year: XlsxWriter would take the clock."""
-
-_INPUT_STYLES = ("input", "inferred")
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
@@ -55,6 +54,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         _set_up(page, sheet)
         _fill(page, sheet, values, formats)
         _define_names(book, sheet)
+        for chart in sheet.charts:
+            draw(book, page, sheet.name, chart)
     book.close()
     return buffer.getvalue()
 
@@ -72,7 +73,8 @@ def _check(plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
 
 
 def _properties(plan: WorkbookPlan) -> dict[str, str]:
-    return {"title": plan.title, "author": plan.author, "subject": plan.subject}
+    names = ("title", "author", "subject", "keywords", "comments")
+    return {name: getattr(plan, name) for name in names}
 
 
 class _Formats:
@@ -125,7 +127,8 @@ def _write_cell(
     page: Any, address: str, cell: Cell, values: Mapping[str, Value], style: Any
 ) -> None:
     if cell.link:
-        page.write_url(address, f"internal:'{cell.link}'!A1", style, cell.text)
+        sheet, target = cell.link
+        page.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
     elif cell.text:
         page.write_string(address, cell.text, style)
     elif cell.formula:
@@ -134,17 +137,24 @@ def _write_cell(
         page.write_number(address, values[cell.key], style)
     else:
         page.write_blank(address, None, style)
-    if cell.style in _INPUT_STYLES:
-        page.data_validation(
-            address,
-            {
-                "validate": "decimal",
-                "criteria": ">=",
-                "value": 0,
-                "error_title": "Not a number",
-                "error_message": "An input is a number, zero or more, in the unit on its right.",
-            },
-        )
+    if cell.limits:
+        page.data_validation(address, _validation(cell, cell.limits))
+
+
+def _validation(cell: Cell, limits: Limits) -> dict[str, Any]:
+    """What a spreadsheet program asks of a typed number, and says before and after."""
+    unit = "" if cell.unit == "1" else f", in {cell.unit}"
+    settings: dict[str, Any] = {
+        "validate": "decimal",
+        "input_title": cell.name,
+        "input_message": f"A number {limits.words}{unit}.",
+        "error_title": "Out of range",
+        "error_message": f"{cell.name} is a number {limits.words}{unit}.",
+    }
+    if limits.most is None:
+        return settings | {"criteria": ">=" if limits.closed else ">", "value": limits.least}
+    # A validation knows no half-open range: the check beside the cell refuses the lower end.
+    return settings | {"criteria": "between", "minimum": limits.least, "maximum": limits.most}
 
 
 def _define_names(book: Any, sheet: SheetPlan) -> None:

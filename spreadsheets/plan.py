@@ -9,13 +9,42 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-__all__ = ["Cell", "Place", "Rule", "SheetPlan", "Value", "WorkbookPlan"]
+__all__ = [
+    "Cell",
+    "Chart",
+    "Limits",
+    "Place",
+    "Rule",
+    "Series",
+    "SheetPlan",
+    "Value",
+    "WorkbookPlan",
+]
 
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a guarded formula leaves."""
 
 Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What an input may be: above `least`, or from it on where `closed`, and not above `most`."""
+
+    least: float = 0.0
+    closed: bool = False
+    most: float | None = None
+
+    @property
+    def words(self) -> str:
+        """The limits as a message says them.
+
+        >>> Limits().words, Limits(closed=True).words, Limits(most=0.5).words
+        ('greater than 0', 'at least 0', 'greater than 0 and at most 0.5')
+        """
+        low = f"{'at least' if self.closed else 'greater than'} {self.least:g}"
+        return low if self.most is None else f"{low} and at most {self.most:g}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +54,8 @@ class Cell:
     `name` defines the cell's name in the workbook; `unit` and `source` (section or equation of the
     report) are what the neighboring cells print. `transcendental` marks a value that passes through
     LN, SIN, ASIN or a cube root, whose last digits depend on the C library; all others are the same
-    double everywhere. `link` names the sheet that a text cell leads to.
+    double everywhere. `link` is the sheet, and the cell of it, that a text cell leads to; `limits`
+    tell what may be typed into an input.
     """
 
     text: str = ""
@@ -37,7 +67,8 @@ class Cell:
     unit: str = ""
     source: str = ""
     transcendental: bool = False
-    link: str = ""
+    link: Place | None = None
+    limits: Limits | None = None
 
     def __post_init__(self) -> None:
         if self.text and self.key:
@@ -55,6 +86,32 @@ class Rule:
     style: str
 
 
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One curve: its `name` in the legend, and the cells of its x and y, such as "A5:A25"."""
+
+    name: str
+    x: str
+    y: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chart:
+    """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
+
+    Axis titles name quantity and unit. With `categories` the x are labels at equal distances, so
+    that the axis spans them exactly, whatever they are; with `logarithmic` both axes are.
+    """
+
+    at: str
+    title: str
+    x_title: str
+    y_title: str
+    series: tuple[Series, ...]
+    categories: bool = False
+    logarithmic: bool = False
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints."""
@@ -67,6 +124,7 @@ class SheetPlan:
     repeated_rows: tuple[int, int] | None = None
     """Rows (first, last) printed at the head of every page."""
     rules: tuple[Rule, ...] = ()
+    charts: tuple[Chart, ...] = ()
     print_area: str = ""
     """The cells that are printed, such as "A1:N184"; all of them by default."""
 
@@ -79,6 +137,8 @@ class WorkbookPlan:
     title: str
     author: str
     subject: str
+    keywords: str = ""
+    comments: str = ""
 
     def __post_init__(self) -> None:
         cells = [cell for _, cell in self.cells()]

@@ -15,6 +15,8 @@ _HEADING: dict[str, Any] = {**_FONT, "bold": True, "bg_color": _HEAD, "bottom": 
 STYLES: dict[str, dict[str, Any]] = {
     "body": _FONT,
     "title": {**_FONT, "bold": True, "font_size": 14},
+    "title right": {**_FONT, **_RIGHT, "bold": True, "font_size": 14},
+    "title left": {**_FONT, "bold": True, "font_size": 14, "align": "left"},
     "note": {**_FONT, "font_color": _GRAY, "italic": True},
     "head": _HEADING,
     "head right": {**_HEADING, **_RIGHT},
@@ -31,11 +33,13 @@ STYLES: dict[str, dict[str, Any]] = {
     "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
     "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
     "printed": {**_FONT, **_RIGHT, "font_color": _GRAY},
+    "printed left": {**_FONT, "font_color": _GRAY, "align": "left", "indent": 1},
     "printed label": {**_FONT, "font_color": _GRAY},
     "link": {**_FONT, "font_color": "#1F4E9E", "underline": 1},
     # Styles of a rule change what a cell already has, so they name nothing else.
     "ruled": {"bottom": 1, "bottom_color": _RULE},
     "warning": {"font_color": _RED, "bold": True},
+    "good": {"font_color": "#1B6E3C", "bold": True},
 }
 STYLES |= {
     f"{name} sample": {**STYLES[name], "align": "center"}

@@ -19,7 +19,7 @@ class CaseSheet:
     `steps` and `rows` count the rows in use and the prepared ones, after row 0. With
     `resistance_given` the target resistance is an input and not the product of beta and the flow
     stress. `printed` holds the report's final depth [µm] and normalized depth, as printed, where
-    the case is the report's own.
+    the case is the report's own. A `coarse` sheet repeats its case with the step `dt_coarse`.
     """
 
     name: str
@@ -28,10 +28,25 @@ class CaseSheet:
     rows: int
     resistance_given: bool = False
     printed: tuple[str, str] = ("", "")
+    coarse: bool = False
 
     def named(self, symbol: str) -> str:
         """The defined name of this case's `symbol`: R_t_low beside R_t_high, or R_t alone."""
         return symbol if self.slug == "case" else f"{symbol}_{self.slug}"
+
+    @property
+    def part(self) -> str:
+        """What the keys of its sheet begin with: "low", or "low_coarse"."""
+        return f"{self.slug}_coarse" if self.coarse else self.slug
+
+    def result_named(self, what: str) -> str:
+        """The defined name of a result of its sheet: depth_um_low, or depth_um_low_coarse."""
+        return f"{self.named(what)}_coarse" if self.coarse else self.named(what)
+
+    @property
+    def step_named(self) -> str:
+        """The defined name of its time step."""
+        return "dt_coarse" if self.coarse else "dt_s"
 
 
 def prepared_rows(steps: int) -> int:

@@ -4,14 +4,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
-from spreadsheets.plan import Cell, SheetPlan
+from spreadsheets.plan import Cell, Limits, Rule, SheetPlan
 from spreadsheets.sheets.case import CaseSheet
 from spreadsheets.sheets.lines import WIDTHS, Line, heads, live, place
 
-__all__ = ["INPUTS", "Input", "sheet"]
+__all__ = ["ALL_VALID", "INPUTS", "REPORT_INPUTS", "Input", "sheet"]
 
 NUMBER = "0.0####E+00"
 """For lengths, times and stresses: up to six digits, so that what was typed can be read."""
+
+
+_POSITIVE = Limits()
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +33,7 @@ class Input:
     unit: str
     printed: str
     source: str
+    limits: Limits = _POSITIVE
 
     @property
     def si(self) -> float:
@@ -51,22 +55,23 @@ _IMPACT = (
     Input("rho_p", "ρ_p", "particle density (copper)", "8.90E+03", 0, "kg/m³", "8.90E+03", _A1),
     Input("rho_t", "ρ_t", "target density (steel)", "7850", 0, "kg/m³", "", _INFERRED),
     Input("dt_s", "Δt", "time step", "0.2", -9, "s", "0.2 ns", "Appendix; section 3"),
-    Input("v_stop", "v_stop", "stop velocity", "1", 0, "m/s", "1 m/s", "Appendix"),
-)
+    Input("v_stop", "v_stop", "stop velocity", "1", 0, "m/s", "1 m/s", "Appendix",
+          Limits(closed=True)),
+)  # fmt: skip
 _FLOW_STRESS = Input("Y_t", "Y_t", "target flow stress", "700", 6, "Pa", "700 MPa", "Section 3")
 _BETAS = (
     Input("beta_low", "β", "resistance over flow stress, low", "3", 0, "1", "3", "Section 3"),
     Input("beta_high", "β", "resistance over flow stress, high", "5", 0, "1", "5", "Section 3"),
 )
 _COARSE = Input(
-    "dt_coarse", "Δt", "coarser time step (not used in the sheets)", "0.5", -9, "s", "0.5 ns",
-    "Section 3: “did not change significantly”. Type it into dt_s to see",
+    "dt_coarse", "Δt", "coarser time step", "0.5", -9, "s", "0.5 ns",
+    "Section 3: “did not change significantly”",
 )  # fmt: skip
 _CRATER = (
     Input("CV_PV", "CV/PV", "crater volume over particle volume, least", "0.06", 0, "1", "0.06",
-          "Section 2, above Eq. 4"),
+          "Section 2, above Eq. 4", Limits(most=0.5)),
     Input("CV_PV_line", "CV/PV", "slope of the line in figure 1", "0.058", 0, "1", "0.058",
-          "Section 2"),
+          "Section 2", Limits(most=0.5)),
     Input("d_min", "d", "smallest particle diameter", "10", -6, "m", "10 μm", "Section 2"),
     Input("d_max", "d", "largest particle diameter", "30", -6, "m", "30 μm", "Section 2"),
 )  # fmt: skip
@@ -100,8 +105,14 @@ _UNITS = (
     Input("inch_m", "in", "inch", "0.0254", 0, "m", "", "Exact, by definition"),
 )
 
+_FIGURE_5 = (
+    Input("V_from", "V", "least velocity of figure 5", "400", 0, "m/s", "400", "Section 4"),
+    Input("V_to", "V", "greatest velocity of figure 5", "500", 0, "m/s", "500 m/s", "Section 4"),
+)
+
 _BLOCKS = {
     "Impact": (*_IMPACT, _COARSE),
+    "Figure 5": _FIGURE_5,
     "Target resistance of the sheets": (_FLOW_STRESS, *_BETAS),
     "Crater data": _CRATER,
     "Material data": _RESISTANCE,
@@ -111,37 +122,128 @@ _BLOCKS = {
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input by its name."""
 
+REPORT_INPUTS = {_COARSE.name, *(entry.name for entry in _FIGURE_5)}
+"""What only sheets about the report take, and other workbooks leave out."""
 
-def sheet(cases: tuple[CaseSheet, ...]) -> SheetPlan:
-    """The sheet for these cases, which share every input but the target resistance."""
+ALL_VALID = "All inputs are in range."
+_NOT_VALID = "CHECK THE INPUTS: column I tells which one is out of range."
+_CHECKED = '"ok";;"out of range"'
+"""Shows 1 and 0."""
+
+
+def sheet(cases: tuple[CaseSheet, ...], report: bool) -> SheetPlan:
+    """The sheet for these cases, which share every input but the target resistance.
+
+    `report`: the workbook is the report's, and has the sheets that are about it alone.
+    """
     cells = {
         "A1": Cell(text="Inputs", style="title"),
         "A2": Cell(
             text="Change a blue number on yellow; every other sheet follows. SI units, except the "
-            "strengths in ksi. Gray text is about the report's own case.",
+            "strengths in ksi. To restore the report's values, copy column H and paste values into "
+            "column C.",
             style="note",
         ),
     }
-    cells |= heads(4) | place(list(_lines(cases)), 5)
+    cells |= heads(5) | place(list(_lines(cases, report)), 6)
     named = {address: cell.name for address, cell in cells.items() if cell.name}
     cells |= {f"G{address[1:]}": Cell(text=name, style="source") for address, name in named.items()}
-    cells["G4"] = Cell(text="Name in formulas", style="head unit")
-    widths = dict(zip("ABCDEFG", (*WIDTHS, 18.0), strict=True))
-    return SheetPlan(name="Inputs", cells=cells, widths=widths, frozen="A5", repeated_rows=(4, 4))
+    checks = _checks(cells)
+    for column, head in (("G", "Name in formulas"), ("H", "Report's value"), ("I", "Check")):
+        cells[f"{column}5"] = Cell(text=head, style="head" if column == "G" else "head right")
+    cells |= checks | _report_values(cells) | _status(checks)
+    widths = dict(zip("ABCDEFGHI", (*WIDTHS, 18.0, 15.0, 12.0), strict=True))
+    warning = Rule(cells="A3", formula="=$I$3=0", style="warning")
+    failed = Rule(cells=f"I3:I{_last(checks)}", formula="=AND(ISNUMBER(I3),I3=0)", style="warning")
+    return SheetPlan(
+        name="Inputs",
+        cells=cells,
+        widths=widths,
+        frozen="A6",
+        repeated_rows=(5, 5),
+        rules=(warning, failed),
+    )
 
 
-def _lines(cases: tuple[CaseSheet, ...]) -> Iterator[Line | str]:
+def _checks(cells: dict[str, Cell]) -> dict[str, Cell]:
+    """Column I: 1 beside an input that is a number in range, 0 beside another.
+
+    Beside the mass: whether it is one that doubles can hold.
+    """
+    checks = {}
+    for address, cell in cells.items():
+        if cell.limits:
+            formula = f"=IF(ISNUMBER({address}),{_in_range(address, cell.limits)},0)"
+        elif cell.name == "M_p":
+            formula = "=IFERROR(IF(rho_p*R_p*R_p*R_p>0,1,0),0)"
+        else:
+            continue
+        checks[f"I{address[1:]}"] = Cell(
+            key=f"inputs.{cell.name}.check",
+            formula=formula,
+            style="number",
+            number_format=_CHECKED,
+        )
+    return checks
+
+
+def _in_range(address: str, limits: Limits) -> str:
+    above = f"{address}{'>=' if limits.closed else '>'}{limits.least:g}"
+    if limits.most is None:
+        return f"IF({above},1,0)"
+    return f"IF({above},IF({address}<={limits.most:g},1,0),0)"
+
+
+def _last(checks: dict[str, Cell]) -> int:
+    return max(int(address[1:]) for address in checks)
+
+
+def _report_values(cells: dict[str, Cell]) -> dict[str, Cell]:
+    """Column H: the report's own value of each input, to be copied back."""
+    return {
+        f"H{address[1:]}": Cell(
+            key=f"inputs.{cell.name}.report", style="printed", number_format=cell.number_format
+        )
+        for address, cell in cells.items()
+        if cell.limits and cell.name in INPUTS
+    }
+
+
+def _status(checks: dict[str, Cell]) -> dict[str, Cell]:
+    """The one cell that every guard asks, and what it means."""
+    rows = [int(address[1:]) for address in checks]
+    return {
+        "A3": Cell(
+            key="inputs.message",
+            formula=f'=IF(inputs_ok=1,"{ALL_VALID}","{_NOT_VALID}")',
+            style="message",
+        ),
+        "I3": Cell(
+            key="inputs.ok",
+            formula=f"=MIN(I{min(rows)}:I{max(rows)})",
+            style="result",
+            number_format=_CHECKED,
+            name="inputs_ok",
+        ),
+    }
+
+
+def _lines(cases: tuple[CaseSheet, ...], report: bool) -> Iterator[Line | str]:
     for title, entries in _BLOCKS.items():
+        kept = [entry for entry in entries if report or entry.name not in REPORT_INPUTS]
+        if not kept:
+            continue
         yield title
-        if _FLOW_STRESS in entries:
+        if _FLOW_STRESS in kept:
             yield from _resistance_lines(cases)
         else:
-            yield from map(_line, entries)
+            yield from map(_line, kept)
     yield "Derived"
     yield _derived("D_p", "D", "particle diameter", "=2*R_p", "m", "2.20E-05", "Below Eq. 12")
     yield _derived(
         "M_p", "M", "particle mass", "=rho_p*4/3*PI()*R_p*R_p*R_p", "kg", "4.96E-11", "Table A-1"
     )
+    yield _derived("half_step", "Δt/2", "half step to start", "=dt_s/2", "s", "0.1 ns", "Appendix")
 
 
 def _resistance_lines(cases: tuple[CaseSheet, ...]) -> Iterator[Line]:
@@ -163,40 +265,29 @@ def _beta(case: CaseSheet) -> Line:
     name = case.named("beta")
     if name in INPUTS:
         return _line(INPUTS[name])
-    return _input(name, "β", "resistance over flow stress", "1", "3 and 5", "Section 3")
+    return _line(
+        Input(name, "β", "resistance over flow stress", "", 0, "1", "3 and 5", "Section 3")
+    )
 
 
 def _given_resistance(case: CaseSheet) -> Line:
-    note = "Given instead of β and Y_t (the report: Eq. 7)"
     meaning = f"target resistance, {case.name}"
-    return _input(case.named("R_t"), "R_t", meaning, "Pa", "", note)
+    note = "Given instead of β and Y_t (the report: Eq. 7)"
+    return _line(Input(case.named("R_t"), "R_t", meaning, "", 0, "Pa", "", note))
 
 
 def _line(entry: Input) -> Line:
-    style = "input" if entry.source != _INFERRED else "inferred"
-    return _input(
-        entry.name, entry.symbol, entry.meaning, entry.unit, entry.printed, entry.source, style
-    )
-
-
-def _input(
-    name: str,
-    symbol: str,
-    meaning: str,
-    unit: str,
-    printed: str,
-    source: str,
-    style: str = "input",
-) -> Line:
     cell = Cell(
-        key=f"inputs.{name}",
-        style=style,
-        number_format=NUMBER if unit in ("m", "s", "Pa") else "General",
-        name=name,
-        unit=unit,
-        source=source,
+        key=f"inputs.{entry.name}",
+        style="input" if entry.source != _INFERRED else "inferred",
+        number_format=NUMBER if entry.unit in ("m", "s", "Pa") else "General",
+        name=entry.name,
+        unit=entry.unit,
+        source=entry.source,
+        limits=entry.limits,
     )
-    return Line(symbol=symbol, meaning=meaning, cell=cell, printed=printed or "not printed")
+    printed = entry.printed or "not printed"
+    return Line(symbol=entry.symbol, meaning=entry.meaning, cell=cell, printed=printed)
 
 
 def _derived(

@@ -1,11 +1,15 @@
 """The table that most sheets are made of: one quantity a line, its value, unit and source."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from spreadsheets.plan import Cell
 
-__all__ = ["HEADS", "WIDTHS", "Line", "heads", "live", "place"]
+__all__ = ["CHECK_INPUTS", "HEADS", "WIDTHS", "Line", "heads", "live", "place", "valid_only"]
+
+CHECK_INPUTS = "check the inputs"
+"""What stands in place of a value while an input is out of range."""
 
 HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or section")
 WIDTHS = (9.0, 41.0, 15.0, 8.0, 17.0, 54.0)
@@ -40,10 +44,10 @@ def live(
     name: str = "",
     transcendental: bool = False,
 ) -> Line:
-    """A line whose value is a formula."""
+    """A line whose value is a formula, calculated while all inputs are in range."""
     cell = Cell(
         key=key,
-        formula=formula,
+        formula=valid_only(formula),
         style=style,
         number_format=number_format,
         name=name,
@@ -52,6 +56,19 @@ def live(
         transcendental=transcendental,
     )
     return Line(symbol=symbol, meaning=meaning, cell=cell, printed=printed)
+
+
+def valid_only(formula: str) -> str:
+    """The formula, with a message in place of its value while an input is out of range.
+
+    A mere reference is left as it is: it shows what it refers to.
+
+    >>> valid_only("=2*R_p"), valid_only("=R_p")
+    ('=IF(inputs_ok=1,2*R_p,"check the inputs")', '=R_p')
+    """
+    if re.fullmatch(r"=\w+", formula) or "inputs_ok" in formula:
+        return formula
+    return f'=IF(inputs_ok=1,{formula[1:]},"{CHECK_INPUTS}")'
 
 
 def heads(row: int, columns: str = "ABCDEF") -> dict[str, Cell]:

@@ -7,6 +7,7 @@ from spreadsheets.sheets.lines import WIDTHS, Line, heads, live, place
 __all__ = ["sheet"]
 
 _SI = "0.000E+00"
+_THREE = "{goodier_beta},{walker_anderson_beta},{brinell_beta}"
 
 
 def sheet(cases: tuple[CaseSheet, ...]) -> SheetPlan:
@@ -43,6 +44,14 @@ def _betas() -> list[Line]:
             "resistance.brinell_beta", "β", "Brinell hardness as target resistance", "=HB_ratio",
             "1", "Section 3, below Eq. 11", printed="3",
         ),
+        live(
+            "resistance.least_beta", "β", "least of the three", f"=MIN({_THREE})", "1",
+            "Section 3: “in the range of 3 to 5”", printed="3", transcendental=True,
+        ),
+        live(
+            "resistance.greatest_beta", "β", "greatest of the three", f"=MAX({_THREE})", "1",
+            "Section 3: “in the range of 3 to 5”", printed="5", transcendental=True,
+        ),
     ]  # fmt: skip
 
 
@@ -65,11 +74,15 @@ def _strengths() -> list[Line]:
         "MPa", "Section 3: the flow stress “will be taken to be”", printed="700 MPa",
         number_format="0.0",
     )  # fmt: skip
+    least = live(
+        "resistance.clear_over_bulk", "", "clear grains over bulk", "={clear}/{bulk}", "1",
+        "Section 3: the least of them", printed="several times", number_format="0.00",
+    )  # fmt: skip
     several = live(
         "resistance.grain_over_bulk", "", "mean over bulk", "={mean_grain}/{bulk}", "1",
         "Section 3", printed="several times", number_format="0.00",
     )  # fmt: skip
-    return [*lines, mean, several]
+    return [*lines, mean, least, several]
 
 
 def _stresses(case: CaseSheet) -> list[Line]:

@@ -1,4 +1,4 @@
-"""The sheets `Sheet beta 3` and `Sheet beta 5`: the whole midpoint scheme, down to the stop.
+"""The sheets of a case: the whole midpoint scheme, down to the stop, with either time step.
 
 Below the stop follow rows that are blank until an input needs them. If even they do not suffice,
 the result says so instead of giving a depth.
@@ -6,7 +6,7 @@ the result says so instead of giving a depth.
 
 from spreadsheets.plan import Cell, Rule, SheetPlan
 from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.motion import guarded, moves_on, step_cells
+from spreadsheets.sheets.motion import guarded, impact_index, moves_on, step_cells
 from spreadsheets.sheets.results import WIDTHS, results
 
 __all__ = ["FIRST_ROW", "sheet"]
@@ -15,13 +15,13 @@ FIRST_ROW = 6
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 
 _HEADS = (
-    ("A", "Row", ""),
-    ("B", "Time", "s"),
-    ("C", "dx/dt initial", "m/s"),
-    ("D", "x", "m"),
-    ("E", "d²x/dt²", "m/s²"),
-    ("F", "dx/dt final", "m/s"),
-    ("G", "x", "µm"),
+    ("A", "Row", "", ""),
+    ("B", "Time", "s", "Appendix"),
+    ("C", "dx/dt initial", "m/s", "Appendix"),
+    ("D", "x", "m", "Appendix"),
+    ("E", "d²x/dt²", "m/s²", "Eqs. 13, A-3"),
+    ("F", "dx/dt final", "m/s", "Appendix"),
+    ("G", "x", "µm", ""),
 )
 _FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000"}
 
@@ -29,14 +29,13 @@ _FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000"}
 def sheet(case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
     last = FIRST_ROW + case.rows
-    cells = {
-        "A1": Cell(text=f"{case.name}: rigid-body penetration, row by row", style="title"),
-        "A2": Cell(text=_NOTE, style="note"),
-    }
-    for column, head, unit in _HEADS:
+    cells = _title(case) | {"A2": Cell(text=_NOTE, style="note")}
+    for column, head, unit, source in _HEADS:
         cells[f"{column}4"] = Cell(text=head, style="head right")
         if unit:
             cells[f"{column}5"] = Cell(text=unit, style="unit right")
+        if source:
+            cells[f"{column}3"] = Cell(text=source, style="printed")
     cells |= results(case, FIRST_ROW, last) | _impact_row(case)
     for step in range(1, case.rows + 1):
         cells |= _step_row(step, case)
@@ -53,6 +52,20 @@ def sheet(case: CaseSheet) -> SheetPlan:
     )
 
 
+def _title(case: CaseSheet) -> dict[str, Cell]:
+    """The title, with the live β and Δt: the sheet keeps its name when they change."""
+    cells = {"A1": Cell(text="Rigid-body penetration, row by row", style="title")}
+    shown = [("I", "J", "Δt [s] =", "step", case.step_named)]
+    if not case.resistance_given:
+        shown.append(("F", "G", "β =", "beta", case.named("beta")))
+    for label, value, text, what, name in shown:
+        cells[f"{label}1"] = Cell(text=text, style="title right")
+        cells[f"{value}1"] = Cell(
+            key=f"{case.part}.title.{what}", formula=f"={name}", style="title left", source="Inputs"
+        )
+    return cells
+
+
 _NOTE = (
     "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt; d²x/dt² is printed positive, "
     "from that x and the initial velocity. The run stops with the first row below v_stop. "
@@ -63,7 +76,7 @@ _NOTE = (
 def _rules(case: CaseSheet, cells: dict[str, Cell], last: int) -> tuple[Rule, ...]:
     """A thin line under each row in use; a red message when the rows do not suffice."""
     places = {cell.key: address for address, cell in cells.items()}
-    message, stopped = places[f"{case.slug}.message"], places[f"{case.slug}.stopped"]
+    message, stopped = places[f"{case.part}.message"], places[f"{case.part}.stopped"]
     return (
         Rule(cells=f"A{FIRST_ROW}:G{last}", formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
         Rule(cells=message, formula=f"={stopped}=0", style="warning"),
@@ -72,32 +85,36 @@ def _rules(case: CaseSheet, cells: dict[str, Cell], last: int) -> tuple[Rule, ..
 
 def _impact_row(case: CaseSheet) -> dict[str, Cell]:
     """Row 0: time, x and deceleration are 0 by the initial conditions; no final velocity."""
-    row, key = FIRST_ROW, f"{case.slug}.row[0]"
-    starts = {"A": "index", "B": "time", "D": "depth", "E": "deceleration"}
+    row, key = FIRST_ROW, f"{case.part}.row[0]"
+    starts = {"B": "time", "D": "depth", "E": "deceleration"}
     cells = {
-        f"{column}{row}": Cell(key=f"{key}.{what}", style="number")
+        f"{column}{row}": Cell(key=f"{key}.{what}", formula=guarded(row, "0"), style="number")
         for column, what in starts.items()
     }
+    cells[f"A{row}"] = Cell(key=f"{key}.index", formula=impact_index(), style="number")
     cells[f"C{row}"] = Cell(
-        key=f"{key}.velocity_initial", formula="=V_impact", style="number", number_format="0.000"
+        key=f"{key}.velocity_initial",
+        formula=guarded(row, "V_impact"),
+        style="number",
+        number_format="0.000",
     )
     cells[f"G{row}"] = _micrometers(row, key)
     return cells
 
 
 def _step_row(step: int, case: CaseSheet) -> dict[str, Cell]:
-    row, first, key = FIRST_ROW + step, step == 1, f"{case.slug}.row[{step}]"
+    row, first, key = FIRST_ROW + step, step == 1, f"{case.part}.row[{step}]"
     index = moves_on(row, first, f"A{row - 1}+1")
     cells = {
         f"A{row}": Cell(key=f"{key}.index", formula=index, style="number"),
         f"B{row}": Cell(
             key=f"{key}.time",
-            formula=guarded(row, f"A{row}*dt_s"),
+            formula=guarded(row, f"A{row}*{case.step_named}"),
             style="number",
             number_format="0.00E+00",
         ),
     }
-    cells |= step_cells(row, first, case.named("R_t"), key, _FORMATS)
+    cells |= step_cells(row, first, (case.named("R_t"), case.step_named), key, _FORMATS)
     return cells | {f"G{row}": _micrometers(row, key)}
 
 

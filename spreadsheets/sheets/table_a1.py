@@ -6,7 +6,7 @@ from column H on, stands the printed text itself.
 
 from spreadsheets.plan import Cell, SheetPlan
 from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.motion import moves_on, step_cells
+from spreadsheets.sheets.motion import impact_index, moves_on, step_cells
 
 __all__ = ["PRINTED", "ROWS", "sheet"]
 
@@ -41,17 +41,24 @@ _HEADER = {
 }
 
 
-def sheet(case: CaseSheet) -> SheetPlan:
-    """The table for a case: the report's is the one of beta = 5."""
+def sheet(case: CaseSheet, report: bool) -> SheetPlan:
+    """The table for a case: the report's is the one of beta = 5.
+
+    `report`: with the printed text beside it.
+    """
     cells = _header(case) | _impact_row()
     for step in range(1, ROWS):
-        cells |= _step_row(step, case.named("R_t"))
-    cells |= _printed()
-    note = (
+        cells |= _step_row(step, (case.named("R_t"), case.step_named))
+    if report:
+        cells |= _printed()
+    notes = (
         "Table A-1. Rigid body penetration. Columns A to F: live formulas, the inputs of "
-        f"{case.name}. Columns H to M: the report's text."
+        f"{case.name}." + (" Columns H to M: the report's text." if report else ""),
+        "M: Eq. 3 times the density. Rt: Eqs. 7, A-2. d²x/dt²: Eqs. 13, A-1, A-3. "
+        "Velocities and x: appendix.",
     )
-    cells["A14"] = Cell(text=note, style="note")
+    for row, note in enumerate(notes, start=14):
+        cells[f"A{row}"] = Cell(text=note, style="note")
     widths = dict.fromkeys("ABCDEF", 13.0) | {"G": 4.0} | dict.fromkeys("HIJKLM", 13.0)
     return SheetPlan(name="Table A-1", cells=cells, widths=widths)
 
@@ -80,19 +87,21 @@ def _impact_row() -> dict[str, Cell]:
     """Row 0: at time 0 the particle stands at x = 0, not yet decelerated."""
     start = {"A": "time", "D": "depth", "E": "deceleration"}
     cells = {
-        f"{column}{_FIRST}": Cell(key=f"table.row[0].{what}", style="number")
+        f"{column}{_FIRST}": Cell(
+            key=f"table.row[0].{what}", formula=impact_index(), style="number"
+        )
         for column, what in start.items()
     }
     velocity = Cell(key="table.row[0].velocity_initial", formula="=V_impact", style="number")
     return cells | {f"C{_FIRST}": velocity}
 
 
-def _step_row(step: int, resistance: str) -> dict[str, Cell]:
+def _step_row(step: int, names: tuple[str, str]) -> dict[str, Cell]:
     row, first = _FIRST + step, step == 1
     printed = dict(zip("ABCDEF", PRINTED[row - 1], strict=True))
     formats = {column: _format(text) for column, text in printed.items()}
     time = moves_on(row, first, f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*dt_s")
-    cells = step_cells(row, first, resistance, f"table.row[{step}]", formats)
+    cells = step_cells(row, first, names, f"table.row[{step}]", formats)
     cells[f"A{row}"] = Cell(
         key=f"table.row[{step}].time",
         formula=time,

@@ -27,6 +27,8 @@ from spreadsheets.engines import Engine, Recalculated
 from spreadsheets.engines.package import worksheets
 from spreadsheets.plan import Value, WorkbookPlan
 from spreadsheets.replica import has_long_doubles
+from spreadsheets.sheets.case import prepared_rows
+from spreadsheets.sheets.inputs import INPUTS as SHEET_INPUTS
 from spreadsheets.verify import verify
 
 INPUTS = {
@@ -39,9 +41,6 @@ INPUTS = {
     "Y_t": "flow_stress",
 }
 """Inputs that both cases share, by the names of their cells."""
-
-ROWS = 400
-"""Rows that the report's workbook prepares."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -75,7 +74,7 @@ class Emitted:
 
     def values(self, cases: Cases) -> dict[str, dict[str, Value]]:
         """What every cell must show for these cases."""
-        _, values = workbook.build(cases, ROWS)
+        _, values = workbook.build(cases, REPORT)
         return emit.cell_values(self.plan, values)
 
     def differences(self, cases: Cases, found: Recalculated) -> list[Difference]:
@@ -96,26 +95,30 @@ def random_cases(seed: int) -> Cases:
     draw = Random(seed).uniform
     while True:
         low = Impact(
-            velocity=draw(50.0, 1500.0),
-            radius=draw(1e-6, 5e-5),
+            velocity=draw(200.0, 1500.0),
+            radius=draw(1e-6, 2e-5),
             particle_density=draw(1e3, 2e4),
             target_density=draw(1e3, 2e4),
             beta=draw(1.0, 8.0),
             flow_stress=draw(1e8, 2e9),
             stop_velocity=draw(0.0, 20.0),
         )
-        depth = final_depth(
-            low.velocity,
-            low.radius,
-            low.particle_density,
-            low.target_density,
-            low.target_resistance,
-        )
+        depth = final_depth(**low.motion)
         # The mean velocity is about half that of the impact: about twice so many steps until rest.
         low = replace(low, step=float(depth) / low.velocity / draw(0.5, 180.0))
         cases = dict(zip(REPORT, (low, replace(low, beta=draw(1.0, 8.0))), strict=True))
-        if max(midpoint.run(case).steps for case in cases.values()) <= ROWS:
+        if fits(cases, None) and fits(cases, SHEET_INPUTS["dt_coarse"].si):
             return cases
+
+
+def fits(cases: Cases, step: float | None) -> bool:
+    """Whether the rows prepared for the report's own cases, at that step, are enough."""
+
+    def runs(those: Cases) -> list[Impact]:
+        return [c if step is None else replace(c, step=step) for c in those.values()]
+
+    steps = [max(midpoint.run(impact).steps for impact in runs(those)) for those in (cases, REPORT)]
+    return steps[0] <= prepared_rows(steps[1])
 
 
 SEEDS = st.integers(0, 2**32)

@@ -20,7 +20,7 @@ from spreadsheets.compare import Difference, compare
 from spreadsheets.engines import Engine, engine
 from spreadsheets.plan import Value, WorkbookPlan
 from spreadsheets.readback import read
-from spreadsheets.sheets.results import NO_STOP, OUT_OF_ROWS
+from spreadsheets.sheets.results import NO_STOP, out_of_rows
 from spreadsheets.sheets.table_a1 import PRINTED
 
 DOUBLES = ("ironcalc", "formualizer", "libreoffice")
@@ -74,20 +74,21 @@ def edited(cases: Cases, rows_of: Cases, path: Path) -> tuple[WorkbookPlan, dict
     Returns its plan and the values that a recalculation must give.
     """
     plan, stale = workbook.build(rows_of)
-    fresh = workbook.values(cases)
+    fresh = workbook.values(cases, rows_of)
     inputs = {cell.key for _, cell in plan.cells() if cell.key and not cell.formula}
     emit.write(path, plan, stale | {key: fresh[key] for key in inputs})
-    blank = {key: "" for key in stale if ".row[" in key}
-    return plan, blank | {key: fresh[key] for key in fresh if key in stale}
+    return plan, fresh
 
 
 @pytest.mark.parametrize(
-    "change", [{"velocity": 420.0}, {"step": 1e-10}, {"radius": 2e-5}], ids=str
+    "change",
+    [{"velocity": 420.0}, {"velocity": 120.0}, {"step": 1e-10}, {"radius": 2e-5}],
+    ids=str,
 )
 def test_an_edited_workbook_follows_its_inputs(
     change: dict[str, float], exact_engine: Engine, tmp_path: Path
 ) -> None:
-    """The run ends earlier (420 m/s) or extends into the blank rows (the others)."""
+    """The run ends earlier (the velocities) or extends into the blank rows (the others)."""
     cases = {name: replace(case, **change) for name, case in REPORT.items()}
     path = tmp_path / "edited.xlsx"
     plan, values = edited(cases, REPORT, path)
@@ -95,17 +96,16 @@ def test_an_edited_workbook_follows_its_inputs(
 
 
 def test_a_workbook_that_runs_out_of_rows_says_so(exact_engine: Engine, tmp_path: Path) -> None:
-    cases = {name: replace(case, step=5e-11) for name, case in REPORT.items()}
-    assert float(workbook.values(cases)["low.steps"]) > 400
     path = tmp_path / "short.xlsx"
-    plan, _ = edited(cases, REPORT, path)
+    plan, values = workbook.build()
+    emit.write(path, plan, values | {"inputs.dt_s": 5e-11})
     found = exact_engine.recalculate(path)
 
     def at(key: str) -> Value:
         sheet, address = plan.where[key]
         return found[sheet][address]
 
-    assert at("low.message") == OUT_OF_ROWS
+    assert at("low.message") == out_of_rows(400)
     for result in ("final_depth", "depth_um", "normalized_depth", "steps", "stop_time"):
         assert at(f"low.{result}") == NO_STOP
     assert at("contents.low.depth_um") == NO_STOP
@@ -190,6 +190,12 @@ def test_printed_results_stand_beside_the_reports_own_cases_only() -> None:
 
     assert {"10.0", "0.91", "7.67", "0.70"} <= texts(REPORT)
     assert not {"7.67", "0.70"} & texts({"Sheet": replace(BETA_5, velocity=501.0)})
+
+
+def test_a_workbook_too_short_for_the_case_is_refused() -> None:
+    cases = {name: replace(case, step=5e-11) for name, case in REPORT.items()}
+    with pytest.raises(ValueError, match="needs 711 steps, and the workbook has 400 rows"):
+        workbook.values(cases, REPORT)
 
 
 def test_cases_that_cannot_share_a_workbook_are_refused() -> None:
