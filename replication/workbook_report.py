@@ -180,6 +180,9 @@ def _inside(value: Value, interval: Interval) -> bool:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
         return False
+    if interval.lower is not None and interval.lower == interval.upper:
+        # Exact text, such as 2/3, which no double is: to nine digits.
+        return abs(Fraction(value) - interval.lower) * 10**9 <= abs(interval.lower)
     lower, upper = (
         None if end is None else Fraction(float(end)) for end in (interval.lower, interval.upper)
     )

@@ -168,3 +168,14 @@ def test_it_survives_opening_and_saving_in_libreoffice(
 
 
 _CHART = "charts/chart"
+
+
+def test_gnumerics_long_doubles_give_the_same_verdicts(
+    usable: Callable[[str], Engine], tmp_path: Path
+) -> None:
+    path = tmp_path / "w.xlsx"
+    emit.write(path, PLAN, VALUES)
+    found = usable("gnumeric").recalculate(path)
+    for name in CELLS:
+        sheet, address = PLAN.where[f"audit.{name}.verdict"]
+        assert found[sheet][address] == VALUES[f"audit.{name}.verdict"], name
