@@ -44,6 +44,7 @@ def report_values(
     held |= _figure_5(sheets["high"].impact)
     held |= _convergence({slug: sheet.impact for slug, sheet in sheets.items()})
     held |= _table_check(values)
+    held |= _equations(sheets)
     held |= _audit({**values, **held})
     return {key: value if isinstance(value, str) else float(value) for key, value in held.items()}
 
@@ -132,6 +133,49 @@ def _table_check(values: Mapping[str, Value]) -> dict[str, Any]:
         parts["difference"] = difference
         held |= {f"table_check.{address}.{what}": value for what, value in parts.items()}
     return held
+
+
+def _equations(sheets: Mapping[str, Sheet]) -> dict[str, Any]:
+    """The equations' constants: volumes over pi and areas over pi are rational, so exact here."""
+    quarter, half, one, two = Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(2)
+    sphere_factor = _cap(2 * one, one)
+    impact = sheets["high"].impact
+    particle, target = impact.particle_density, impact.target_density
+    diameter, k_1 = impact.diameter, INPUTS["k_1"].si
+    inertia = float(sphere_factor) / 2 * particle / target + k_1
+    work = (float(sphere_factor) / 2 * diameter * particle + k_1 * target * diameter) / 2
+    lacking = {x: 2 * x - (1 - (1 - x) ** 2) for x in (quarter, half)}
+    radius = INPUTS["D_mean"].si / 2
+    held: dict[str, Any] = {
+        "eq2.quarter": _cap(quarter, one),
+        "eq2.half": _cap(half, one),
+        "eq2.radius": _cap(one, one),
+        "eq2.factor": _cap(one, one) / 2,
+        "eq2.power": math.log2(_cap(half, one) / (3 - half) * (3 - quarter) / _cap(quarter, one)),
+        "eq2.offset": 3 * _cap(one, one) + 1,
+        "eq3.factor": sphere_factor,
+        "eq3.double": _cap(2 * two, two),
+        "eq3.power": math.log2(_cap(2 * two, two) / sphere_factor),
+        "contact.quarter": lacking[quarter],
+        "contact.half": lacking[half],
+        "contact.power": math.log2(lacking[half] / lacking[quarter]),
+        "eq16.inertia": inertia,
+        "eq16.depth": work,
+        "eq16.denominator": inertia * target * impact.radius / work,
+        "eq16.diameters": inertia * target * diameter / work,
+        # At V = 0 the term beside the offset vanishes, and so does the logarithm.
+        "eq16.offset": 1,
+        "radius": radius,
+        "radius_um": radius * 1e6,
+    }
+    for slug, sheet in sheets.items():
+        held[f"{slug}.excess"] = sheet.normalized_depth / INPUTS["observed_ratio"].si
+    return {f"equations.{what}": float(value) for what, value in held.items()}
+
+
+def _cap(depth: Fraction, radius: Fraction) -> Fraction:
+    """Volume of the cap over pi, the antiderivative of 2Rx - x^2."""
+    return radius * depth**2 - depth**3 / 3
 
 
 _PRINTED = {address: text for address, _, _, text in compared_cells()}

@@ -53,9 +53,9 @@ class Cell:
 
     `name` defines the cell's name in the workbook; `unit` and `source` (section or equation of the
     report) are what the neighboring cells print. `transcendental` marks a value that passes through
-    LN, SIN, ASIN or a cube root, whose last digits depend on the C library; all others are the same
-    double everywhere. `link` is the sheet, and the cell of it, that a text cell leads to; `limits`
-    tell what may be typed into an input.
+    LN, EXP, SIN, ASIN or a cube root, whose last digits depend on the C library; all others are the
+    same double everywhere. `link` is the sheet, and the cell of it, that a text cell leads to;
+    `limits` tell what may be typed into an input.
     """
 
     text: str = ""

@@ -8,6 +8,7 @@ from spreadsheets.sheets import (
     contents,
     convergence,
     crater,
+    equations,
     figure_3,
     figure_5,
     frank_zook,
@@ -38,6 +39,7 @@ def workbook_plan(cases: Sequence[CaseSheet], coarse: Sequence[CaseSheet] = ()) 
         sheets += [figure_5.sheet(cases[-1]), convergence.sheet(cases)]
     sheets += [frank_zook.sheet(), crater.sheet(), resistance.sheet(cases)]
     if coarse:
+        sheets.append(equations.sheet(cases))
         sheets.append(audit.sheet(_where(sheets)))
     return WorkbookPlan(
         sheets=(contents.sheet(cases, [sheet.name for sheet in sheets]), *sheets),

@@ -82,6 +82,7 @@ def _described(cases: tuple[CaseSheet, ...]) -> dict[str, str]:
         "Frank-Zook": "Eq. 16 as printed and as derived (Eqs. 14-17)",
         "Crater": "Section 2: crater volume, depth and contact diameter; particle velocities",
         "Resistance": "β by three routes, grain strengths, centerline stress, strain rate",
+        "Equations": "Constants that the equations print, from geometry; what section 4 compares",
         "Audit": "Every printed number: interval, computed value, verdict, and the cell to look at",
     }
     for case in cases:

@@ -109,6 +109,12 @@ _FIGURE_5 = (
     Input("V_from", "V", "least velocity of figure 5", "400", 0, "m/s", "400", "Section 4"),
     Input("V_to", "V", "greatest velocity of figure 5", "500", 0, "m/s", "500 m/s", "Section 4"),
 )
+_EQUATIONS = (
+    Input("D_mean", "D", "mean particle diameter of the powder", "22", -6, "m", "22 μm",
+          "Section 2"),
+    Input("observed_ratio", "X/R", "observed normalized depth", "0.3", 0, "1", "0.3",
+          "Section 4: “0.9 or 0.7 vs. 0.3”"),
+)  # fmt: skip
 
 _BLOCKS = {
     "Impact": (*_IMPACT, _COARSE),
@@ -117,12 +123,13 @@ _BLOCKS = {
     "Crater data": _CRATER,
     "Material data": _RESISTANCE,
     "Frank-Zook": _FRANK_ZOOK,
+    "Equations": _EQUATIONS,
     "Unit conversion": _UNITS,
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input by its name."""
 
-REPORT_INPUTS = {_COARSE.name, *(entry.name for entry in _FIGURE_5)}
+REPORT_INPUTS = {_COARSE.name, *(entry.name for entry in (*_FIGURE_5, *_EQUATIONS))}
 """What only sheets about the report take, and other workbooks leave out."""
 
 ALL_VALID = "All inputs are in range."
