@@ -10,11 +10,13 @@ from typing import Any
 
 from reference.ledger import Claim, Inferred, Ledger
 from reference.printed import Interval
+from replication.analysis.approaches import approaches
 from replication.analysis.stability import HARD_CASES, outcome, worst_of
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
+from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
 from replication.reports.numerics import budget_record, budget_sheets, stability_record
 
 __all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
@@ -49,8 +51,17 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "stability": stability_record(
             [outcome(case) for case in HARD_CASES], worst_of(RANDOM_CASES, seed=1)
         ),
+        "approaches": [approach_record(one) for one in approaches(ledger, audit.assessments)],
+        "sensitivity": sensitivity_record(ledger),
+        "scatter": scatter_record(ledger, _observed(audit)),
         "provenance": _provenance(),
     }
+
+
+def _observed(audit: Audit) -> float:
+    reading = audit.assessments["observed-depth-ratio"].reading
+    assert reading is not None
+    return reading.computed
 
 
 def ledger_record(claim: Claim) -> dict[str, Any]:

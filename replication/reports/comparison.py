@@ -1,0 +1,59 @@
+"""Approaches, sensitivity and scatter as records; lengths in m, all in SI."""
+
+from dataclasses import asdict
+from typing import Any
+
+from reference.ledger import Ledger
+from replication.analysis.approaches import Approach
+from replication.analysis.scatter import (
+    SHARES,
+    Scatter,
+    Spread,
+    scatter,
+    stated_deviations,
+    tied_particles,
+)
+from replication.analysis.sensitivity import elasticities, stated_effects, ten_percent_effects
+from replication.impact import BETA_5, CASES
+
+__all__ = ["approach_record", "scatter_record", "sensitivity_record"]
+
+
+def approach_record(approach: Approach) -> dict[str, Any]:
+    """One row of the table of normalized depths."""
+    return {**asdict(approach), "recomputable": approach.recomputable}
+
+
+def sensitivity_record(ledger: Ledger) -> dict[str, Any]:
+    """By case: logarithmic derivatives, and what ranges of the inputs do to the exact depth."""
+    return {
+        name: {
+            "elasticities": elasticities(case),
+            "ten_percent": [asdict(effect) for effect in ten_percent_effects(case)],
+            "stated": [asdict(effect) for effect in stated_effects(case, ledger)],
+        }
+        for name, case in CASES.items()
+    }
+
+
+def scatter_record(ledger: Ledger, observed: float) -> dict[str, Any]:
+    """What the scatter of size and velocity does, by case; `observed` is the X/R of Eq. 4."""
+    deviations = stated_deviations(ledger)
+    return {
+        "standard_deviations": deviations,
+        "shares": list(SHARES),
+        "particles": [asdict(particle) for particle in tied_particles(BETA_5, ledger)],
+        "streams": {
+            name: [_stream(one) for one in scatter(case, deviations, observed)]
+            for name, case in CASES.items()
+        },
+    }
+
+
+def _stream(one: Scatter) -> dict[str, Any]:
+    spreads = {part: _spread(getattr(one, part)) for part in ("depth", "ratio", "velocity")}
+    return {**asdict(one), **spreads}
+
+
+def _spread(spread: Spread) -> dict[str, Any]:
+    return {**asdict(spread), "deviation": spread.deviation}
