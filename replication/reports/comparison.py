@@ -4,6 +4,7 @@ from dataclasses import asdict
 from typing import Any
 
 from reference.ledger import Ledger
+from replication import closed_form
 from replication.analysis.approaches import Approach
 from replication.analysis.scatter import (
     SHARES,
@@ -28,6 +29,7 @@ def sensitivity_record(ledger: Ledger) -> dict[str, Any]:
     """By case: logarithmic derivatives, and what ranges of the inputs do to the exact depth."""
     return {
         name: {
+            "depth": float(closed_form.final_depth(**case.motion)),
             "elasticities": elasticities(case),
             "ten_percent": [asdict(effect) for effect in ten_percent_effects(case)],
             "stated": [asdict(effect) for effect in stated_effects(case, ledger)],

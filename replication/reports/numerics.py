@@ -5,11 +5,18 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from replication.analysis.budget import split
-from replication.analysis.convergence import ORDER, Convergence, Level, StepForDigits
+from replication.analysis.convergence import (
+    ORDER,
+    Convergence,
+    Level,
+    StepForDigits,
+    converge,
+    ladder,
+)
 from replication.analysis.stability import Outcome, Worst
 from replication.case import inputs_of
-from replication.impact import CASES
-from replication.midpoint import Sheet, run
+from replication.impact import BETA_5, CASES
+from replication.midpoint import SCHEMES, Sheet, run
 from replication.text import aligned, number
 
 __all__ = [
@@ -18,6 +25,7 @@ __all__ = [
     "budget_sheets",
     "convergence_record",
     "convergence_text",
+    "report_ladders",
     "stability_record",
     "stability_text",
 ]
@@ -150,6 +158,12 @@ def _notes(outcome: Outcome) -> list[str]:
 def budget_sheets() -> list[Sheet]:
     """The report's two cases at its step and at the one it compares with."""
     return [run(replace(case, step=step)) for case in CASES.values() for step in (2e-10, 5e-10)]
+
+
+def report_ladders() -> list[dict[str, Any]]:
+    """Both schemes over steps from 16 times the report's down to an eighth, beta = 5."""
+    steps = ladder(BETA_5.step, levels=8)
+    return [convergence_record(converge(BETA_5, steps, scheme), None) for scheme in SCHEMES]
 
 
 def budget_record(sheet: Sheet) -> dict[str, Any]:

@@ -17,7 +17,12 @@ from replication.audit.explain import assumptions, explanation
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
 from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
-from replication.reports.numerics import budget_record, budget_sheets, stability_record
+from replication.reports.numerics import (
+    budget_record,
+    budget_sheets,
+    report_ladders,
+    stability_record,
+)
 
 __all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
 
@@ -51,6 +56,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "stability": stability_record(
             [outcome(case) for case in HARD_CASES], worst_of(RANDOM_CASES, seed=1)
         ),
+        "convergence": report_ladders(),
         "approaches": [approach_record(one) for one in approaches(ledger, audit.assessments)],
         "sensitivity": sensitivity_record(ledger),
         "scatter": scatter_record(ledger, _observed(audit)),

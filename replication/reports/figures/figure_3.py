@@ -1,0 +1,62 @@
+"""Figure 3 of the report: penetration depth against time, the sheet's rows and the exact motion."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from replication import closed_form
+from replication.analysis.budget import exact_motion
+from replication.impact import CASES, Impact
+from replication.midpoint import run
+from replication.reports.figures.drawing import BLUE, INK, VERMILION
+
+NAME = "figure-3"
+TITLE = "Penetration depth against time, as in Figure 3 of the report"
+SIZE = (7.2, 4.4)
+
+
+def describe(record: dict[str, Any]) -> str:
+    """The two curves in words."""
+    ends = {
+        f"beta = {case.beta:g}": (run(case), closed_form.final_depth(**case.motion))
+        for case in CASES.values()
+    }
+    told = "; ".join(
+        f"for {name} the sheet stops at {sheet.final_depth * 1e6:.4f} µm after "
+        f"{sheet.rows[-1].time * 1e9:.1f} ns, the exact depth at rest is {rest * 1e6:.4f} µm"
+        for name, (sheet, rest) in ends.items()
+    )
+    return f"Depth rises ever more slowly to rest: {told}. At this scale the two coincide."
+
+
+def plot(figure: Figure, record: dict[str, Any]) -> None:
+    """Every fourth row of each sheet as a point, the exact motion as a line."""
+    axes = figure.subplots()
+    looks = ((VERMILION, "o", (0, 9), "right"), (BLUE, "s", (8, -4), "left"))
+    for case, (color, marker, offset, side) in zip(CASES.values(), looks, strict=True):
+        times, depths = _exact(case)
+        axes.plot(times * 1e9, depths * 1e6, color=INK, linewidth=1.0)
+        rows = run(case).arrays()
+        axes.plot(rows["time"][::4] * 1e9, rows["depth"][::4] * 1e6, marker, color=color, ms=4)
+        axes.annotate(
+            f"β = {case.beta:g}: {rows['depth'][-1] * 1e6:.2f} µm",
+            (times[-1] * 1e9, depths[-1] * 1e6),
+            xytext=offset,
+            textcoords="offset points",
+            ha=side,
+            color=color,
+        )
+    axes.plot([], [], "o", color=INK, ms=4, label="the sheet, every fourth row")
+    axes.plot([], [], color=INK, linewidth=1.0, label="exact")
+    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, None), ylim=(0, 11.5))
+    axes.legend(loc="lower right")
+
+
+def _exact(case: Impact) -> tuple[Any, Any]:
+    """Time [s] and depth [m] down to rest, closest where the motion is slow."""
+    motion = exact_motion(case)
+    velocities = case.velocity * np.linspace(1, 0, 60) ** 1.5
+    times = [closed_form.stop_time(**case.motion, stop_velocity=float(v)) for v in velocities]
+    depths = [float(motion.depth_at_velocity(v)) for v in velocities]
+    return np.array(times), np.array(depths)

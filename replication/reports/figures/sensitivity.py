@@ -1,0 +1,64 @@
+"""Tornado: what each input does to the exact normalized depth and the exact depth, beta = 5."""
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from replication.reports.figures.drawing import BLUE, INK, VERMILION
+
+NAME = "sensitivity"
+TITLE = "What each input does to the exact penetration depth, beta = 5"
+SIZE = (7.2, 4.2)
+
+_CASE = "beta-5"
+_PANELS = (("ten_percent", "each input ± 10 %"), ("stated", "its own stated range"))
+
+
+def describe(record: dict[str, Any]) -> str:
+    """Every bar's ends, the longest first."""
+    return " ".join(
+        f"{words.capitalize()}: "
+        + "; ".join(
+            f"{_name(effect)} {_um(effect, 0)} to {_um(effect, 1)} µm"
+            for effect in _ordered(record, which)
+        )
+        + "."
+        for which, words in _PANELS
+    )
+
+
+def plot(figure: Figure, record: dict[str, Any]) -> None:
+    """Two panels of bars about the nominal depth, the longest on top."""
+    nominal = float(record["sensitivity"][_CASE]["depth"]) * 1e6
+    panels = figure.subplots(1, 2, sharex=True)
+    for axes, (which, words) in zip(panels, _PANELS, strict=True):
+        effects = _ordered(record, which)
+        for end, color in enumerate((VERMILION, BLUE)):
+            lengths = [effect["depths"][end] * 1e6 - nominal for effect in effects]
+            axes.barh(range(len(effects)), lengths, left=nominal, color=color, height=0.7)
+        axes.axvline(nominal, color=INK, linewidth=1.0)
+        axes.set_yticks(range(len(effects)), [_name(effect) for effect in effects])
+        axes.set(title=words, xlabel="Depth X [µm]", ylim=(len(effects) - 0.5, -0.5))
+        axes.grid(visible=False, axis="y")
+    figure.legend(
+        handles=[
+            Patch(color=VERMILION, label="input at its low end"),
+            Patch(color=BLUE, label="at its high end"),
+        ],
+        loc="outside lower center",
+        ncols=2,
+    )
+
+
+def _ordered(record: dict[str, Any], which: str) -> list[dict[str, Any]]:
+    effects = record["sensitivity"][_CASE][which]
+    return sorted(effects, key=lambda e: -abs(e["depths"][1] - e["depths"][0]))
+
+
+def _name(effect: dict[str, Any]) -> str:
+    return str(effect["input"]).replace("_", " ").replace("beta", "β")
+
+
+def _um(effect: dict[str, Any], end: int) -> str:
+    return f"{effect['depths'][end] * 1e6:.2f}"
