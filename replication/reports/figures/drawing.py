@@ -19,7 +19,7 @@ __all__ = ["BLUE", "GREEN", "INK", "VERMILION", "Drawing", "drawing", "power_of_
 
 INK, BLUE, VERMILION, GREEN = "#000000", "#0072B2", "#D55E00", "#009E73"
 
-_LOOKS = {
+_LOOKS: Any = {
     "svg.hashsalt": "coldspray",
     "svg.fonttype": "none",
     "font.family": "DejaVu Sans",
@@ -66,7 +66,7 @@ def drawing(module: ModuleType, record: dict[str, Any]) -> Drawing:
     return Drawing(module.NAME, module.TITLE, description, tidied, png.getvalue())
 
 
-def power_of_ten(number: float, _: int = 0) -> str:
+def power_of_ten(number: float, _: float = 0) -> str:
     """A tick of a logarithmic axis.
 
     >>> power_of_ten(1e-3), power_of_ten(1.0)

@@ -16,7 +16,7 @@ TITLE = "Penetration depth against time, as in Figure 3 of the report"
 SIZE = (7.2, 4.4)
 
 
-def describe(record: dict[str, Any]) -> str:
+def describe(_: dict[str, Any]) -> str:
     """The two curves in words."""
     ends = {
         f"beta = {case.beta:g}": (run(case), closed_form.final_depth(**case.motion))
@@ -30,7 +30,7 @@ def describe(record: dict[str, Any]) -> str:
     return f"Depth rises ever more slowly to rest: {told}. At this scale the two coincide."
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: Figure, _: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
     axes = figure.subplots()
     looks = ((VERMILION, "o", (0, 9), "right"), (BLUE, "s", (8, -4), "left"))

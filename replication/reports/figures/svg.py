@@ -6,7 +6,7 @@ several figures stand in one page.
 """
 
 import re
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 __all__ = ["tidy"]
 
@@ -20,8 +20,8 @@ def tidy(text: str, name: str, title: str, description: str) -> str:
 
     As a file of its own it stands on white paper; a page may style `.figure` and `.paper`.
     """
-    ElementTree.register_namespace("", _SVG)
-    root = ElementTree.fromstring(text)
+    ET.register_namespace("", _SVG)
+    root = ET.fromstring(text)
     for useless in ("metadata", "defs"):  # who made it; a style that the root's attributes replace
         root.remove(_required(root, useless))
     referenced = set(re.findall(r'(?:href="|url\()#([^")]+)', text))
@@ -29,17 +29,17 @@ def tidy(text: str, name: str, title: str, description: str) -> str:
         _presented(element)
         _identified(element, name, referenced)
     _head(root, name, title, description)
-    return ElementTree.tostring(root, encoding="unicode") + "\n"
+    return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _required(root: ElementTree.Element, tag: str) -> ElementTree.Element:
+def _required(root: ET.Element, tag: str) -> ET.Element:
     found = root.find(f"{{{_SVG}}}{tag}")
     if found is None:
         raise ValueError(f"matplotlib's SVG has no <{tag}> where one was removed")
     return found
 
 
-def _presented(element: ElementTree.Element) -> None:
+def _presented(element: ET.Element) -> None:
     for declaration in element.attrib.pop("style", "").split(";"):
         key, _, given = declaration.partition(":")
         if key.strip() and key.strip() != "font-family":
@@ -48,7 +48,7 @@ def _presented(element: ElementTree.Element) -> None:
         del element.attrib["transform"]
 
 
-def _identified(element: ElementTree.Element, name: str, referenced: set[str]) -> None:
+def _identified(element: ET.Element, name: str, referenced: set[str]) -> None:
     given = element.attrib.pop("id", None)
     if given in referenced:
         element.set("id", f"{name}-{given}")
@@ -59,7 +59,7 @@ def _identified(element: ElementTree.Element, name: str, referenced: set[str]) -
         element.set(key, value.replace("url(#", f"url(#{name}-"))
 
 
-def _head(root: ElementTree.Element, name: str, title: str, description: str) -> None:
+def _head(root: ET.Element, name: str, title: str, description: str) -> None:
     attributes = {
         "class": "figure",
         "role": "img",
@@ -71,8 +71,8 @@ def _head(root: ElementTree.Element, name: str, title: str, description: str) ->
     for key, value in attributes.items():
         root.set(key, value)
     paper = {"class": "paper", "width": "100%", "height": "100%", "fill": "#ffffff"}
-    root.insert(0, ElementTree.Element(f"{{{_SVG}}}rect", paper))
+    root.insert(0, ET.Element(f"{{{_SVG}}}rect", paper))
     for position, (tag, words) in enumerate((("title", title), ("desc", description))):
-        element = ElementTree.Element(f"{{{_SVG}}}{tag}", {"id": f"{name}-{tag}"})
+        element = ET.Element(f"{{{_SVG}}}{tag}", {"id": f"{name}-{tag}"})
         element.text = words
         root.insert(position, element)
