@@ -14,6 +14,7 @@ from replication.analysis.approaches import approaches
 from replication.analysis.stability import HARD_CASES, outcome, worst_of
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.findings import Finding
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
 from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
@@ -24,7 +25,7 @@ from replication.reports.numerics import (
     stability_record,
 )
 
-__all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
+__all__ = ["SCHEMA", "audit_record", "claim_record", "finding_record", "ledger_record"]
 
 SCHEMA = "coldspray-audit-1"
 
@@ -41,16 +42,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "summary": audit.summary,
         "reproduced": audit.reproduced_kinds,
         "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
-        "findings": [
-            {
-                "id": finding.id,
-                "title": finding.title,
-                "kind": finding.kind,
-                "claims": list(finding.claims),
-                "evidence": finding.evidence,
-            }
-            for finding in audit.findings
-        ],
+        "findings": [finding_record(finding) for finding in audit.findings],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
         "stability": stability_record(
@@ -100,6 +92,33 @@ def claim_record(ledger: Ledger, assessment: Assessment) -> dict[str, Any]:
         "rests_on": {name: list(entries) for name, entries in claim.inputs.items()},
         "assumes": assumptions(ledger, assessment),
         "explanation": explanation(ledger, assessment),
+    }
+
+
+def finding_record(finding: Finding) -> dict[str, Any]:
+    """One element of `findings`: its texts with the numbers in them, and the evidence for these."""
+    text = finding.text
+    return {
+        "id": text.id,
+        "title": finding.title,
+        "kind": text.kind,
+        "status": text.status,
+        "claims": list(text.claims),
+        "statement": text.filled(text.statement),
+        "by_hand": text.filled(text.by_hand),
+        "settle": text.filled(text.settle),
+        "holds": finding.holds,
+        "evidence": [
+            {
+                "name": piece.assertion.name,
+                "meaning": piece.assertion.means,
+                "unit": piece.assertion.unit,
+                "asserted": piece.assertion.says,
+                "computed": piece.computed if piece.is_outcome else float(piece.computed),
+                "holds": piece.holds,
+            }
+            for piece in finding.evidence
+        ],
     }
 
 
