@@ -1,10 +1,10 @@
 """Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
-__all__ = ["aligned", "inward", "number", "outward", "with_unit"]
+__all__ = ["aligned", "inward", "number", "outward", "pipe_table", "with_unit"]
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -62,3 +62,19 @@ def aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = (zip(row, widths, strict=True) for row in rows)
     return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]
+
+
+def pipe_table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    r"""A table in Markdown.
+
+    >>> print(pipe_table(("a", "b"), [("1", "2|3")]))
+    | a | b |
+    | --- | --- |
+    | 1 | 2\|3 |
+    """
+    lines = [heads, ("---",) * len(heads), *rows]
+    return "\n".join(f"| {' | '.join(map(_escaped, line))} |" for line in lines)
+
+
+def _escaped(cell: str) -> str:
+    return cell.replace("|", "\\|")

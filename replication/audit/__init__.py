@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from functools import cache
 
 from reference import ledger as ledgers
-from reference.ledger import Ledger
+from reference.ledger import Claim, Ledger
 from replication import workbook
 from replication.audit.findings import Finding, findings
 from replication.audit.verdict import Assessment, Verdict, assess
-from spreadsheets.plan import Cell
+from spreadsheets.plan import WorkbookPlan
+from spreadsheets.sheets.audit_cells import CELLS
 
-__all__ = ["Audit", "Verdict", "assess_claim", "audit"]
+__all__ = ["Audit", "Verdict", "assess_claim", "audit", "cell_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,11 +63,23 @@ def _kind(assessment: Assessment) -> str:
     return "restated" if restates else "computed"
 
 
+def cell_of(claim: Claim) -> str | None:
+    """The workbook's cell that computes a claim, or the claim's own cell of Table A-1.
+
+    >>> cell_of(ledgers.load().claims["depth-beta-5"])
+    'Sheet beta 5!K22'
+    """
+    if claim.id in CELLS:
+        return "!".join(_workbook_plan().where[CELLS[claim.id]])
+    return f"Table A-1!{claim.place.cell}" if claim.place.cell else None
+
+
 def _cell_is_blank(address: str) -> bool:
-    cell = _table_cells().get(address)
+    cells = next(sheet.cells for sheet in _workbook_plan().sheets if sheet.name == "Table A-1")
+    cell = cells.get(address)
     return cell is None or not (cell.text.strip() or cell.key)
 
 
 @cache
-def _table_cells() -> Mapping[str, Cell]:
-    return next(s.cells for s in workbook.build()[0].sheets if s.name == "Table A-1")
+def _workbook_plan() -> WorkbookPlan:
+    return workbook.build()[0]

@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     record = audit_record(done)
     paths = write_audit(done, record, options.out)
     if options.json:
-        shared.print_json(record)
+        print((options.out / "audit.json").read_text("utf-8"), end="")
     elif not options.quiet:
         print(audit_summary(done), *("", "Written:", *(f"  {path}" for path in paths)), sep="\n")
     return 1 if options.exit_code and done.with_verdict(Verdict.NOT_REPRODUCED) else 0

@@ -3,11 +3,14 @@
 import os
 import tempfile
 from errno import EACCES, ENOTDIR
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from replication import workbook
 from replication.audit import Audit
+from replication.reports.figures import FIGURES, draw
+from replication.reports.html import page
 from replication.reports.markdown import markdown
 from replication.reports.plain import json_text, rows_csv
 from spreadsheets.safely import check_target
@@ -15,18 +18,23 @@ from spreadsheets.safely import check_target
 __all__ = ["FILES", "check_folder", "write_audit"]
 
 
-FILES = ("workbook.xlsx", "audit.md", "audit.json", "audit.csv")
+FILES = (
+    "workbook.xlsx", "audit.html", "audit.md", "audit.json", "audit.csv",
+    *(f"figures/{figure.NAME}.{kind}" for figure in FIGURES for kind in ("svg", "png")),
+)  # fmt: skip
 
 
 def check_folder(folder: Path) -> None:
     """Raise OSError where the audit's files cannot be written, before anything is computed."""
-    existing = _existing(folder)
-    if not existing.is_dir():
-        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(existing))
-    if not os.access(existing, os.W_OK):
-        raise PermissionError(EACCES, "cannot be written to", str(existing))
-    for name in FILES if folder.is_dir() else ():
-        check_target(folder / name)
+    for wanted in (folder, folder / "figures"):
+        existing = _existing(wanted)
+        if not existing.is_dir():
+            raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(existing))
+        if not os.access(existing, os.W_OK):
+            raise PermissionError(EACCES, "cannot be written to", str(existing))
+    for path in (folder / name for name in FILES):
+        if path.parent.is_dir():
+            check_target(path)
 
 
 def _existing(folder: Path) -> Path:
@@ -35,23 +43,41 @@ def _existing(folder: Path) -> Path:
 
 
 def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> list[Path]:
-    """Write workbook.xlsx, audit.md, audit.json and audit.csv into a folder, made if needed.
+    """Write the audit's `FILES` into a folder, made if needed.
 
-    `record` is the audit as `reports.records.audit_record` gives it. The files are made beside the
-    folder first and moved in when all are done. Raises OSError when it cannot be done.
+    `record` is the audit as `reports.records.audit_record` gives it; the hash of the workbook is
+    added to its provenance. The files are made beside the folder first and moved in when all are
+    done. Raises OSError when it cannot be done.
     """
+    with tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".coldspray-") as temporary:
+        made = Path(temporary)
+        workbook.write(made / "workbook.xlsx")
+        (made / "figures").mkdir()
+        for name, content in _contents(audit, _sealed(record, made / "workbook.xlsx")).items():
+            (made / name).write_bytes(content)
+        (folder / "figures").mkdir(parents=True, exist_ok=True)
+        return [(made / name).replace(folder / name) for name in FILES]
+
+
+def _sealed(record: dict[str, Any], book: Path) -> dict[str, Any]:
+    """The record with the hash of the workbook that stands beside it."""
+    provenance = record["provenance"]
+    hashes = {**provenance["sha256"], book.name: sha256(book.read_bytes()).hexdigest()}
+    return {**record, "provenance": {**provenance, "sha256": hashes}}
+
+
+def _contents(audit: Audit, record: dict[str, Any]) -> dict[str, bytes]:
+    """Every file but the workbook."""
+    drawings = draw(record)
     texts = {
+        "audit.html": page(record, drawings),
         "audit.md": markdown(audit, record),
         "audit.json": json_text(record),
         "audit.csv": _claims_csv(record["claims"]),
+        **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
     }
-    with tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".coldspray-") as temporary:
-        made = Path(temporary)
-        for name, text in texts.items():
-            (made / name).write_text(text, encoding="utf-8", newline="\n")
-        workbook.write(made / "workbook.xlsx")
-        folder.mkdir(parents=True, exist_ok=True)
-        return [(made / name).replace(folder / name) for name in FILES]
+    pictures = {f"figures/{drawing.name}.png": drawing.png for drawing in drawings}
+    return {name: text.encode() for name, text in texts.items()} | pictures
 
 
 _COLUMNS = (

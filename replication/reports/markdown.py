@@ -7,8 +7,9 @@ from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.inference import infer
 from replication.audit.verdict import Assessment, Verdict
+from replication.reports.markdown_physics import physics, provenance
 from replication.reports.numerics import WHY
-from replication.text import number, outward, with_unit
+from replication.text import number, outward, pipe_table, with_unit
 
 __all__ = ["markdown"]
 
@@ -24,7 +25,7 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         "Every number that the report prints, and whether it follows from what the report says. "
         "Computed values are those of the re-run sheet and formulas; a range in brackets is proven "
         "by interval arithmetic and rounded outwards.",
-        _table(("verdict", "claims"), ((v, str(n)) for v, n in audit.summary.items())),
+        pipe_table(("verdict", "claims"), ((v, str(n)) for v, n in audit.summary.items())),
         "Of the reproduced ones "
         + ", ".join(f"{count} are {kind}" for kind, count in audit.reproduced_kinds.items())
         + ".",
@@ -34,6 +35,7 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         *(_inferred(audit, name) for name in ledger.inferred),
         "## Claims that are not plainly reproduced",
         *(_proof(audit, a) for a in audit.assessments.values() if _is_open(a)),
+        *physics(record),
         "## Where the error of the sheet comes from",
         "Final depth of the sheet minus the exact depth at rest, and its parts [µm]; the parts are "
         "computed each on its own and add up.",
@@ -45,6 +47,7 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         _hard_cases(record["stability"]),
         "## Every claim",
         *_sections(audit),
+        *provenance(record["provenance"]),
     ]
     return "\n\n".join(blocks) + "\n"
 
@@ -66,7 +69,7 @@ def _finding(finding: dict[str, Any]) -> str:
     lines += [f"By hand: {finding['by_hand']}"] if finding["by_hand"] else []
     lines += [
         f"What would settle it: {finding['settle']}",
-        _table(("evidence", "asserted", "computed"), map(_evidence, finding["evidence"])),
+        pipe_table(("evidence", "asserted", "computed"), map(_evidence, finding["evidence"])),
     ]
     return "\n\n".join(lines)
 
@@ -89,7 +92,7 @@ def _inferred(audit: Audit, name: str) -> str:
     return (
         f"{_capital(entry.title)}, {number(entry.nominal)} {entry.unit} ({entry.nominal_source}); "
         f"evidence: {_claims(entry.evidence)}. How it was found is told under the finding above."
-        "\n\n" + _table(("handbook value", entry.unit, "verdict"), rows)
+        "\n\n" + pipe_table(("handbook value", entry.unit, "verdict"), rows)
     )
 
 
@@ -127,7 +130,7 @@ def _budgets(budgets: list[dict[str, Any]]) -> str:
         )
         for b in budgets
     )
-    return _table(heads, rows)
+    return pipe_table(heads, rows)
 
 
 def _hard_cases(stability: dict[str, Any]) -> str:
@@ -135,7 +138,7 @@ def _hard_cases(stability: dict[str, Any]) -> str:
     worst = stability["random"]
     inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
     return (
-        _table(heads, (_hard_case(case) for case in stability["cases"]))
+        pipe_table(heads, (_hard_case(case) for case in stability["cases"]))
         + f"\n\nOver {worst['cases']} random cases (seed 1) the closed form is at worst "
         f"{worst['ulps']:.2f} ulp off, at {inputs}."
     )
@@ -159,7 +162,7 @@ def _sections(audit: Audit) -> list[str]:
         )
     heads = ("claim", "where", "printed", "computed", "proven range", "verdict")
     return [
-        f"### {name}\n\n" + _table(heads, (_row(assessment) for assessment in assessments))
+        f"### {name}\n\n" + pipe_table(heads, (_row(assessment) for assessment in assessments))
         for name, assessments in sections.items()
     ]
 
@@ -174,12 +177,3 @@ def _row(assessment: Assessment) -> tuple[str, ...]:
     proven = outward(*reading.enclosure)
     computed = with_unit(number(reading.computed), claim.unit)
     return head, where, text, computed, proven, assessment.verdict.value
-
-
-def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    lines = [heads, ("---",) * len(heads), *rows]
-    return "\n".join(f"| {' | '.join(map(_escaped, line))} |" for line in lines)
-
-
-def _escaped(cell: str) -> str:
-    return cell.replace("|", "\\|")

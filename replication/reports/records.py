@@ -12,7 +12,7 @@ from reference.ledger import Claim, Inferred, Ledger
 from reference.printed import Interval
 from replication.analysis.approaches import approaches
 from replication.analysis.stability import HARD_CASES, outcome, worst_of
-from replication.audit import Audit
+from replication.audit import Audit, cell_of
 from replication.audit.explain import assumptions, explanation
 from replication.audit.findings import Finding
 from replication.audit.inference import Inference, infer
@@ -34,14 +34,17 @@ RANDOM_CASES = 10_000
 
 
 def audit_record(audit: Audit) -> dict[str, Any]:
-    """The document of `audit.json`; keys as promised in the README."""
+    """The document of `audit.json`, keys as promised in the README, but for its workbook's hash."""
     ledger = audit.ledger
     return {
         "schema": SCHEMA,
         "report": {"title": ledger.title, "author": ledger.author, "year": ledger.year},
         "summary": audit.summary,
         "reproduced": audit.reproduced_kinds,
-        "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
+        "claims": [
+            {**claim_record(ledger, a), "workbook": cell_of(a.claim)}
+            for a in audit.assessments.values()
+        ],
         "findings": [finding_record(finding) for finding in audit.findings],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
@@ -69,6 +72,9 @@ def ledger_record(claim: Claim) -> dict[str, Any]:
         "title": claim.title,
         "where": str(claim.place),
         "line": claim.place.line,
+        "section": claim.place.section,
+        "cell": claim.place.cell,
+        "quote": " ".join(claim.quote.split()),
         "printed": claim.text,
         "unit": claim.unit,
         "kind": claim.kind,
@@ -185,13 +191,16 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
     }
 
 
-_LIBRARIES = ("coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "XlsxWriter")
+_LIBRARIES = (
+    "coldspray", "jinja2", "matplotlib", "mpmath", "numpy", "openpyxl", "pandas", "pint",
+    "XlsxWriter",
+)  # fmt: skip
 
 
 def _provenance() -> dict[str, Any]:
     """What the audit was made with; no clock and no machine, so that it is the same again."""
     folder = resources.files("reference.report")
-    files: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml")
+    files: Iterable[str] = ("de_rosset_2006.txt", "findings.toml", "ledger.toml")
     return {
         "command": "coldspray audit",
         "python": platform.python_version(),

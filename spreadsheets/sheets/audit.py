@@ -6,7 +6,7 @@ from reference.ledger import Claim, load
 from spreadsheets.plan import Cell, Place, Rule, SheetPlan
 from spreadsheets.sheets.audit_cells import CELLS, SCALES
 
-__all__ = ["FAILED", "REPRODUCED", "sheet"]
+__all__ = ["FAILED", "REPRODUCED", "UNITS", "sheet"]
 
 REPRODUCED = "reproduced"
 FAILED = "not as printed"
@@ -31,7 +31,7 @@ _HEADS = (
     ("Computed in", "head unit"),
 )
 _WIDTHS = (26.0, 28.0, 52.0, 28.0, 9.0, 13.0, 13.0, 14.0, 16.0, 26.0)
-_UNITS = {
+UNITS = {
     "um": "µm",
     "um^3": "µm³",
     "kg/m^3": "kg/m³",
@@ -82,7 +82,7 @@ def _what(claim: Claim, row: int, style: str) -> dict[str, Cell]:
         ("B", str(claim.place), style),
         ("C", claim.title, style),
         ("D", claim.text, "printed"),
-        ("E", _UNITS.get(claim.unit, claim.unit), "unit"),
+        ("E", UNITS.get(claim.unit, claim.unit), "unit"),
     )
     return {f"{column}{row}": Cell(text=text, style=how) for column, text, how in texts if text}
 

@@ -13,7 +13,7 @@ import pytest
 
 from reference.ledger import load
 from replication.audit import audit
-from replication.reports.files import write_audit
+from replication.reports.files import FILES, write_audit
 from replication.reports.records import audit_record
 
 CLAIM_KEYS = {
@@ -76,12 +76,17 @@ def test_numbers_keep_their_digits_in_csv(folder: Path, record: dict) -> None:
                 assert float(row["computed"]) == claim["computed"]
 
 
-def test_provenance_hashes_the_report_and_the_ledger(record: dict) -> None:
+def test_provenance_hashes_the_report_the_ledger_and_the_workbook(
+    folder: Path, record: dict
+) -> None:
     import reference.report
 
-    folder = Path(reference.report.__path__[0])
-    for name, digest in record["provenance"]["sha256"].items():
-        assert sha256((folder / name).read_bytes()).hexdigest() == digest
+    known = Path(reference.report.__path__[0])
+    digests = record["provenance"]["sha256"]
+    assert set(digests) >= {"de_rosset_2006.txt", "ledger.toml", "workbook.xlsx"}
+    for name, digest in digests.items():
+        path = folder / name if name == "workbook.xlsx" else known / name
+        assert sha256(path.read_bytes()).hexdigest() == digest
 
 
 def test_files_are_the_same_bytes_in_another_place_and_time_zone(
@@ -90,5 +95,7 @@ def test_files_are_the_same_bytes_in_another_place_and_time_zone(
     environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}
     command = [sys.executable, "-m", "replication", "audit", "--quiet", "--out", str(tmp_path)]
     subprocess.run(command, check=True, env=environment, cwd=tmp_path)
-    for path in folder.iterdir():
-        assert (tmp_path / path.name).read_bytes() == path.read_bytes(), path.name
+    names = [path.relative_to(folder) for path in folder.rglob("*") if path.is_file()]
+    assert sorted(map(str, names)) == sorted(FILES)
+    for name in names:
+        assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name

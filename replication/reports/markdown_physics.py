@@ -1,0 +1,116 @@
+"""Approaches, sensitivity, scatter, figures and provenance in Markdown, from the audit's record."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from replication.text import number, pipe_table
+
+__all__ = ["physics", "provenance"]
+
+
+def physics(record: dict[str, Any]) -> list[str]:
+    """The sections on normalized depth, each with its figure, and the figures of the motion."""
+    return [
+        "## All approaches side by side",
+        _figure("comparison", "Normalized depth by every approach"),
+        _approaches(record["approaches"]),
+        "CTH and Autodyne are quoted: the report gives neither their input nor their output.",
+        "## What the depth depends on",
+        _figure("sensitivity", "What each input does to the exact depth, beta = 5"),
+        "Of the exact solution: percent of depth for one percent of the input, analytic, and the "
+        "depth over what the report or its evidence states for that input (SI).",
+        *(_sensitivity(case, one) for case, one in record["sensitivity"].items()),
+        "## What scatter does",
+        *_scatter(record["scatter"]),
+        "## The sheet and the exact motion",
+        _figure("figure-3", "Penetration depth against time"),
+        _figure("figure-5", "Normalized depth against impact velocity"),
+        _figure("convergence", "Error against time step, published and centered scheme"),
+    ]
+
+
+def provenance(made: dict[str, Any]) -> list[str]:
+    """What the audit was made with, and the hashes of what it was made from and goes with it."""
+    versions = ", ".join(f"{name} {version}" for name, version in made["versions"].items())
+    hashes = pipe_table(("file", "SHA-256"), ((k, f"`{v}`") for k, v in made["sha256"].items()))
+    return [
+        "## Provenance",
+        f"Made by `{made['command']}` under Python {made['python']} with {versions}.",
+        hashes,
+    ]
+
+
+def _figure(name: str, words: str) -> str:
+    return f"![{words}](figures/{name}.svg)"
+
+
+def _approaches(approaches: list[dict[str, Any]]) -> str:
+    rows = (
+        (
+            f"{one['kind']}: {one['name']}",
+            number(one["computed"], 5) if one["recomputable"] else "not recomputable",
+            one["printed"] and f"{one['printed']} (`{one['claim']}`)",
+        )
+        for one in approaches
+    )
+    return pipe_table(("X/R by", "computed", "printed"), rows)
+
+
+def _sensitivity(case: str, one: dict[str, Any]) -> str:
+    rows = (
+        (
+            effect["input"].replace("_", " "),
+            f"{one['elasticities'][effect['input']]:+.3f}",
+            _to(effect["low"], effect["high"]),
+            _to(*(depth * 1e6 for depth in effect["depths"])),
+            _to(*effect["ratios"]),
+            effect["why"],
+        )
+        for effect in one["stated"]
+    )
+    heads = (case, "d ln X / d ln input", "stated range", "X [µm]", "X/R", "the range is")
+    return pipe_table(heads, rows)
+
+
+def _scatter(scatter: dict[str, Any]) -> Iterator[str]:
+    of = scatter["standard_deviations"]
+    yield (
+        f"The diameter has a standard deviation of {number(of['diameter'] * 1e6, 3)} µm. The "
+        f"velocity’s mean deviation is taken as the mean absolute one of a normal distribution: a "
+        f"standard deviation of {number(of['velocity'], 3)} m/s. The deviation below is half of "
+        f"what the middle 68 % span."
+    )
+    heads = ("quantity", "median", "90 % lie in", "deviation", "by linear propagation")
+    for case, streams in scatter["streams"].items():
+        for stream in streams:
+            rows = (_spread(stream, *what) for what in _QUANTITIES)
+            yield f"{case}, {stream['way']}:\n\n" + pipe_table(heads, rows)
+    yield (
+        "By Eq. 1, beta = 5: "
+        + "; ".join(
+            f"{number(one['diameter'] * 1e6, 3)} µm at an average of "
+            f"{number(one['average_velocity'], 4)} m/s goes {number(one['velocity'], 4)} m/s, "
+            f"X/R {number(one['ratio'], 3)}"
+            for one in scatter["particles"]
+        )
+        + "."
+    )
+
+
+_QUANTITIES = (("velocity", "V [m/s]", 1.0), ("depth", "X [µm]", 1e6), ("ratio", "X/R", 1.0))
+
+
+def _spread(stream: dict[str, Any], what: str, head: str, scale: float) -> tuple[str, ...]:
+    spread = stream[what]
+    low, _, median, _, high = (quantile * scale for quantile in spread["quantiles"])
+    return (
+        head,
+        number(median, 4),
+        _to(low, high),
+        f"{100 * spread['deviation'] * scale / median:.3g} %",
+        f"{100 * spread['first_order']:.3g} %",
+    )
+
+
+def _to(low: float, high: float) -> str:
+    return f"{number(low, 4)} to {number(high, 4)}"

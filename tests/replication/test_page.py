@@ -1,0 +1,199 @@
+"""The page: complete, well-formed, readable by a screen reader, and closed to anything outside."""
+
+import re
+from base64 import b64encode
+from collections import Counter
+from hashlib import sha256
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import html5lib
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from replication.audit import audit
+from replication.reports.figures import FIGURES, draw
+from replication.reports.figures.svg import tidy
+from replication.reports.files import write_audit
+from replication.reports.gauge import gauge
+from replication.reports.html import page
+from replication.reports.records import audit_record
+
+HTML = "{http://www.w3.org/1999/xhtml}"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("page")
+    done = audit()
+    write_audit(done, audit_record(done), path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def record() -> dict:
+    return audit_record(audit())
+
+
+@pytest.fixture(scope="module")
+def text(folder: Path) -> str:
+    return (folder / "audit.html").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def root(text: str) -> ET.Element:
+    return html5lib.HTMLParser(strict=True).parse(text)
+
+
+def ids(root: ET.Element) -> list[str]:
+    return [e.get("id") for e in root.iter() if e.get("id") is not None]
+
+
+def test_there_is_no_script_and_no_style_but_the_one_that_the_policy_names(
+    root: ET.Element,
+) -> None:
+    assert not list(root.iter(f"{HTML}script"))
+    attributes = {name for element in root.iter() for name in element.attrib}
+    assert "style" not in attributes
+    assert not [name for name in attributes if name.startswith("on")]
+    (style,) = root.iter(f"{HTML}style")
+    (policy,) = (m.get("content") for m in root.iter(f"{HTML}meta") if m.get("http-equiv"))
+    digest = b64encode(sha256((style.text or "").encode()).digest()).decode()
+    assert policy.split("; ")[:2] == ["default-src 'none'", f"style-src 'sha256-{digest}'"]
+
+
+def test_nothing_comes_from_outside(root: ET.Element, text: str) -> None:
+    for element in root.iter():
+        assert "src" not in element.attrib
+        assert element.get("href", "#").startswith("#")
+    assert "@import" not in text
+    assert not re.search(r"url\((?!#)", text)
+
+
+def test_ids_are_unique_and_every_reference_leads_to_one(root: ET.Element, text: str) -> None:
+    found = Counter(ids(root))
+    assert [name for name, count in found.items() if count > 1] == []
+    links = {e.get("href")[1:] for e in root.iter() if e.get("href")}
+    labels = {n for e in root.iter() for n in e.get("aria-labelledby", "").split()}
+    drawn = set(re.findall(r"url\(#([^)]+)\)", text))
+    assert links | labels | drawn <= set(found)
+
+
+def test_headings_are_in_order(root: ET.Element) -> None:
+    levels = [
+        int(e.tag[-1]) for e in root.iter() if re.fullmatch(rf"{re.escape(HTML)}h[1-6]", e.tag)
+    ]
+    assert levels.count(1) == 1
+    assert levels[0] == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+def test_landmarks_tables_and_pictures_have_names(root: ET.Element) -> None:
+    for tag in ("header", "nav", "main"):
+        assert len(list(root.iter(f"{HTML}{tag}"))) == 1
+    for table in root.iter(f"{HTML}table"):
+        assert table.find(f"{HTML}caption") is not None
+        assert all(head.get("scope") for head in table.iter(f"{HTML}th"))
+    for picture in root.iter(f"{SVG}svg"):
+        assert picture.get("role") == "img"
+        title = picture.find(f"{SVG}title")
+        assert title is not None
+        assert title.text
+
+
+def test_every_claim_and_finding_stands_there_and_each_leads_to_the_other(
+    root: ET.Element, record: dict
+) -> None:
+    found = set(ids(root))
+    assert {f"claim-{claim['id']}" for claim in record["claims"]} <= found
+    assert {f"finding-{finding['id']}" for finding in record["findings"]} <= found
+    for article in root.iter(f"{HTML}article"):
+        kind, _, name = article.get("id", "").partition("-")
+        targets = {a.get("href") for a in article.iter(f"{HTML}a")}
+        if kind == "finding":
+            (of,) = (f["claims"] for f in record["findings"] if f["id"] == name)
+            assert {f"#claim-{claim}" for claim in of} <= targets
+        for finding in record["findings"]:
+            if kind == "claim" and name in finding["claims"]:
+                assert f"#finding-{finding['id']}" in targets
+
+
+def test_every_computed_claim_has_its_picture_and_its_proof(root: ET.Element, record: dict) -> None:
+    articles = {e.get("id"): e for e in root.iter(f"{HTML}article")}
+    for claim in record["claims"]:
+        if claim["computed"] is None:
+            continue
+        article = articles[f"claim-{claim['id']}"]
+        words = "".join(article.itertext())
+        assert claim["reference"] in words
+        assert repr(claim["computed"]) in words
+        (details,) = article.iter(f"{HTML}details")
+        assert ("open" in details.attrib) == (claim["verdict"] != "reproduced")
+        assert [e.get("class") for e in article.iter(f"{SVG}svg")] == ["gauge"]
+
+
+def test_hashes_are_those_of_the_files_beside(folder: Path, text: str) -> None:
+    assert sha256((folder / "workbook.xlsx").read_bytes()).hexdigest() in text
+    assert sha256((folder / "workbook.xlsx").read_bytes()).hexdigest() in (
+        folder / "audit.md"
+    ).read_text("utf-8")
+
+
+def test_a_text_of_the_ledger_cannot_become_markup(record: dict) -> None:
+    hostile = "<script>alert(1)</script>"
+    claims = [{**claim, "title": hostile} for claim in record["claims"]]
+    assert hostile not in page({**record, "claims": claims}, draw(record))
+
+
+def test_figures_stand_alone_and_are_the_ones_in_the_page(folder: Path, text: str) -> None:
+    for module in FIGURES:
+        path = folder / "figures" / f"{module.NAME}.svg"
+        drawn = path.read_text("utf-8")
+        assert drawn in text
+        root = ET.fromstring(drawn)
+        assert root.tag == f"{SVG}svg"
+        assert all("style" not in element.attrib for element in root.iter())
+        assert not list(root.iter(f"{SVG}style"))
+        assert (folder / "figures" / f"{module.NAME}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_figures_are_drawn_the_same_twice(record: dict) -> None:
+    assert draw(record) == draw(record)
+
+
+def test_a_figure_that_is_not_matplotlibs_is_refused() -> None:
+    with pytest.raises(ValueError, match="no <metadata>"):
+        tidy('<svg xmlns="http://www.w3.org/2000/svg"/>', "n", "t", "d")
+
+
+numbers = st.floats(-1e6, 1e6, allow_nan=False)
+positive = st.floats(1e-3, 1e3)
+
+
+@given(numbers, positive, numbers)
+def test_a_gauge_shows_the_value_on_its_side_of_the_band(
+    low: float, width: float, value: float
+) -> None:
+    drawn = gauge((low, low + width), value, (value, value))
+    if low <= value <= low + width:
+        assert drawn.band[0] <= drawn.value <= drawn.band[1]
+        assert "agrees" in drawn.words
+    elif value < low:
+        assert drawn.value <= drawn.band[0]
+        assert "below" in drawn.words
+    else:
+        assert drawn.value >= drawn.band[1]
+        assert "above" in drawn.words
+    assert drawn.far in (0, -1 if value < low else 1)
+    assert not (drawn.far and abs(value - low - width / 2) < width)
+
+
+@given(numbers, numbers, st.booleans())
+def test_a_gauge_of_a_bound_and_of_an_exact_number(bound: float, value: float, exact: bool) -> None:
+    drawn = gauge((bound, bound) if exact else (bound, None), value, (value, value))
+    assert drawn.far == 0
+    assert 0 <= drawn.value <= 100
+    assert drawn.band[1] == (drawn.band[0] if exact else 100.0)
