@@ -24,16 +24,17 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Audit, write, summarize."""
     from replication.audit import Verdict, audit
-    from replication.reports.files import check_folder, write_audit
+    from replication.reports.files import FILES, check_folder, write_audit
     from replication.reports.records import audit_record
     from replication.reports.terminal import audit_summary
 
     check_folder(options.out)
     done = audit()
     record = audit_record(done)
-    paths = write_audit(done, record, options.out)
+    write_audit(done, record, options.out)
     if options.json:
         print((options.out / "audit.json").read_text("utf-8"), end="")
     elif not options.quiet:
-        print(audit_summary(done), *("", "Written:", *(f"  {path}" for path in paths)), sep="\n")
+        top = dict.fromkeys(Path(name).parts[0] for name in FILES)
+        print(audit_summary(done), "", f"Written to {options.out}/: {', '.join(top)}", sep="\n")
     return 1 if options.exit_code and done.with_verdict(Verdict.NOT_REPRODUCED) else 0

@@ -16,8 +16,30 @@ from replication.analysis.scatter import (
 )
 from replication.analysis.sensitivity import elasticities, stated_effects, ten_percent_effects
 from replication.impact import BETA_5, CASES
+from replication.text import number
 
-__all__ = ["approach_record", "scatter_record", "sensitivity_record"]
+__all__ = ["approach_record", "scatter_record", "sensitivity_record", "shown_range"]
+
+
+_SHOWN = {
+    "velocity": (1.0, "m/s"),
+    "radius": (1e6, "µm"),
+    "particle_density": (1.0, "kg/m³"),
+    "target_density": (1.0, "kg/m³"),
+    "beta": (1.0, ""),
+    "flow_stress": (1e-6, "MPa"),
+}
+
+
+def shown_range(effect: dict[str, Any]) -> str:
+    """The range of an effect's input as a reader wants it.
+
+    >>> shown_range({"input": "radius", "low": 8.2e-6, "high": 1.38e-5})
+    '8.2 to 13.8 µm'
+    """
+    scale, unit = _SHOWN[effect["input"]]
+    low, high = (number(effect[end] * scale, 4) for end in ("low", "high"))
+    return f"{low} to {high} {unit}".strip()
 
 
 def approach_record(approach: Approach) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from importlib import resources
 from itertools import groupby
 from typing import Any
 
+from replication.reports.comparison import shown_range
 from replication.reports.figures.drawing import Drawing
 from replication.reports.gauge import Gauge, gauge
 from replication.text import number
@@ -46,6 +47,7 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
         touched_by=_touched_by(record["findings"]),
         picture=_picture,
         quoted=_quoted,
+        shown_range=shown_range,
     )
 
 

@@ -1,8 +1,9 @@
 """Approaches, sensitivity, scatter, figures and provenance in Markdown, from the audit's record."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
+from replication.reports.comparison import shown_range
 from replication.text import number, pipe_table
 
 __all__ = ["physics", "provenance"]
@@ -18,7 +19,7 @@ def physics(record: dict[str, Any]) -> list[str]:
         "## What the depth depends on",
         _figure("sensitivity", "What each input does to the exact depth, beta = 5"),
         "Of the exact solution: percent of depth for one percent of the input, analytic, and the "
-        "depth over what the report or its evidence states for that input (SI).",
+        "depth over what the report or its evidence states for that input.",
         *(_sensitivity(case, one) for case, one in record["sensitivity"].items()),
         "## What scatter does",
         *_scatter(record["scatter"]),
@@ -61,9 +62,9 @@ def _sensitivity(case: str, one: dict[str, Any]) -> str:
         (
             effect["input"].replace("_", " "),
             f"{one['elasticities'][effect['input']]:+.3f}",
-            _to(effect["low"], effect["high"]),
-            _to(*(depth * 1e6 for depth in effect["depths"])),
-            _to(*effect["ratios"]),
+            shown_range(effect),
+            _to([depth * 1e6 for depth in effect["depths"]], 3),
+            _to(effect["ratios"], 4),
             effect["why"],
         )
         for effect in one["stated"]
@@ -97,20 +98,27 @@ def _scatter(scatter: dict[str, Any]) -> Iterator[str]:
     )
 
 
-_QUANTITIES = (("velocity", "V [m/s]", 1.0), ("depth", "X [µm]", 1e6), ("ratio", "X/R", 1.0))
+_QUANTITIES = (
+    ("velocity", "V [m/s]", 1.0, 0),
+    ("depth", "X [µm]", 1e6, 2),
+    ("ratio", "X/R", 1.0, 3),
+)
 
 
-def _spread(stream: dict[str, Any], what: str, head: str, scale: float) -> tuple[str, ...]:
+def _spread(
+    stream: dict[str, Any], what: str, head: str, scale: float, decimals: int
+) -> tuple[str, ...]:
     spread = stream[what]
     low, _, median, _, high = (quantile * scale for quantile in spread["quantiles"])
     return (
         head,
-        number(median, 4),
-        _to(low, high),
-        f"{100 * spread['deviation'] * scale / median:.3g} %",
-        f"{100 * spread['first_order']:.3g} %",
+        f"{median:.{decimals}f}",
+        _to((low, high), decimals),
+        f"{100 * spread['deviation'] * scale / median:.0f} %",
+        f"{100 * spread['first_order']:.0f} %",
     )
 
 
-def _to(low: float, high: float) -> str:
-    return f"{number(low, 4)} to {number(high, 4)}"
+def _to(ends: Sequence[float], decimals: int) -> str:
+    low, high = ends
+    return f"{low:.{decimals}f} to {high:.{decimals}f}"

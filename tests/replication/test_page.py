@@ -157,6 +157,9 @@ def test_figures_stand_alone_and_are_the_ones_in_the_page(folder: Path, text: st
         assert root.tag == f"{SVG}svg"
         assert all("style" not in element.attrib for element in root.iter())
         assert not list(root.iter(f"{SVG}style"))
+        # Black is the color of the text around it, also where it is left out.
+        assert root.get("fill") == "currentColor"
+        assert "#000000" not in drawn
         assert (folder / "figures" / f"{module.NAME}.png").read_bytes().startswith(b"\x89PNG")
 
 

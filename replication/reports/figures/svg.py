@@ -65,6 +65,7 @@ def _head(root: ET.Element, name: str, title: str, description: str) -> None:
         "role": "img",
         "aria-labelledby": f"{name}-title {name}-desc",
         "color": "#1f2328",
+        "fill": "currentColor",  # matplotlib leaves out what is black
         "font-family": "DejaVu Sans, Verdana, sans-serif",
         "stroke-linejoin": "round",
     }
