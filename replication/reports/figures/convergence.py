@@ -43,7 +43,7 @@ def plot(figure: Figure, record: dict[str, Any]) -> None:
         axes.loglog(steps, whole, marker, mfc="none", mec=color, ms=9)
         axes.annotate(
             f"{ladder['scheme']}: {order}", (steps[level], parts[level]),
-            xytext=offset, textcoords="offset points", ha=side, color=color,
+            xytext=offset, textcoords="offset points", ha=side,
         )  # fmt: skip
     axes.axvline(0.2, color=INK, linewidth=1.0, linestyle="--")
     axes.annotate(

@@ -45,7 +45,6 @@ def plot(figure: Figure, _: dict[str, Any]) -> None:
             xytext=offset,
             textcoords="offset points",
             ha=side,
-            color=color,
         )
     axes.plot([], [], "o", color=INK, ms=4, label="the sheet, every fourth row")
     axes.plot([], [], color=INK, linewidth=1.0, label="exact")
