@@ -168,7 +168,9 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
     }
 
 
-_LIBRARIES = ("coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "XlsxWriter")
+_LIBRARIES = (
+    "coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "python-flint", "XlsxWriter",
+)  # fmt: skip
 
 
 def _provenance() -> dict[str, Any]:
