@@ -193,7 +193,7 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
 
 _LIBRARIES = (
     "coldspray", "jinja2", "matplotlib", "mpmath", "numpy", "openpyxl", "pandas", "pint",
-    "XlsxWriter",
+    "python-flint", "XlsxWriter",
 )  # fmt: skip
 
 
