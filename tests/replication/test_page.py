@@ -200,3 +200,9 @@ def test_a_gauge_of_a_bound_and_of_an_exact_number(bound: float, value: float, e
     assert drawn.far == 0
     assert 0 <= drawn.value <= 100
     assert drawn.band[1] == (drawn.band[0] if exact else 100.0)
+
+
+def test_the_readme_shows_the_audits_own_figure(record: dict) -> None:
+    shown = ET.parse(Path(__file__).parents[2] / "docs" / "comparison.svg").getroot()
+    (module,) = (module for module in FIGURES if module.NAME == "comparison")
+    assert shown.findtext(f"{SVG}desc") == module.describe(record)
