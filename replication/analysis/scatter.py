@@ -24,6 +24,7 @@ __all__ = [
     "Particle",
     "Scatter",
     "Spread",
+    "mean_mass_ratio",
     "scatter",
     "stated_deviations",
     "tied_particles",
@@ -102,6 +103,15 @@ def tied_particles(impact: Impact, ledger: Ledger) -> list[Particle]:
             velocity = float(stream.particle_velocity(mean, diameter**3, impact.diameter**3))
             found.append(Particle(diameter, mean, velocity, float(_ratios(impact, velocity))))
     return found
+
+
+def mean_mass_ratio(diameter: float, deviation: float) -> float:
+    """The mean mass of normally distributed sizes over the mass of the mean size, E[D^3] / D^3.
+
+    >>> f"{mean_mass_ratio(22e-6, 5.6e-6):.3f}"
+    '1.194'
+    """
+    return 1 + 3 * (deviation / diameter) ** 2
 
 
 def scatter(

@@ -10,6 +10,7 @@ from replication.analysis.scatter import (
     SHARES,
     Scatter,
     Spread,
+    mean_mass_ratio,
     scatter,
     stated_deviations,
     tied_particles,
@@ -19,7 +20,6 @@ from replication.impact import BETA_5, CASES
 from replication.text import number
 
 __all__ = ["approach_record", "scatter_record", "sensitivity_record", "shown_range"]
-
 
 _SHOWN = {
     "velocity": (1.0, "m/s"),
@@ -66,6 +66,7 @@ def scatter_record(ledger: Ledger, observed: float) -> dict[str, Any]:
     return {
         "standard_deviations": deviations,
         "shares": list(SHARES),
+        "mean_mass_ratio": mean_mass_ratio(BETA_5.diameter, deviations["diameter"]),
         "particles": [asdict(particle) for particle in tied_particles(BETA_5, ledger)],
         "streams": {
             name: [_stream(one) for one in scatter(case, deviations, observed)]

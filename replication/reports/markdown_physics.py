@@ -78,16 +78,19 @@ def _scatter(scatter: dict[str, Any]) -> Iterator[str]:
     yield (
         f"The diameter has a standard deviation of {number(of['diameter'] * 1e6, 3)} µm. The "
         f"velocity’s mean deviation is taken as the mean absolute one of a normal distribution: a "
-        f"standard deviation of {number(of['velocity'], 3)} m/s. The deviation below is half of "
-        f"what the middle 68 % span."
+        f"standard deviation of {number(of['velocity'], 3)} m/s (were 50 m/s the standard "
+        f"deviation itself, the velocity’s part would be a fifth smaller). The deviation below is "
+        f"half of what the middle 68 % span."
     )
     heads = ("quantity", "median", "90 % lie in", "deviation", "by linear propagation")
     for case, streams in scatter["streams"].items():
         for stream in streams:
             rows = (_spread(stream, *what) for what in _QUANTITIES)
             yield f"{case}, {stream['way']}:\n\n" + pipe_table(heads, rows)
+    higher = 100 * (scatter["mean_mass_ratio"] ** 0.5 - 1)
     yield (
-        "By Eq. 1, beta = 5: "
+        "By Eq. 1, with the average size as that of average mass (with the mean of the masses all "
+        f"velocities are {higher:.0f} % higher), beta = 5: "
         + "; ".join(
             f"{number(one['diameter'] * 1e6, 3)} µm at an average of "
             f"{number(one['average_velocity'], 4)} m/s goes {number(one['velocity'], 4)} m/s, "
