@@ -8,6 +8,7 @@ from importlib import resources
 from itertools import groupby
 from typing import Any
 
+from reference.findings import STATUSES
 from replication.reports.comparison import shown_range
 from replication.reports.figures.drawing import Drawing
 from replication.reports.gauge import Gauge, gauge
@@ -47,6 +48,7 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
         touched_by=_touched_by(record["findings"]),
         picture=_picture,
         quoted=_quoted,
+        statuses=STATUSES,
         shown_range=shown_range,
     )
 
