@@ -6,11 +6,9 @@ from functools import cache
 
 from reference import ledger as ledgers
 from reference.ledger import Claim, Ledger
-from replication import workbook
 from replication.audit.findings import Finding, findings
 from replication.audit.verdict import Assessment, Verdict, assess
 from spreadsheets.plan import WorkbookPlan
-from spreadsheets.sheets.audit_cells import CELLS
 
 __all__ = ["Audit", "Verdict", "assess_claim", "audit", "cell_of"]
 
@@ -69,6 +67,8 @@ def cell_of(claim: Claim) -> str | None:
     >>> cell_of(ledgers.load().claims["depth-beta-5"])
     'Sheet beta 5!K22'
     """
+    from spreadsheets.sheets.audit_cells import CELLS
+
     if claim.id in CELLS:
         return "!".join(_workbook_plan().where[CELLS[claim.id]])
     return f"Table A-1!{claim.place.cell}" if claim.place.cell else None
@@ -82,4 +82,6 @@ def _cell_is_blank(address: str) -> bool:
 
 @cache
 def _workbook_plan() -> WorkbookPlan:
+    from replication import workbook  # the proof of one number need not wait for its code
+
     return workbook.build()[0]
