@@ -7,6 +7,7 @@ the formula that must give it meet in one cell. The plan's `where` tells which c
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
+from functools import cache
 from pathlib import Path
 
 from replication import midpoint
@@ -23,7 +24,16 @@ from spreadsheets.sheets.contents import coarse_name
 from spreadsheets.sheets.inputs import INPUTS
 from spreadsheets.verify import EngineCheck, verify
 
-__all__ = ["REPORT", "Cases", "build", "relative_tolerance", "values", "write", "write_verified"]
+__all__ = [
+    "REPORT",
+    "Cases",
+    "build",
+    "relative_tolerance",
+    "report_plan",
+    "values",
+    "write",
+    "write_verified",
+]
 
 Cases = Mapping[str, Impact]
 """Sheet name -> case: one case, or two that differ in nothing but beta or the resistance."""
@@ -87,6 +97,12 @@ def build(
     plan = workbook_plan(fine, coarse)
     values = values_by_key(sheets, fine[0].rows)
     return plan, values | report_values(values, sheets, again, coarse[0].rows)
+
+
+@cache
+def report_plan() -> WorkbookPlan:
+    """The plan of the report's own workbook: which cell holds what."""
+    return build()[0]
 
 
 def _rows(impacts: Sequence[Impact]) -> int:

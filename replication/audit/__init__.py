@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from functools import cache
 
 from reference import ledger as ledgers
-from reference.ledger import Claim, Ledger
+from reference.ledger import Ledger
 from replication.audit.findings import Finding, findings
 from replication.audit.verdict import Assessment, Verdict, assess
-from spreadsheets.plan import WorkbookPlan
+from spreadsheets.plan import Cell
 
-__all__ = ["Audit", "Verdict", "assess_claim", "audit", "cell_of"]
+__all__ = ["Audit", "Verdict", "assess_claim", "audit"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,27 +61,15 @@ def _kind(assessment: Assessment) -> str:
     return "restated" if restates else "computed"
 
 
-def cell_of(claim: Claim) -> str | None:
-    """The workbook's cell that computes a claim, or the claim's own cell of Table A-1.
-
-    >>> cell_of(ledgers.load().claims["depth-beta-5"])
-    'Sheet beta 5!K22'
-    """
-    from spreadsheets.sheets.audit_cells import CELLS
-
-    if claim.id in CELLS:
-        return "!".join(_workbook_plan().where[CELLS[claim.id]])
-    return f"Table A-1!{claim.place.cell}" if claim.place.cell else None
-
-
 def _cell_is_blank(address: str) -> bool:
-    cells = next(sheet.cells for sheet in _workbook_plan().sheets if sheet.name == "Table A-1")
-    cell = cells.get(address)
+    cell = _table_cells().get(address)
     return cell is None or not (cell.text.strip() or cell.key)
 
 
 @cache
-def _workbook_plan() -> WorkbookPlan:
-    from replication import workbook  # the proof of one number need not wait for its code
+def _table_cells() -> Mapping[str, Cell]:
+    from replication import (
+        workbook,
+    )  # the proof of one number need not wait for the workbook's code
 
-    return workbook.build()[0]
+    return next(s.cells for s in workbook.build()[0].sheets if s.name == "Table A-1")

@@ -12,11 +12,12 @@ from reference.ledger import Claim, Inferred, Ledger
 from reference.printed import Interval
 from replication.analysis.approaches import approaches
 from replication.analysis.stability import HARD_CASES, outcome, worst_of
-from replication.audit import Audit, cell_of
+from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.findings import Finding
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
+from replication.reports.cells import workbook_cell
 from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
 from replication.reports.numerics import (
     budget_record,
@@ -41,10 +42,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "report": {"title": ledger.title, "author": ledger.author, "year": ledger.year},
         "summary": audit.summary,
         "reproduced": audit.reproduced_kinds,
-        "claims": [
-            {**claim_record(ledger, a), "workbook": cell_of(a.claim)}
-            for a in audit.assessments.values()
-        ],
+        "claims": [_in_workbook(claim_record(ledger, a)) for a in audit.assessments.values()],
         "findings": [finding_record(finding) for finding in audit.findings],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
@@ -57,6 +55,10 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "scatter": scatter_record(ledger, _observed(audit)),
         "provenance": _provenance(),
     }
+
+
+def _in_workbook(claim: dict[str, Any]) -> dict[str, Any]:
+    return {**claim, "workbook": workbook_cell(claim)}
 
 
 def _observed(audit: Audit) -> float:
