@@ -102,4 +102,4 @@ def _prose(text: str) -> str:
 
 
 def _slug(text: str) -> str:
-    return text.lower().replace(" ", "-")
+    return text.lower().replace(" ", "-").replace(".", "-")

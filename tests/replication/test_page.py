@@ -206,3 +206,68 @@ def test_the_readme_shows_the_audits_own_figure(record: dict) -> None:
     shown = ET.parse(Path(__file__).parents[2] / "docs" / "comparison.svg").getroot()
     (module,) = (module for module in FIGURES if module.NAME == "comparison")
     assert shown.findtext(f"{SVG}desc") == module.describe(record)
+
+
+def test_what_would_explain_a_failing_number_is_told(record: dict) -> None:
+    explained = {
+        "back_solved": [
+            {
+                "reading": "",
+                "input": "inferred:target-density",
+                "title": "target density",
+                "unit": "kg/m^3",
+                "printed": 7850.0,
+                "search": [1000.0, 23000.0],
+                "intervals": [[7700.0, 7710.0]],
+                "value": 7705.0,
+                "proof": "proven inside, and none beyond",
+                "within_rounding": False,
+                "marks": [{"kind": "printed", "name": "a1-density", "value": 8900.0}],
+            }
+        ],
+        "misprints": [
+            {
+                "what": "fz-kt",
+                "printed": "1.046",
+                "edited": "1.146",
+                "kind": "digit changed",
+                "reading": "",
+                "computed": 0.297,
+                "breaks": 2,
+                "breaks_first": "frank-zook-stainless",
+            }
+        ],
+        "alternatives": [
+            {"name": "n", "computed": 1.0, "verdict": "not reproduced", "explains_all": None}
+        ],
+        "alternatives_tried": 1404,
+    }
+    joint = [
+        {
+            "id": "pair",
+            "claims": ["fz-kt"],
+            "question": "Both?",
+            "outcome": "impossible",
+            "bound": "It falls.",
+            "witness": {"inferred:target-density": 7850.0},
+        }
+    ]
+    claims = [
+        {**claim, **(explained if claim["id"] == "frank-zook-rha" else {})}
+        for claim in record["claims"]
+    ]
+    text = page({**record, "claims": claims, "joint": joint}, draw(record))
+    root = html5lib.HTMLParser(strict=True).parse(text)
+    articles = {e.get("id"): e for e in root.iter(f"{HTML}article")}
+    words = " ".join("".join(articles["claim-frank-zook-rha"].itertext()).split())
+    for told in (
+        "7700 to 7710",
+        "1.146",
+        "digit changed",
+        "2, first",
+        "1404 readings",
+        "undecided",
+    ):
+        assert told in words
+    (section,) = (e for e in root.iter(f"{HTML}section") if e.get("id") == "joint")
+    assert "Impossible. It falls." in "".join(section.itertext())
