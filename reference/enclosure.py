@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 from mpmath.ctx_iv import MPIntervalContext
@@ -24,11 +24,13 @@ __all__ = [
     "Exploration",
     "Function",
     "Intervals",
+    "Solutions",
     "admitted",
     "evaluate",
     "explore",
     "extent",
     "satisfiable",
+    "solutions",
 ]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
@@ -242,19 +244,39 @@ Constraint = tuple[Function, Interval]
 """A function of the inputs in a box, and the interval that its value must fall in."""
 
 
-def admitted(
+@dataclass(frozen=True, slots=True)
+class Solutions:
+    """The values of one input, within a search, for which all constraints hold.
+
+    `inner`: intervals all of whose values are proven to satisfy them; `outer`: those outside which
+    every value of the search is proven to violate some. Empty `outer`: proven that none does.
+    """
+
+    search: tuple[Fraction, Fraction]
+    inner: tuple[Interval, ...]
+    outer: tuple[Interval, ...]
+
+    @property
+    def reaches_an_end(self) -> bool:
+        """Whether what is admitted may go on beyond the search."""
+        low, high = self.search
+        return any(part.lower == low or part.upper == high for part in self.outer)
+
+
+def solutions(
     constraints: Sequence[Constraint],
     name: str,
-    search: tuple[Fraction, Fraction],
+    search: Sequence[Fraction],
     resolution: Fraction,
-) -> tuple[Interval, Interval]:
-    """The values of the one input for which every constraint holds: an inner and outer interval.
+) -> Solutions:
+    """The values of the one input for which every constraint holds, in as many intervals as it has.
 
-    Every value of the inner interval is proven to satisfy all constraints, every value of `search`
-    outside the outer one to violate some. Raises ValueError if none is proven to satisfy them, if
-    those that do are not one interval, or if they reach an end of `search`.
+    `search` are the ends of the search and, between them, where it is cut to begin with. What is
+    neither proven to satisfy nor to violate them is cut in halves down to the resolution.
     """
-    parts, inner, edge = [search], [], []
+    parts = list(pairwise(search))
+    inner: list[tuple[Fraction, Fraction]] = []
+    edge: list[tuple[Fraction, Fraction]] = []
     while parts:
         part = parts.pop()
         verdict = _holds(constraints, {name: part})
@@ -265,12 +287,29 @@ def admitted(
             parts += [(part[0], middle), (middle, part[1])]
         elif verdict is None:
             edge.append(part)
-    merged, outer = _merged(inner), _merged(inner + edge)
-    if len(merged) != 1:
-        raise ValueError(f"{len(merged)} separate intervals of {name} are admitted, not one")
-    if outer[0][0] == search[0] or outer[-1][1] == search[1]:
+    merged, outer = (
+        tuple(Interval(*ends) for ends in _merged(found)) for found in (inner, inner + edge)
+    )
+    return Solutions((search[0], search[-1]), merged, outer)
+
+
+def admitted(
+    constraints: Sequence[Constraint],
+    name: str,
+    search: tuple[Fraction, Fraction],
+    resolution: Fraction,
+) -> tuple[Interval, Interval]:
+    """The one interval of values for which every constraint holds: an inner and outer one.
+
+    As `solutions`, but raises ValueError if none is proven to satisfy them, if those that do are
+    not one interval, or if they reach an end of the search.
+    """
+    found = solutions(constraints, name, search, resolution)
+    if len(found.inner) != 1:
+        raise ValueError(f"{len(found.inner)} separate intervals of {name} are admitted, not one")
+    if found.reaches_an_end:
         raise ValueError(f"the admitted {name} reaches an end of the search from {search[0]}")
-    return Interval(*merged[0]), Interval(outer[0][0], outer[-1][1])
+    return found.inner[0], Interval(found.outer[0].lower, found.outer[-1].upper)
 
 
 def extent(

@@ -1,0 +1,1 @@
+"""What would explain a number that does not follow: nothing here is asserted, all is tried."""
