@@ -28,7 +28,13 @@ MODELS = sorted(
     }
 )
 NOT_FOR_MODELS = {"mpmath", "openpyxl", "xlsxwriter", "ironcalc", "formualizer", "spreadsheets"}
-EDGES = ("replication.analysis", "replication.audit", "replication.reports", "replication.cli")
+EDGES = (
+    "replication.analysis",
+    "replication.audit",
+    "replication.reports",
+    "replication.commands",
+    "replication.cli",
+)
 
 
 def imports(path: Path) -> set[str]:

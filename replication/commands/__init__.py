@@ -1,0 +1,21 @@
+"""The commands, one module each: HELP, `options` for its parser, `run` for its work.
+
+Each imports what it needs when it runs, so that a light command starts fast.
+"""
+
+from types import ModuleType
+
+from replication.commands import (
+    audit,
+    claims,
+    converge,
+    depth,
+    sheet,
+    stability,
+    workbook,
+)
+
+__all__ = ["COMMANDS"]
+
+COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability)
+"""In the order in which `coldspray --help` lists them."""
