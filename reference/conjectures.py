@@ -39,7 +39,7 @@ class Quantity:
         return to_si(self.unit)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Slip:
     """One way to mistake an equation: what stands in some of its places instead.
 
@@ -53,7 +53,7 @@ class Slip:
     handbook: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Family:
     """Claims of one equation, its readings as they stand, and the slips to try on each."""
 
@@ -64,7 +64,7 @@ class Family:
     slips: tuple[Slip, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Joint:
     """A question to several claims at once: can one set of inputs give them all?
 

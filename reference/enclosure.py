@@ -199,17 +199,19 @@ def solutions(
     name: str,
     search: Sequence[Fraction],
     resolution: Fraction,
+    budget: int = 2000,
 ) -> Solutions:
     """The values of the one input for which every constraint holds, in as many intervals as it has.
 
     `search` are the ends of the search and, between them, where it is cut to begin with. What is
-    neither proven to satisfy nor to violate them is cut in halves down to the resolution.
+    neither proven to satisfy nor to violate them is cut in halves down to the resolution, or until
+    the budget of parts runs out; it then belongs to the outer intervals.
     """
-    parts = list(pairwise(search))
+    parts = deque(pairwise(search))
     inner: list[tuple[Fraction, Fraction]] = []
     edge: list[tuple[Fraction, Fraction]] = []
-    while parts:
-        part = parts.pop()
+    while parts and budget:
+        part, budget = parts.popleft(), budget - 1
         verdict = _holds(constraints, {name: part})
         if verdict:
             inner.append(part)
@@ -218,9 +220,8 @@ def solutions(
             parts += [(part[0], middle), (middle, part[1])]
         elif verdict is None:
             edge.append(part)
-    merged, outer = (
-        tuple(Interval(*ends) for ends in _merged(found)) for found in (inner, inner + edge)
-    )
+    found = (inner, [*inner, *edge, *parts])
+    merged, outer = (tuple(Interval(*ends) for ends in _merged(some)) for some in found)
     return Solutions((search[0], search[-1]), merged, outer)
 
 

@@ -14,8 +14,11 @@ from replication.audit.verdict import Reading
 
 __all__ = ["BackSolved", "Mark", "back_solve"]
 
-_PARTS = 10**5
-"""The proof goes down to this share of an entry's own value, beyond any printed digit."""
+_PARTS = 10**4
+"""The proof goes down to this share of an entry's own value."""
+
+_BUDGET = 120
+"""Of intervals a proof; only for the time step, on which the sheet hardly depends, too few."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +75,7 @@ def _solved(
     search = _cuts(*(end * quantity.si for end in quantity.search))
     function = function_of(ledger, claim, claim.functions[reading.name], frozenset({name}))
     resolution = value(ledger, name) / _PARTS
-    found = solutions([(function, target)], name, search, resolution)
+    found = solutions([(function, target)], name, search, resolution, _BUDGET)
     replica = replica_of(ledger, claim, reading.computation)
     return BackSolved(
         reading.name, name, title(ledger, name), quantity.unit, quantity.reason, found,
@@ -105,7 +108,7 @@ def _middle(function: Callable[[float], float], found: Solutions, target: Interv
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         low, high = (middle, high) if (function(middle) < goal) == rising else (low, middle)
-    return (low + high) / 2
+    return next((x for x in (low, high) if target.contains(Fraction(function(x)))), None)
 
 
 _BISECTIONS = 40
