@@ -16,10 +16,10 @@ from typing import Any
 from reference.ledger import Ledger, LedgerError
 from reference.ledger import load as load_ledger
 from reference.printed import Printed, parse
-from reference.slips import SLIPS
+from reference.slips import RATIOS, SLIPS
 from reference.units import same_dimension, to_si
 
-__all__ = ["Conjectures", "Family", "Joint", "Quantity", "Slip", "load", "read"]
+__all__ = ["Conjectures", "Family", "Joint", "Quantity", "Ratio", "Slip", "load", "read"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,14 +64,21 @@ class Family:
     slips: tuple[Slip, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Ratio:
+    """A quotient of two claims: its function, the input that differs, the range of the common one."""
+
+    function: str
+    differs: str
+    common: tuple[Fraction, Fraction]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Joint:
     """A question to several claims at once: can one set of inputs give them all?
 
     `replace` puts an entry in the place of another, `kept` entries stay as printed; `because` is
-    the sentence that a physicist can check by hand if they cannot. `ratio` names a computation of
-    the quotient of the two claims in which all cancels but its inputs, `bound` the greatest value
-    of the first of these.
+    the sentence that a physicist can check by hand if they cannot.
     """
 
     id: str
@@ -80,6 +87,7 @@ class Joint:
     replace: Mapping[str, str]
     kept: frozenset[str]
     because: str
+    ratio: Ratio | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -174,9 +182,24 @@ def _slip(entry: Mapping[str, Any], family: Mapping[str, Any], ledger: Ledger) -
 
 def _joint(entry: Mapping[str, Any], ledger: Ledger) -> Joint:
     replace, kept = entry.get("replace", {}), entry.get("kept", [])
-    for name in (*entry["claims"], *replace, *replace.values(), *kept):
+    for name in entry["claims"]:
+        if name not in ledger.claims or ledger.claims[name].computation is None:
+            raise LedgerError(f"{entry['id']!r}: no claim {name!r} is computed")
+    for name in (*replace, *replace.values(), *kept):
         _entry(name, ledger, entry["id"])
     return Joint(
         entry["id"], entry["question"], tuple(entry["claims"]), replace, frozenset(kept),
-        entry.get("because", ""),
+        entry.get("because", ""), _ratio(entry, ledger),
     )  # fmt: skip
+
+
+def _ratio(entry: Mapping[str, Any], ledger: Ledger) -> Ratio | None:
+    if "ratio" not in entry:
+        return None
+    function, differs = entry["ratio"]["function"], entry["ratio"]["differs"]
+    if function not in RATIOS:
+        raise LedgerError(f"{entry['id']!r}: there is no ratio {function!r}")
+    if any(differs not in ledger.claims[name].inputs for name in entry["claims"]):
+        raise LedgerError(f"{entry['id']!r}: not every claim has an input {differs!r}")
+    low, high = (Fraction(end) for end in entry["ratio"]["common"])
+    return Ratio(function, differs, (low, high))

@@ -27,6 +27,7 @@ __all__ = [
     "explore",
     "extent",
     "satisfiable",
+    "satisfying",
     "solutions",
 ]
 
@@ -269,19 +270,30 @@ def satisfiable(constraints: Sequence[Constraint], box: Box, budget: int = 2000)
 
     None if the budget of boxes runs out.
     """
+    return satisfying(constraints, box, budget)[0]
+
+
+def satisfying(
+    constraints: Sequence[Constraint], box: Box, budget: int = 2000
+) -> tuple[bool | None, dict[str, Fraction] | None]:
+    """As `satisfiable`, with the point of the box that proves it if there is one.
+
+    Constraints are tried in their order: cheap and narrow ones first save time.
+    """
     queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
     for _ in range(budget):
         if not queue:
-            return False
+            return False, None
         part, remaining = queue.popleft()
         undecided = _undecided(remaining, part)
         if undecided is None:
             continue
-        middle = {name: ((low + high) / 2,) * 2 for name, (low, high) in part.items()}
-        if not undecided or _undecided(undecided, middle) == []:
-            return True
+        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
+        point = {name: (x, x) for name, x in middle.items()}
+        if not undecided or _undecided(undecided, point) == []:
+            return True, middle
         queue += [(half, undecided) for half in _halves(part, scales)]
-    return None
+    return None, None
 
 
 def _extreme(

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from reference.exact import Arithmetic, Number
 
-__all__ = ["SLIPS", "equation_16"]
+__all__ = ["RATIOS", "SLIPS", "equation_16", "equation_16_ratio"]
 
 
 def equation_16(
@@ -60,5 +60,16 @@ def equation_16(
     return multiple * inertia / place(bar_k_t, k_t) * logarithm
 
 
+def equation_16_ratio(ar: Arithmetic, common: Number, one: Number, other: Number) -> Number:
+    """X/R at the `other` resistance over X/R at the `one`, by Eq. 16; `common` is k_t rho_t V^2.
+
+    All in Pa. Everything but the logarithm cancels, the left side and any constant factor too.
+    """
+    return ar.context.log(1 + common / other) / ar.context.log(1 + common / one)
+
+
 SLIPS: dict[str, Callable[..., Number]] = {"equation_16": equation_16}
 """The functions by the names that `report/conjectures.toml` uses."""
+
+RATIOS: dict[str, Callable[..., Number]] = {"equation_16_ratio": equation_16_ratio}
+"""Quotients of two claims of one equation, by name."""
