@@ -1,19 +1,18 @@
 """The observed craters, the velocities they belong to, and how the model's depths stand to them."""
 
+import math
 from fractions import Fraction
+from statistics import NormalDist
 
-from replication import closed_form, sphere, stream
+from replication import sphere, stream
 from replication.audit.entries import rounding
-from replication.audit.findings.known import Computed, Known
-from replication.impact import BETA_5
+from replication.audit.findings.known import Computed, Known, model_ratio
 
 __all__ = ["EVIDENCE"]
 
 
 def _observed_digits(known: Known) -> Computed:
     line = known.number("volume-ratio-line")
-    printed = known.ledger.claims["volume-ratio"].printed
-    assert printed is not None
     least, greatest = rounding(known.ledger, "volume-ratio")
     from_line = float(sphere.depth_from_volume_ratio(line))
     return {
@@ -53,27 +52,36 @@ def _too_high(known: Known) -> Computed:
 
 
 def _compared_velocity(known: Known) -> Computed:
+    speeds = (521, 606, 403)
     return {
-        f"at_{speed}": _ratio_at(known.number(f"velocity-{speed}")) for speed in (521, 606, 403)
+        **{f"at_{s}": model_ratio(velocity=known.number(f"velocity-{s}")) for s in speeds},
+        "volume_high": _volume_ratio(known.exact("ratio-beta-5")),
+        "volume_low": _volume_ratio(known.exact("ratio-beta-3")),
     }
-
-
-def _ratio_at(velocity: float) -> float:
-    motion = {**BETA_5.motion, "velocity": velocity}
-    del motion["radius"]
-    return float(closed_form.normalized_depth(**motion))
 
 
 def _scatter(known: Known) -> Computed:
     mean, velocity = known.number("mean-diameter"), known.number("a1-initial-velocity")
     power = -3 * known.exact("eq1-power")  # mass goes with the cube of the diameter
-    deviation = known.number("diameter-deviation") / mean
+    scatter = abs(float(power)) * known.number("diameter-deviation") / mean * velocity
     ends = {"fast": "particle-size-least", "slow": "particle-size-greatest"}
+    of_data = known.number("figure-1-velocity")
     speeds = {
-        name: float(stream.particle_velocity(velocity, known.number(d) ** 3, mean**3))
+        name: float(stream.particle_velocity(of_data, known.number(d) ** 3, mean**3))
         for name, d in ends.items()
     }
-    return {"scatter": abs(float(power)) * deviation * velocity, "power": power, **speeds}
+    return {"scatter": scatter, "mean_deviation": scatter * _MEAN, "power": power, **speeds}
+
+
+_MEAN = math.sqrt(2 / math.pi)
+"""Mean deviation of a Gaussian over its standard deviation."""
+
+
+def _faster_particles(known: Known) -> Computed:
+    deviation = known.number("velocity-deviation")
+    above = known.number("stream-velocity-450") - known.number("velocity-403")
+    gaussian = {"standard": deviation, "mean": deviation / _MEAN}
+    return {name: NormalDist(0, sigma).cdf(-above) for name, sigma in gaussian.items()}
 
 
 EVIDENCE = {
@@ -82,4 +90,5 @@ EVIDENCE = {
     "two-times-too-high": _too_high,
     "compared-velocity": _compared_velocity,
     "equation-1-scatter": _scatter,
+    "faster-particles": _faster_particles,
 }

@@ -8,8 +8,9 @@ from reference.exact import Arithmetic, Number, cap_volume
 from reference.printed import Interval
 from replication import frank_zook
 from replication.audit.entries import function_of, rounding
-from replication.audit.findings.known import Computed, Known, known_interval
+from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
 from replication.audit.inference import infer
+from replication.impact import BETA_3, BETA_5
 
 __all__ = ["EVIDENCE"]
 
@@ -18,6 +19,11 @@ _DERIVED = "derived from Eqs. 14 and 15"
 
 def _equation_16(known: Known) -> Computed:
     diameters = "the multiple for X/D on the left side"
+    off: dict[str, float] = {}
+    for name in ("rha", "stainless"):
+        claim = f"frank-zook-{name}"
+        off[f"off_{name}"] = known.computed(claim, _DERIVED) / known.number(claim) - 1
+        off[f"half_{name}"] = known.computed(claim) / known.number(claim) - 1
     return {
         "radius": known.reading("eq16-denominator").enclosure[0],
         "diameter": known.reading("eq16-denominator", diameters).enclosure[0],
@@ -26,6 +32,7 @@ def _equation_16(known: Known) -> Computed:
         "derived_rha": known.computed("frank-zook-rha", _DERIVED),
         "derived_stainless": known.computed("frank-zook-stainless", _DERIVED),
         "inertia": _inertia(known),
+        **off,
     }
 
 
@@ -69,8 +76,19 @@ def _pair(known: Known) -> Computed:
         "least": found.lower,
         "velocity": fastest if excluded else 0.0,
         "z": z,
-        "nominal": math.log1p(z / stainless) / math.log1p(z / armor),
+        "hand": (armor + z) / (stainless + z),
+        "times": _drag_for(float(greatest / low), armor, stainless) / z,
     }
+
+
+def _drag_for(ratio: float, armor: float, stainless: float) -> float:
+    """The drag [Pa] at which the logarithms have this ratio, which falls with it: by bisection."""
+    low, high = 1e6, 1e15
+    for _ in range(100):
+        middle = math.sqrt(low * high)
+        above = math.log1p(middle / stainless) > ratio * math.log1p(middle / armor)
+        low, high = (middle, high) if above else (low, middle)
+    return low
 
 
 _BOUND = Fraction(60 * 10**9)
@@ -125,27 +143,44 @@ def _closest(known: Known) -> Computed:
         "far_printed": max(abs(known.number(c) - observed) for c in claims),
         "far_derived": max(abs(known.computed(c, _DERIVED) - observed) for c in claims),
         "far_cth": known.number("cth-ratio") - observed,
+        "far_autodyne": known.number("autodyne-ratio") - observed,
         "far_model": min(model) - observed,
         "far_as_printed": max(abs(known.computed(c) - observed) for c in claims),
     }
 
 
 def _sphere_equivalent(known: Known) -> Computed:
-    materials = [
-        known.number(name) for name in ("a1-density", "inferred:target-density", "fz-k1", "fz-kt")
-    ]
-    velocity = known.number("a1-initial-velocity")
-    long = known.number("circumscribed-length-ratio")
-    rha, stainless = (
-        frank_zook.depth_derived(long, *materials, known.number(f"fz-resistance-{name}"), velocity)
-        for name in ("rha", "stainless")
-    )
     ratio = cap_volume(Fraction(2), Fraction(1)) / 2
+    long = known.number("circumscribed-length-ratio")
+    width = float(ratio / known.exact("circumscribed-length-ratio")) ** (1 / 3)
+    found = {
+        name: _derived(known, known.number(f"fz-resistance-{name}"), long)
+        for name in ("rha", "stainless")
+    }
     return {
         "ratio": ratio,
-        "diameter": float(ratio) ** (1 / 3),
-        "long_rha": float(rha),
-        "long_stainless": float(stainless),
+        "diameter": width,
+        **{f"long_{name}": depth for name, depth in found.items()},
+        # Of a narrower cylinder the depth in its own radii, in radii of the sphere.
+        **{f"narrow_{name}": depth * width for name, depth in found.items()},
+    }
+
+
+def _derived(known: Known, resistance: float, length_ratio: float) -> float:
+    """X/R from Eqs. 14 and 15."""
+    names = ("a1-density", "inferred:target-density", "fz-k1", "fz-kt")
+    materials = [known.number(name) for name in names]
+    velocity = known.number("a1-initial-velocity")
+    return float(frank_zook.depth_derived(length_ratio, *materials, resistance, velocity))
+
+
+def _two_resistances(known: Known) -> Computed:
+    ratio = known.number("sphere-length-ratio")
+    return {
+        "fz_low": _derived(known, BETA_3.target_resistance, ratio),
+        "fz_high": _derived(known, BETA_5.target_resistance, ratio),
+        "model_stainless": model_ratio(resistance=known.number("fz-resistance-stainless")),
+        "model_rha": model_ratio(resistance=known.number("fz-resistance-rha")),
     }
 
 
@@ -155,4 +190,5 @@ EVIDENCE = {
     "frank-zook-values": _values,
     "closest-approach": _closest,
     "sphere-equivalent": _sphere_equivalent,
+    "two-resistances": _two_resistances,
 }

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from reference.ledger import Ledger
+from reference.printed import Interval
+from replication import closed_form
 from replication.audit.entries import value
 from replication.audit.verdict import Assessment, Reading
+from replication.impact import BETA_5
 
-__all__ = ["Computed", "Known", "known_interval"]
-
-from reference.printed import Interval
+__all__ = ["Computed", "Known", "known_interval", "model_ratio"]
 
 Computed = Mapping[str, Fraction | float | bool]
 """Evidence by name, in SI units."""
@@ -48,3 +49,9 @@ def known_interval(interval: Interval | None) -> tuple[Fraction, Fraction]:
     assert interval.lower is not None
     assert interval.upper is not None
     return interval.lower, interval.upper
+
+
+def model_ratio(**changed: float) -> float:
+    """The model's exact X/R [1] for beta = 5, with some inputs of the motion changed."""
+    motion = {**BETA_5.motion, **changed}
+    return float(closed_form.final_depth(**motion)) / motion["radius"]

@@ -23,10 +23,23 @@ def _order(_: Known) -> Computed:
         found[name] = order
     for impact in (BETA_3, BETA_5):
         exact = float(closed_form.final_depth(**impact.motion))
-        short = midpoint.run(impact).final_depth - exact
+        short = exact - midpoint.run(impact).final_depth
         beta = f"{impact.beta:.0f}"
         found |= {f"short_{beta}": short, f"exact_{beta}": exact, f"share_{beta}": short / exact}
-    return found
+    return {**found, **_last_row()}
+
+
+def _last_row() -> Computed:
+    sheet = midpoint.run(BETA_5)
+    budget, last = split(sheet), sheet.rows[-1]
+    assert last.velocity_final is not None
+    assert budget.stop_rule is not None
+    assert budget.half_step is not None
+    return {
+        "row": last.velocity_initial - last.velocity_final,
+        "last": last.velocity_final,
+        "stop": abs(budget.stop_rule) + abs(budget.half_step),
+    }
 
 
 def _coarse_step(known: Known) -> Computed:
@@ -36,9 +49,13 @@ def _coarse_step(known: Known) -> Computed:
     return {
         "change_3": coarse[3] / fine[3] - 1,
         "change_5": coarse[5] / fine[5] - 1,
+        "nm_3": coarse[3] - fine[3],
+        "nm_5": coarse[5] - fine[5],
         "coarse_3": coarse[3],
         "fine_5": fine[5],
         "coarse_5": coarse[5],
+        "exact_fine": fine[5],
+        "exact_coarse": coarse[5],
         "rows": Fraction(midpoint.run(replace(BETA_5, step=step)).steps),
     }
 
@@ -55,6 +72,9 @@ def _size_independence(known: Known) -> Computed:
     }
     double = replace(BETA_5, radius=2 * BETA_5.radius, step=2 * BETA_5.step)
     found["scaled"] = _sheet_ratio(double) == _sheet_ratio(BETA_5)
+    for name in ("small", "large"):
+        radius = known.number(radii[name]) / 2
+        found[f"{name}_3"] = _sheet_ratio(replace(BETA_3, radius=radius))
     found["tiny"] = _sheet_ratio(replace(BETA_5, radius=2e-6))
     return found
 

@@ -1,32 +1,40 @@
 """Flow stress, beta and the strength that a rigid particle would need."""
 
 import math
+from fractions import Fraction
 
-from replication import closed_form, resistance, sphere
-from replication.audit.findings.known import Computed, Known
+from replication import resistance, sphere
+from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
 from replication.impact import BETA_5
 
 __all__ = ["EVIDENCE"]
 
 
 def _observed_beta(known: Known) -> Computed:
-    observed = known.ledger.claims["observed-ratio"]
-    assert observed.printed is not None
-    greatest = observed.printed.interval(quantum=observed.printed.quanta[-1]).upper
-    assert greatest is not None
     p = _pressure_for(known, known.number("observed-ratio"))
     needed = _dynamic_pressure(known) / p
-    flow_stress = known.number("flow-stress")
+    least, greatest = known_interval(known.ledger.claims["observed-ratio"].interval)
+    velocity = known.number("a1-initial-velocity")
     return {
-        "beta": needed / flow_stress,
+        "beta": needed / known.number("flow-stress"),
         "resistance": needed,
-        "beta_least": _dynamic_pressure(known)
-        / _pressure_for(known, float(greatest))
-        / flow_stress,
-        "velocity": known.number("a1-initial-velocity")
-        * math.sqrt(BETA_5.target_resistance / needed),
+        "beta_least": _beta_for(known, float(greatest)),
+        "beta_greatest": _beta_for(known, float(least)),
+        "velocity": velocity * math.sqrt(BETA_5.target_resistance / needed),
         "p": p,
+        "density": _prints_the_same(known),
     }
+
+
+def _beta_for(known: Known, y: float) -> float:
+    return _dynamic_pressure(known) / _pressure_for(known, y) / known.number("flow-stress")
+
+
+def _prints_the_same(known: Known) -> bool:
+    """Whether X/R at beta = 5 prints as the report's for every admitted target density."""
+    claim = known.ledger.claims["ratio-beta-5"]
+    assert claim.interval is not None
+    return claim.interval.encloses(*known.reading(claim.id).enclosure)
 
 
 def _pressure_for(known: Known, y: float) -> float:
@@ -43,14 +51,13 @@ def _beta_and_flow_stress(known: Known) -> Computed:
     modulus, flow_stress = known.number("elastic-modulus"), known.number("flow-stress")
     alpha = float(resistance.walker_anderson_alpha(modulus, flow_stress))
     beta = float(resistance.walker_anderson_beta(alpha))
-    motion = {**BETA_5.motion, "resistance": beta * flow_stress}
     return {
         "alpha_bulk": known.computed("walker-anderson-alpha"),
         "beta_bulk": known.computed("walker-anderson-beta"),
         "alpha": alpha,
         "beta": beta,
         "resistance": beta * flow_stress,
-        "ratio": float(closed_form.final_depth(**motion)) / BETA_5.radius,
+        "ratio": model_ratio(resistance=beta * flow_stress),
         "cube": 2 * known.exact("elastic-modulus") / (3 * known.exact("flow-stress")),
     }
 
@@ -93,9 +100,32 @@ def _rigid_strength(known: Known) -> Computed:
     }
 
 
+def _unlike_strengths(known: Known) -> Computed:
+    steel, code = known.number("autodyne-steel-yield"), known.number("autodyne-ratio")
+    found: dict[str, Fraction | float | bool] = {}
+    for name, beta in (("low", 3), ("high", 5)):
+        ratio = model_ratio(resistance=known.number(f"depth-beta-{beta}-beta") * steel)
+        printed = known.exact(f"ratio-beta-{beta}") / known.exact("autodyne-ratio")
+        found |= {name: ratio, f"times_{name}": ratio / code, f"printed_{name}": printed}
+    return found
+
+
+def _autodyne_cells(known: Known) -> Computed:
+    cell = known.exact("autodyne-least-length") / (known.exact("autodyne-diameter") / 2)
+    ratio = known.exact("autodyne-ratio")
+    return {
+        "cell": cell,
+        "cells": ratio / cell,
+        "gap_cth": (ratio - known.exact("cth-ratio")) / cell,
+        "gap": (ratio - known.exact("observed-ratio")) / cell,
+    }
+
+
 EVIDENCE = {
     "observed-beta": _observed_beta,
     "beta-and-flow-stress": _beta_and_flow_stress,
     "flow-stress-choice": _flow_stress_choice,
     "rigid-strength": _rigid_strength,
+    "unlike-strengths": _unlike_strengths,
+    "autodyne-cells": _autodyne_cells,
 }

@@ -1,4 +1,4 @@
-"""References to the wrong equation."""
+"""What the report says twice, or of the wrong equation."""
 
 import re
 from fractions import Fraction
@@ -17,8 +17,23 @@ def _wrong_reference(known: Known) -> Computed:
         "stress": r"\Sigma" in _equation(known.ledger, "1"),
         "difference": centerline_stress(density, velocity, strength)
         - _equation_5(known, density, velocity, strength),
-        "times": Fraction(known.ledger.text.count("equation 1 reduces")),
+        "times": _times(known.ledger, "equation 1 reduces"),
+        "caption": _times(known.ledger, "500-m/s steel"),
     }
+
+
+def _minimum_velocity(known: Known) -> Computed:
+    return {
+        "section_2": _times(
+            known.ledger, "would certainly be higher than 403 m/s, but less than 521 m/s"
+        ),
+        "section_4": _times(known.ledger, "only faster-than-average particles were adhering"),
+    }
+
+
+def _times(ledger: Ledger, words: str) -> Fraction:
+    """How often the report says so, line breaks aside."""
+    return Fraction(" ".join(ledger.text.split()).count(words))
 
 
 def _equation(ledger: Ledger, number: str) -> str:
@@ -37,4 +52,4 @@ def _equation_5(known: Known, density: Fraction, u: Fraction, strength: Fraction
     return factor * density * u ** int(power) + strength
 
 
-EVIDENCE = {"wrong-reference": _wrong_reference}
+EVIDENCE = {"wrong-reference": _wrong_reference, "minimum-velocity": _minimum_velocity}
