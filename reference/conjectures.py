@@ -24,7 +24,10 @@ __all__ = ["Conjectures", "Family", "Joint", "Quantity", "Ratio", "Slip", "load"
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """What an entry is a value of: the range to search [unit] and the values in handbooks."""
+    """What an entry is a value of: the range to search [unit] and the values in handbooks.
+
+    `budget` bounds the intervals that a search may evaluate.
+    """
 
     name: str
     unit: str
@@ -32,6 +35,7 @@ class Quantity:
     reason: str
     entries: tuple[str, ...]
     handbook: Mapping[str, Printed]
+    budget: int
 
     @property
     def si(self) -> Fraction:
@@ -66,7 +70,7 @@ class Family:
 
 @dataclass(frozen=True, slots=True)
 class Ratio:
-    """A quotient of two claims: its function, the input that differs, the range of the common one."""
+    """A quotient of two claims: its function, the input that differs, the search of the other."""
 
     function: str
     differs: str
@@ -143,7 +147,7 @@ def _quantity(entry: Mapping[str, Any], ledger: Ledger) -> Quantity:
             handbook |= ledger.inferred[inferred].handbook
     return Quantity(
         entry["name"], entry["unit"], (low, high), entry["reason"], tuple(entry["entries"]),
-        handbook,
+        handbook, entry.get("budget", 1000),
     )  # fmt: skip
 
 

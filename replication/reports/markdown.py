@@ -5,6 +5,13 @@ from typing import Any
 
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.explanations import explain_claim
+from replication.audit.explanations.joint import JointAnswer
+from replication.audit.explanations.sentences import (
+    alternative_text,
+    back_solved_text,
+    misprint_text,
+)
 from replication.audit.inference import infer
 from replication.audit.verdict import Assessment, Verdict
 from replication.reports.numerics import WHY
@@ -34,6 +41,8 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         *(_inferred(audit, name) for name in ledger.inferred),
         "## Claims that are not plainly reproduced",
         *(_proof(audit, a) for a in audit.assessments.values() if _is_open(a)),
+        "## Claims tested together",
+        "\n".join(_joint(answer) for answer in audit.joint),
         "## Where the error of the sheet comes from",
         "Final depth of the sheet minus the exact depth at rest, and its parts [µm]; the parts are "
         "computed each on its own and add up.",
@@ -101,7 +110,26 @@ def _proof(audit: Audit, assessment: Assessment) -> str:
         explanation(audit.ledger, assessment),
     ]
     lines += [f"Assumes: {'; '.join(a)}." for a in [assumptions(audit.ledger, assessment)] if a]
-    return "\n\n".join(lines)
+    return "\n\n".join([*lines, *_tried(audit, claim.id)])
+
+
+def _tried(audit: Audit, name: str) -> list[str]:
+    """For a failing claim: single inputs, misprints and readings that would give its number."""
+    found, unit = explain_claim(audit.ledger, name), audit.ledger.claims[name].unit
+    readings = [a for a in found.listed(name) if a.explains(name)]
+    blocks = [
+        ("Single inputs that would give it", map(back_solved_text, found.back_solved)),
+        ("Misprints that would", (misprint_text(m, unit) for m in found.misprints)),
+        ("Other readings that would", (alternative_text(a, name) for a in readings)),
+    ]
+    lists = [(head, "\n".join(f"- {line}" for line in lines)) for head, lines in blocks]
+    return [f"{head}:\n\n{listed}" for head, listed in lists if listed]
+
+
+def _joint(answer: JointAnswer) -> str:
+    claims = _claims(answer.question.claims)
+    text = f"- **{_capital(answer.outcome)}**: {answer.question.question} ({claims}) {answer.bound}"
+    return text.rstrip()
 
 
 def _capital(text: str) -> str:

@@ -16,6 +16,7 @@ from replication.audit.explain import assumptions, explanation
 from replication.audit.findings import Finding
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
+from replication.reports.explanations import explanation_record, joint_record
 from replication.reports.numerics import budget_record, budget_sheets, stability_record
 
 __all__ = ["SCHEMA", "audit_record", "claim_record", "finding_record", "ledger_record"]
@@ -36,6 +37,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "reproduced": audit.reproduced_kinds,
         "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
         "findings": [finding_record(finding) for finding in audit.findings],
+        "joint": [joint_record(answer) for answer in audit.joint],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
         "stability": stability_record(
@@ -75,6 +77,7 @@ def claim_record(ledger: Ledger, assessment: Assessment) -> dict[str, Any]:
         "rests_on": {name: list(entries) for name, entries in claim.inputs.items()},
         "assumes": assumptions(ledger, assessment),
         "explanation": explanation(ledger, assessment),
+        **explanation_record(ledger, claim.id),
     }
 
 
@@ -176,7 +179,7 @@ _LIBRARIES = (
 def _provenance() -> dict[str, Any]:
     """What the audit was made with; no clock and no machine, so that it is the same again."""
     folder = resources.files("reference.report")
-    files: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml")
+    files: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "conjectures.toml")
     return {
         "command": "coldspray audit",
         "python": platform.python_version(),

@@ -68,7 +68,8 @@ class Alternatives:
         near = self.nearest
         values = ", ".join(f"{x:.4f}" for x in near.computed.values())
         return (
-            f"Of {len(self.tried)} readings of {self.family.name}, with up to two slips each, {found}. "
+            f"Of {len(self.tried)} readings of {self.family.name}, with up to two slips each, "
+            f"{found}. "
             f'The nearest is "{near.name}": {values}, {100 * near.miss:.1f} % off at worst.'
         )
 
@@ -114,9 +115,10 @@ def _alternative(ledger: Ledger, family: Family, slips: tuple[Slip, ...]) -> Alt
     verdicts = {c.id: _verdict(c, functions[c.id], values[c.id], boxes[c.id]) for c in claims}
     computed = {name: float(low) for name, (low, _) in values.items()}
     constraints = [(functions[c.id], _target(c)) for c in claims]
+    whole = {name: ends for box in boxes.values() for name, ends in box.items()}
     return Alternative(
         ", ".join(slip.name for slip in slips), len(slips) - 1, computed, verdicts,
-        _all(constraints, list(verdicts.values()), {k: v for b in boxes.values() for k, v in b.items()}),
+        _all(constraints, list(verdicts.values()), whole),
         {c.id: abs(computed[c.id] / float(c.printed.value) - 1) for c in claims if c.printed},
     )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Back-solving: the values of one input, the others as printed, that would give a printed number."""
+"""Back-solving: values of one input, the others as printed, that would give a printed number."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,9 +16,6 @@ __all__ = ["BackSolved", "Mark", "back_solve"]
 
 _PARTS = 10**4
 """The proof goes down to this share of an entry's own value."""
-
-_BUDGET = 120
-"""Of intervals a proof; only for the time step, on which the sheet hardly depends, too few."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +41,15 @@ class BackSolved:
     unit: str
     reason: str
     solutions: Solutions
+    printed: Fraction
     value: float | None
     rounding: bool
     marks: tuple[Mark, ...]
+
+    @property
+    def change(self) -> float | None:
+        """By how much the value differs from the one printed, relatively."""
+        return None if self.value is None else self.value / float(self.printed) - 1
 
     @property
     def proof(self) -> str:
@@ -75,10 +78,11 @@ def _solved(
     search = _cuts(*(end * quantity.si for end in quantity.search))
     function = function_of(ledger, claim, claim.functions[reading.name], frozenset({name}))
     resolution = value(ledger, name) / _PARTS
-    found = solutions([(function, target)], name, search, resolution, _BUDGET)
+    found = solutions([(function, target)], name, search, resolution, quantity.budget)
     replica = replica_of(ledger, claim, reading.computation)
     return BackSolved(
         reading.name, name, title(ledger, name), quantity.unit, quantity.reason, found,
+        value(ledger, name),
         _middle(lambda x: replica({name: x}), found, target), _prints_like(ledger, name, found),
         tuple(_marks(ledger, conjectures, claim, name, found)),
     )  # fmt: skip
@@ -127,7 +131,7 @@ def _prints_like(ledger: Ledger, name: str, found: Solutions) -> bool:
 def _marks(
     ledger: Ledger, conjectures: Conjectures, claim: Claim, name: str, found: Solutions
 ) -> list[Mark]:
-    """Handbook values of the same quantity and printed numbers of the same unit that would serve."""
+    """Handbook values of the quantity and printed numbers of its dimension that would serve."""
     quantity = conjectures.quantity(name)
     known = [
         Mark("handbook", text, printed.value * quantity.si)

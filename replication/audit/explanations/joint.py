@@ -103,7 +103,7 @@ def _quotient(ledger: Ledger, question: Joint, ratio: Ratio) -> JointAnswer:
     never, some = all(f.never for f in found), any(f.inside for f in found)
     outcome = "impossible" if never else "possible" if some else "undecided"
     lower = min(f.lower for f in found)
-    bound = question.because.format(low=outward(lower, lower, 5), printed=number(greatest / low, 5))
+    bound = question.because.format(low=number(lower, 5), printed=number(greatest / low, 5))
     witness = next((f.inside for f in found if f.inside), None)
     return JointAnswer(question, outcome, bound if never else "", witness)
 

@@ -1,6 +1,6 @@
 """Misprints: the texts one edit away from a result or an input that would make a claim agree."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -8,9 +8,10 @@ from reference.conjectures import Conjectures
 from reference.enclosure import evaluate
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval, parse
+from replication.audit.assessed import assess_claim
 from replication.audit.entries import function_of, replica_of
 from replication.audit.explanations.edits import KINDS, Edit, edits
-from replication.audit.verdict import Assessment, Reading, Verdict
+from replication.audit.verdict import Reading, Verdict
 
 __all__ = ["Misprint", "misprints"]
 
@@ -19,8 +20,8 @@ __all__ = ["Misprint", "misprints"]
 class Misprint:
     """One edit that would make a claim agree under a reading, and what else it would change.
 
-    `what` is the entry whose text is edited, the claim itself or an input; `computed` is the claim's
-    value then, in its unit. `breaks` are the claims, reproduced as printed, that rest on the entry
+    `what` is the entry whose text is edited, the claim itself or an input; `computed` is the
+    claim's value then, in its unit. `breaks` are the claims, reproduced as printed, that rest on the entry
     and would fail.
     """
 
@@ -46,33 +47,29 @@ class Misprint:
 def misprints(
     ledger: Ledger,
     conjectures: Conjectures,
-    assessments: Mapping[str, Assessment],
     claim: Claim,
     reading: Reading,
 ) -> list[Misprint]:
     """Every one-edit misprint of the claim or of one of its inputs that would make it agree."""
-    found = [*_of_result(ledger, assessments, claim, reading)]
+    found = [*_of_result(ledger, claim, reading)]
     for name in dict.fromkeys(name for names in claim.inputs.values() for name in names):
         if not name.startswith("inferred:"):
-            found += _of_input(ledger, conjectures, assessments, claim, reading, name)
+            found += _of_input(ledger, conjectures, claim, reading, name)
     return sorted(found, key=lambda misprint: (misprint.rank, misprint.what, misprint.edit.text))
 
 
-def _of_result(
-    ledger: Ledger, assessments: Mapping[str, Assessment], claim: Claim, reading: Reading
-) -> Iterator[Misprint]:
+def _of_result(ledger: Ledger, claim: Claim, reading: Reading) -> Iterator[Misprint]:
     if claim.printed is None or claim.relation:
         return
     for edit in edits(claim.text):
         if claim.reprinted(edit.printed).contains(Fraction(reading.reference)):
-            broken = _broken(ledger, assessments, claim, claim.id, edit)
+            broken = _broken(ledger, claim, claim.id, edit)
             yield Misprint(claim.id, claim.text, edit, reading.name, reading.computed, broken)
 
 
 def _of_input(
     ledger: Ledger,
     conjectures: Conjectures,
-    assessments: Mapping[str, Assessment],
     claim: Claim,
     reading: Reading,
     name: str,
@@ -88,13 +85,11 @@ def _of_input(
             continue
         if target.encloses(*evaluate(function, {name: (number, number)})):
             computed = float(Fraction(replica({name: number})) / claim.si)
-            broken = _broken(ledger, assessments, claim, name, edit)
+            broken = _broken(ledger, claim, name, edit)
             yield Misprint(name, entry.text, edit, reading.name, computed, broken)
 
 
-def _broken(
-    ledger: Ledger, assessments: Mapping[str, Assessment], claim: Claim, name: str, edit: Edit
-) -> tuple[str, ...]:
+def _broken(ledger: Ledger, claim: Claim, name: str, edit: Edit) -> tuple[str, ...]:
     """Reproduced claims that rest on the entry and fail where it is the edited one."""
     changed = {name: edit.printed.value * ledger.claims[name].si}
     return tuple(
@@ -102,7 +97,7 @@ def _broken(
         for other in ledger.claims.values()
         if other.id != claim.id
         and any(name in names for names in other.inputs.values())
-        and assessments[other.id].verdict is Verdict.REPRODUCED
+        and assess_claim(ledger, other.id).verdict is Verdict.REPRODUCED
         and other.computation is not None
         and not _target(other).contains(
             Fraction(replica_of(ledger, other, other.computation)(changed))
