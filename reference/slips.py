@@ -44,7 +44,7 @@ def equation_16(
     >>> ar = Reals(20)
     >>> inputs = (F(2, 3), 8900, 7850, F("0.557"), F("1.046"), 913 * 10**7, 500, F(1, 2))
     >>> print(equation_16(ar, *map(ar.number, map(F, inputs))))
-    0.12727398541376195613
+    0.12727315048681142558
     """
 
     def place(occurrence: Number | None, symbol: Number) -> Number:

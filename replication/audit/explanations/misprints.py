@@ -21,8 +21,8 @@ class Misprint:
     """One edit that would make a claim agree under a reading, and what else it would change.
 
     `what` is the entry whose text is edited, the claim itself or an input; `computed` is the
-    claim's value then, in its unit. `breaks` are the claims, reproduced as printed, that rest on the entry
-    and would fail.
+    claim's value then, in its unit. `breaks` are the claims, reproduced as printed, that rest on
+    the entry and would fail.
     """
 
     what: str
@@ -77,13 +77,12 @@ def _of_input(
     entry, target = ledger.claims[name], _target(claim)
     low, high = (end * conjectures.quantity(name).si for end in conjectures.quantity(name).search)
     replica = replica_of(ledger, claim, reading.computation)
-    function = function_of(ledger, claim, claim.functions[reading.name], frozenset({name}))
     for edit in edits(entry.text):
         number = edit.printed.value * entry.si
         # Beyond the search no sheet need come to an end.
         if not low <= number <= high or not target.contains(Fraction(replica({name: number}))):
             continue
-        if target.encloses(*evaluate(function, {name: (number, number)})):
+        if _agrees(ledger, claim, reading.name, name, number):
             computed = float(Fraction(replica({name: number})) / claim.si)
             broken = _broken(ledger, claim, name, edit)
             yield Misprint(name, entry.text, edit, reading.name, computed, broken)
@@ -91,18 +90,21 @@ def _of_input(
 
 def _broken(ledger: Ledger, claim: Claim, name: str, edit: Edit) -> tuple[str, ...]:
     """Reproduced claims that rest on the entry and fail where it is the edited one."""
-    changed = {name: edit.printed.value * ledger.claims[name].si}
+    number = edit.printed.value * ledger.claims[name].si
     return tuple(
         other.id
         for other in ledger.claims.values()
         if other.id != claim.id
         and any(name in names for names in other.inputs.values())
         and assess_claim(ledger, other.id).verdict is Verdict.REPRODUCED
-        and other.computation is not None
-        and not _target(other).contains(
-            Fraction(replica_of(ledger, other, other.computation)(changed))
-        )
+        and not _agrees(ledger, other, "", name, number)
     )
+
+
+def _agrees(ledger: Ledger, claim: Claim, reading: str, name: str, number: Fraction) -> bool:
+    """Whether the claim is proven to agree where one entry has another value."""
+    function = function_of(ledger, claim, claim.functions[reading], frozenset({name}))
+    return _target(claim).encloses(*evaluate(function, {name: (number, number)}))
 
 
 def _target(claim: Claim) -> Interval:
