@@ -208,20 +208,22 @@ def solutions(
     neither proven to satisfy nor to violate them is cut in halves down to the resolution, or until
     the budget of parts runs out; it then belongs to the outer intervals.
     """
-    parts = deque(pairwise(search))
+    parts = deque((part, constraints) for part in pairwise(search))
     inner: list[tuple[Fraction, Fraction]] = []
     edge: list[tuple[Fraction, Fraction]] = []
     while parts and budget:
-        part, budget = parts.popleft(), budget - 1
-        verdict = _holds(constraints, {name: part})
-        if verdict:
+        (part, remaining), budget = parts.popleft(), budget - 1
+        undecided = _undecided(remaining, {name: part})
+        if undecided is None:
+            continue
+        if not undecided:
             inner.append(part)
-        elif verdict is None and part[1] - part[0] > resolution:
+        elif part[1] - part[0] > resolution:
             middle = (part[0] + part[1]) / 2
-            parts += [(part[0], middle), (middle, part[1])]
-        elif verdict is None:
+            parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
+        else:
             edge.append(part)
-    found = (inner, [*inner, *edge, *parts])
+    found = (inner, [*inner, *edge, *(part for part, _ in parts)])
     merged, outer = (tuple(Interval(*ends) for ends in _merged(some)) for some in found)
     return Solutions((search[0], search[-1]), merged, outer)
 
@@ -327,12 +329,6 @@ def _extreme(
         if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
             attained = near
     return attained, end(queue[0][2]) if queue else attained
-
-
-def _holds(constraints: Sequence[Constraint], box: Box) -> bool | None:
-    """True if all hold all over the box, False if one fails all over it, else None."""
-    undecided = _undecided(constraints, box)
-    return False if undecided is None else True if not undecided else None
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from functools import cache
 
 from reference.ledger import Ledger
-from replication import workbook
 from replication.audit.verdict import Assessment, assess
 from spreadsheets.plan import Cell
 
@@ -24,4 +23,6 @@ def _cell_is_blank(address: str) -> bool:
 
 @cache
 def _table_cells() -> Mapping[str, Cell]:
+    from replication import workbook  # the proof of one number need not wait for its code
+
     return next(s.cells for s in workbook.build()[0].sheets if s.name == "Table A-1")
