@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 from reference.exact import Number
 from reference.intervals import Intervals
@@ -21,11 +21,14 @@ __all__ = [
     "Constraint",
     "Exploration",
     "Function",
+    "Solutions",
     "admitted",
     "evaluate",
     "explore",
     "extent",
     "satisfiable",
+    "satisfying",
+    "solutions",
 ]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
@@ -173,21 +176,43 @@ Constraint = tuple[Function, Interval]
 """A function of the inputs in a box, and the interval that its value must fall in."""
 
 
-def admitted(
+@dataclass(frozen=True, slots=True)
+class Solutions:
+    """The values of one input, within a search, for which all constraints hold.
+
+    `inner`: intervals all of whose values are proven to satisfy them; `outer`: those outside which
+    every value of the search is proven to violate some. Empty `outer`: proven that none does.
+    """
+
+    search: tuple[Fraction, Fraction]
+    inner: tuple[Interval, ...]
+    outer: tuple[Interval, ...]
+
+    @property
+    def reaches_an_end(self) -> bool:
+        """Whether what is admitted may go on beyond the search."""
+        low, high = self.search
+        return any(part.lower == low or part.upper == high for part in self.outer)
+
+
+def solutions(
     constraints: Sequence[Constraint],
     name: str,
-    search: tuple[Fraction, Fraction],
+    search: Sequence[Fraction],
     resolution: Fraction,
-) -> tuple[Interval, Interval]:
-    """The values of the one input for which every constraint holds: an inner and outer interval.
+    budget: int = 2000,
+) -> Solutions:
+    """The values of the one input for which every constraint holds, in as many intervals as it has.
 
-    Every value of the inner interval is proven to satisfy all constraints, every value of `search`
-    outside the outer one to violate some. Raises ValueError if none is proven to satisfy them, if
-    those that do are not one interval, or if they reach an end of `search`.
+    `search` are the ends of the search and, between them, where it is cut to begin with. What is
+    neither proven to satisfy nor to violate them is cut in halves down to the resolution, or until
+    the budget of parts runs out; it then belongs to the outer intervals.
     """
-    parts, inner, edge = [(search, constraints)], [], []
-    while parts:
-        part, remaining = parts.pop()
+    parts = deque((part, constraints) for part in pairwise(search))
+    inner: list[tuple[Fraction, Fraction]] = []
+    edge: list[tuple[Fraction, Fraction]] = []
+    while parts and budget:
+        (part, remaining), budget = parts.popleft(), budget - 1
         undecided = _undecided(remaining, {name: part})
         if undecided is None:
             continue
@@ -198,12 +223,28 @@ def admitted(
             parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
         else:
             edge.append(part)
-    merged, outer = _merged(inner), _merged(inner + edge)
-    if len(merged) != 1:
-        raise ValueError(f"{len(merged)} separate intervals of {name} are admitted, not one")
-    if outer[0][0] == search[0] or outer[-1][1] == search[1]:
+    found = (inner, [*inner, *edge, *(part for part, _ in parts)])
+    merged, outer = (tuple(Interval(*ends) for ends in _merged(some)) for some in found)
+    return Solutions((search[0], search[-1]), merged, outer)
+
+
+def admitted(
+    constraints: Sequence[Constraint],
+    name: str,
+    search: tuple[Fraction, Fraction],
+    resolution: Fraction,
+) -> tuple[Interval, Interval]:
+    """The one interval of values for which every constraint holds: an inner and outer one.
+
+    As `solutions`, but raises ValueError if none is proven to satisfy them, if those that do are
+    not one interval, or if they reach an end of the search.
+    """
+    found = solutions(constraints, name, search, resolution)
+    if len(found.inner) != 1:
+        raise ValueError(f"{len(found.inner)} separate intervals of {name} are admitted, not one")
+    if found.reaches_an_end:
         raise ValueError(f"the admitted {name} reaches an end of the search from {search[0]}")
-    return Interval(*merged[0]), Interval(outer[0][0], outer[-1][1])
+    return found.inner[0], Interval(found.outer[0].lower, found.outer[-1].upper)
 
 
 def extent(
@@ -231,19 +272,30 @@ def satisfiable(constraints: Sequence[Constraint], box: Box, budget: int = 2000)
 
     None if the budget of boxes runs out.
     """
+    return satisfying(constraints, box, budget)[0]
+
+
+def satisfying(
+    constraints: Sequence[Constraint], box: Box, budget: int = 2000
+) -> tuple[bool | None, dict[str, Fraction] | None]:
+    """As `satisfiable`, with the point of the box that proves it if there is one.
+
+    Constraints are tried in their order: cheap and narrow ones first save time.
+    """
     queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
     for _ in range(budget):
         if not queue:
-            return False
+            return False, None
         part, remaining = queue.popleft()
         undecided = _undecided(remaining, part)
         if undecided is None:
             continue
-        middle = {name: ((low + high) / 2,) * 2 for name, (low, high) in part.items()}
-        if not undecided or _undecided(undecided, middle) == []:
-            return True
+        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
+        point = {name: (x, x) for name, x in middle.items()}
+        if not undecided or _undecided(undecided, point) == []:
+            return True, middle
         queue += [(half, undecided) for half in _halves(part, scales)]
-    return None
+    return None, None
 
 
 def _extreme(

@@ -209,7 +209,7 @@ def midpoint(
             if ar.is_below(v, stop_velocity):
                 return
             # Where a box of inputs is run, only those that have not stopped go on.
-            v = stop_velocity + ar.positive_part(v - stop_velocity)
+            v = -ar.least(-v, -stop_velocity)
         x = x + v * step
 
 

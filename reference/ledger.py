@@ -114,6 +114,17 @@ class Claim:
         printed = self.printed.about() if about and self.printed.quantum else self._rounded()
         return printed.scaled(self.si)
 
+    def reprinted(self, printed: Printed) -> Interval:
+        """The values, in the claim's unit, that would agree with it if it were printed so.
+
+        Of a claim without a relation, which is decided by more than its number.
+        """
+        if self.interval is not None and self.interval.lower == self.interval.upper:
+            return Interval.point(printed.value)
+        if self.kind == "approximation":
+            return printed.about()
+        return printed.interval(_rounding(self.place.cell))
+
     def _rounded(self) -> Interval:
         assert self.printed is not None
         return self.printed.interval(_rounding(self.place.cell))

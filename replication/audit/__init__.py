@@ -2,24 +2,26 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 
 from reference import ledger as ledgers
+from reference.conjectures import load as load_conjectures
 from reference.ledger import Ledger
+from replication.audit.assessed import assess_claim
+from replication.audit.explanations.joint import JointAnswer, consistency
 from replication.audit.findings import Finding, findings
-from replication.audit.verdict import Assessment, Verdict, assess
-from spreadsheets.plan import Cell
+from replication.audit.verdict import Assessment, Verdict
 
 __all__ = ["Audit", "Verdict", "assess_claim", "audit"]
 
 
 @dataclass(frozen=True, slots=True)
 class Audit:
-    """All verdicts by claim id, in the report's order, and the findings."""
+    """All verdicts by claim id, in the report's order, the findings, and the joint questions."""
 
     ledger: Ledger
     assessments: Mapping[str, Assessment]
     findings: tuple[Finding, ...]
+    joint: tuple[JointAnswer, ...]
 
     @property
     def summary(self) -> dict[str, int]:
@@ -46,12 +48,8 @@ def audit() -> Audit:
     """
     ledger = ledgers.load()
     assessments = {name: assess_claim(ledger, name) for name in ledger.claims}
-    return Audit(ledger, assessments, tuple(findings(ledger, assessments)))
-
-
-def assess_claim(ledger: Ledger, name: str) -> Assessment:
-    """The verdict on one claim, blank cells included."""
-    return assess(ledger, ledger.claims[name], _cell_is_blank)
+    joint = tuple(consistency(ledger, question) for question in load_conjectures().joint)
+    return Audit(ledger, assessments, tuple(findings(ledger, assessments)), joint)
 
 
 def _kind(assessment: Assessment) -> str:
@@ -59,17 +57,3 @@ def _kind(assessment: Assessment) -> str:
         return "blank cells"
     restates = assessment.reading.computation.name in ("same_as", "count")
     return "restated" if restates else "computed"
-
-
-def _cell_is_blank(address: str) -> bool:
-    cell = _table_cells().get(address)
-    return cell is None or not (cell.text.strip() or cell.key)
-
-
-@cache
-def _table_cells() -> Mapping[str, Cell]:
-    from replication import (
-        workbook,
-    )  # the proof of one number need not wait for the workbook's code
-
-    return next(s.cells for s in workbook.build()[0].sheets if s.name == "Table A-1")

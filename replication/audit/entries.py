@@ -1,14 +1,17 @@
 """The ledger's entries as inputs: their values, their rounding, and functions of them."""
 
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import prod
 
+from reference.computations import Computation
 from reference.enclosure import Function
 from reference.exact import Arithmetic, Number
 from reference.ledger import Claim, Ledger
 from reference.units import to_si
+from replication.audit.replica import REPLICA
 
-__all__ = ["function_of", "rounding", "value"]
+__all__ = ["function_of", "replica_of", "rounding", "title", "value"]
 
 
 def value(ledger: Ledger, name: str) -> Fraction:
@@ -20,6 +23,12 @@ def value(ledger: Ledger, name: str) -> Fraction:
     claim = ledger.claims[name]
     assert claim.printed is not None
     return claim.printed.value * claim.si
+
+
+def title(ledger: Ledger, name: str) -> str:
+    """What an entry is, in words."""
+    _, _, inferred = name.partition("inferred:")
+    return ledger.inferred[inferred].title if inferred else ledger.claims[name].title
 
 
 def rounding(ledger: Ledger, name: str, loose: bool = False) -> tuple[Fraction, Fraction]:
@@ -50,3 +59,19 @@ def function_of(
         return function(ar, **inputs)
 
     return of_entries
+
+
+def replica_of(
+    ledger: Ledger, claim: Claim, computation: Computation
+) -> Callable[[Mapping[str, Fraction | float]], float]:
+    """The replica's answer, in SI, as a function of changed entries; the others as printed."""
+    row = {} if claim.row is None else {"row": claim.row}
+
+    def answer(changed: Mapping[str, Fraction | float]) -> float:
+        def number(name: str) -> Fraction:
+            return Fraction(changed[name]) if name in changed else value(ledger, name)
+
+        inputs = {key: float(prod(map(number, names))) for key, names in claim.inputs.items()}
+        return float(REPLICA[computation.name](**row, **inputs))
+
+    return answer

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval
+from replication.audit.explanations.sentences import sentences as tried
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading, Verdict
 from replication.text import inward, number, outward, with_unit
@@ -23,6 +24,8 @@ def explanation(ledger: Ledger, assessment: Assessment) -> str:
     sentences += [_other(claim, other) for other in assessment.others]
     if claim.id in _evidence(ledger):
         sentences.append("It is part of the evidence from which the target density is inferred.")
+    if assessment.verdict is not Verdict.REPRODUCED:
+        sentences += tried(ledger, claim.id)
     return " ".join(sentences)
 
 

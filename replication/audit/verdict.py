@@ -4,16 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from math import prod
 
 from reference.computations import Computation
 from reference.enclosure import Box, Exploration, Function, explore
 from reference.exact import Reals
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval
-from replication.audit.entries import function_of, rounding, value
+from replication.audit.entries import function_of, replica_of, rounding, value
 from replication.audit.inference import Inference, infer
-from replication.audit.replica import REPLICA
 
 __all__ = ["Assessment", "Reading", "Verdict", "assess"]
 
@@ -180,12 +178,7 @@ class _Question:
         )
 
     def replica(self) -> float:
-        row = {} if self.claim.row is None else {"row": self.claim.row}
-        inputs = {
-            key: float(prod(value(self.ledger, name) for name in names))
-            for key, names in self.claim.inputs.items()
-        }
-        result = float(REPLICA[self.computation.name](**row, **inputs))
+        result = replica_of(self.ledger, self.claim, self.computation)({})
         return float(Fraction(result) / self.claim.si)
 
     def reference(self) -> str:

@@ -3,7 +3,6 @@
 import os
 import tempfile
 from errno import EACCES, ENOTDIR
-from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from replication.reports.figures import FIGURES, draw
 from replication.reports.html import page
 from replication.reports.markdown import markdown
 from replication.reports.plain import json_text, rows_csv
+from replication.reports.provenance import sealed
 from spreadsheets.safely import check_target
 
 __all__ = ["FILES", "check_folder", "write_audit"]
@@ -53,17 +53,10 @@ def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> list[Path
         made = Path(temporary)
         workbook.write(made / "workbook.xlsx")
         (made / "figures").mkdir()
-        for name, content in _contents(audit, _sealed(record, made / "workbook.xlsx")).items():
+        for name, content in _contents(audit, sealed(record, made / "workbook.xlsx")).items():
             (made / name).write_bytes(content)
         (folder / "figures").mkdir(parents=True, exist_ok=True)
         return [(made / name).replace(folder / name) for name in FILES]
-
-
-def _sealed(record: dict[str, Any], book: Path) -> dict[str, Any]:
-    """The record with the hash of the workbook that stands beside it."""
-    provenance = record["provenance"]
-    hashes = {**provenance["sha256"], book.name: sha256(book.read_bytes()).hexdigest()}
-    return {**record, "provenance": {**provenance, "sha256": hashes}}
 
 
 def _contents(audit: Audit, record: dict[str, Any]) -> dict[str, bytes]:

@@ -5,10 +5,16 @@ from typing import Any
 
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.explanations import explain_claim
+from replication.audit.explanations.joint import JointAnswer
+from replication.audit.explanations.sentences import (
+    alternative_text,
+    back_solved_text,
+    misprint_text,
+)
 from replication.audit.inference import infer
 from replication.audit.verdict import Assessment, Verdict
 from replication.reports.markdown_physics import physics, provenance
-from replication.reports.numerics import WHY
 from replication.text import number, outward, pipe_table, with_unit
 
 __all__ = ["markdown"]
@@ -35,16 +41,9 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         *(_inferred(audit, name) for name in ledger.inferred),
         "## Claims that are not plainly reproduced",
         *(_proof(audit, a) for a in audit.assessments.values() if _is_open(a)),
+        "## Claims tested together",
+        "\n".join(_joint(answer) for answer in audit.joint),
         *physics(record),
-        "## Where the error of the sheet comes from",
-        "Final depth of the sheet minus the exact depth at rest, and its parts [µm]; the parts are "
-        "computed each on its own and add up.",
-        _budgets(record["error_budget"]),
-        WHY["published"] + " The stop rule and the half step by which x trails v nearly cancel. "
-        "`coldspray converge` runs the ladder of steps, `--scheme centered` the other variant.",
-        "## Hard cases",
-        "The sheet, the closed form (error in units of its last place) and the reference.",
-        _hard_cases(record["stability"]),
         "## Every claim",
         *_sections(audit),
         *provenance(record["provenance"]),
@@ -104,7 +103,26 @@ def _proof(audit: Audit, assessment: Assessment) -> str:
         explanation(audit.ledger, assessment),
     ]
     lines += [f"Assumes: {'; '.join(a)}." for a in [assumptions(audit.ledger, assessment)] if a]
-    return "\n\n".join(lines)
+    return "\n\n".join([*lines, *_tried(audit, claim.id)])
+
+
+def _tried(audit: Audit, name: str) -> list[str]:
+    """For a failing claim: single inputs, misprints and readings that would give its number."""
+    found, unit = explain_claim(audit.ledger, name), audit.ledger.claims[name].unit
+    readings = [a for a in found.listed(name) if a.explains(name)]
+    blocks = [
+        ("Single inputs that would give it", map(back_solved_text, found.back_solved)),
+        ("Misprints that would", (misprint_text(m, unit) for m in found.misprints)),
+        ("Other readings that would", (alternative_text(a, name) for a in readings)),
+    ]
+    lists = [(head, "\n".join(f"- {line}" for line in lines)) for head, lines in blocks]
+    return [f"{head}:\n\n{listed}" for head, listed in lists if listed]
+
+
+def _joint(answer: JointAnswer) -> str:
+    claims = _claims(answer.question.claims)
+    text = f"- **{_capital(answer.outcome)}**: {answer.question.question} ({claims}) {answer.bound}"
+    return text.rstrip()
 
 
 def _capital(text: str) -> str:
@@ -114,43 +132,6 @@ def _capital(text: str) -> str:
 def _text(assessment: Assessment) -> str:
     claim = assessment.claim
     return claim.text if claim.printed is None else with_unit(claim.text, claim.unit)
-
-
-_PARTS = ("total", "time_step", "stop_rule", "half_step", "rounding")
-
-
-def _budgets(budgets: list[dict[str, Any]]) -> str:
-    heads = ("beta", "step [ns]", "steps", *(part.replace("_", " ") for part in _PARTS))
-    rows = (
-        (
-            number(b["beta"]),
-            number(b["step"] * 1e9),
-            str(b["steps"]),
-            *(number(b[part] * 1e6, 4) for part in _PARTS),
-        )
-        for b in budgets
-    )
-    return pipe_table(heads, rows)
-
-
-def _hard_cases(stability: dict[str, Any]) -> str:
-    heads = ("case", "steps", "sheet off by", "closed form [m]", "ulp", "reference [m]", "remarks")
-    worst = stability["random"]
-    inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
-    return (
-        pipe_table(heads, (_hard_case(case) for case in stability["cases"]))
-        + f"\n\nOver {worst['cases']} random cases (seed 1) the closed form is at worst "
-        f"{worst['ulps']:.2f} ulp off, at {inputs}."
-    )
-
-
-def _hard_case(case: dict[str, Any]) -> tuple[str, ...]:
-    off = "" if case["sheet_error"] is None else f"{100 * case['sheet_error']:+.3g} %"
-    depth = "" if case["closed_form"] is None else repr(case["closed_form"])
-    ulps = "" if case["ulps"] is None else f"{case['ulps']:+.2f}"
-    remarks = [r for r in (case["refused"], case["sheet_refused"], *case["warnings"]) if r]
-    steps = "" if case["steps"] is None else str(case["steps"])
-    return case["name"], steps, off, depth, ulps, case["reference"], "; ".join(remarks)
 
 
 def _sections(audit: Audit) -> list[str]:

@@ -1,16 +1,17 @@
-"""Approaches, sensitivity, scatter, figures and provenance in Markdown, from the audit's record."""
+"""Approaches, sensitivity, scatter, figures, numerics, provenance in Markdown, from the record."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 from replication.reports.comparison import shown_range
+from replication.reports.numerics import WHY
 from replication.text import number, pipe_table
 
 __all__ = ["physics", "provenance"]
 
 
 def physics(record: dict[str, Any]) -> list[str]:
-    """The sections on normalized depth, each with its figure, and the figures of the motion."""
+    """The sections on normalized depth and on the sheet's error, with their figures."""
     return [
         "## All approaches side by side",
         _figure("comparison", "Normalized depth by every approach"),
@@ -27,6 +28,15 @@ def physics(record: dict[str, Any]) -> list[str]:
         _figure("figure-3", "Penetration depth against time"),
         _figure("figure-5", "Normalized depth against impact velocity"),
         _figure("convergence", "Error against time step, published and centered scheme"),
+        "## Where the error of the sheet comes from",
+        "Final depth of the sheet minus the exact depth at rest, and its parts [µm]; the parts are "
+        "computed each on its own and add up.",
+        _budgets(record["error_budget"]),
+        WHY["published"] + " The stop rule and the half step by which x trails v nearly cancel. "
+        "`coldspray converge` runs the ladder of steps, `--scheme centered` the other variant.",
+        "## Hard cases",
+        "The sheet, the closed form (error in units of its last place) and the reference.",
+        _hard_cases(record["stability"]),
     ]
 
 
@@ -125,3 +135,40 @@ def _spread(
 def _to(ends: Sequence[float], decimals: int) -> str:
     low, high = ends
     return f"{low:.{decimals}f} to {high:.{decimals}f}"
+
+
+_PARTS = ("total", "time_step", "stop_rule", "half_step", "rounding")
+
+
+def _budgets(budgets: list[dict[str, Any]]) -> str:
+    heads = ("beta", "step [ns]", "steps", *(part.replace("_", " ") for part in _PARTS))
+    rows = (
+        (
+            number(b["beta"]),
+            number(b["step"] * 1e9),
+            str(b["steps"]),
+            *(number(b[part] * 1e6, 4) for part in _PARTS),
+        )
+        for b in budgets
+    )
+    return pipe_table(heads, rows)
+
+
+def _hard_cases(stability: dict[str, Any]) -> str:
+    heads = ("case", "steps", "sheet off by", "closed form [m]", "ulp", "reference [m]", "remarks")
+    worst = stability["random"]
+    inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
+    return (
+        pipe_table(heads, (_hard_case(case) for case in stability["cases"]))
+        + f"\n\nOver {worst['cases']} random cases (seed 1) the closed form is at worst "
+        f"{worst['ulps']:.2f} ulp off, at {inputs}."
+    )
+
+
+def _hard_case(case: dict[str, Any]) -> tuple[str, ...]:
+    off = "" if case["sheet_error"] is None else f"{100 * case['sheet_error']:+.3g} %"
+    depth = "" if case["closed_form"] is None else repr(case["closed_form"])
+    ulps = "" if case["ulps"] is None else f"{case['ulps']:+.2f}"
+    remarks = [r for r in (case["refused"], case["sheet_refused"], *case["warnings"]) if r]
+    steps = "" if case["steps"] is None else str(case["steps"])
+    return case["name"], steps, off, depth, ulps, case["reference"], "; ".join(remarks)

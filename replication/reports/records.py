@@ -1,10 +1,6 @@
 """The audit as plain records: what the JSON, CSV and Markdown files are made of."""
 
-import platform
-from collections.abc import Iterable
 from fractions import Fraction
-from hashlib import sha256
-from importlib import metadata, resources
 from math import inf, nextafter
 from typing import Any
 
@@ -19,12 +15,14 @@ from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
 from replication.reports.cells import workbook_cell
 from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
+from replication.reports.explanations import explanation_record, joint_record
 from replication.reports.numerics import (
     budget_record,
     budget_sheets,
     report_ladders,
     stability_record,
 )
+from replication.reports.provenance import provenance
 
 __all__ = ["SCHEMA", "audit_record", "claim_record", "finding_record", "ledger_record"]
 
@@ -44,6 +42,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "reproduced": audit.reproduced_kinds,
         "claims": [_in_workbook(claim_record(ledger, a)) for a in audit.assessments.values()],
         "findings": [finding_record(finding) for finding in audit.findings],
+        "joint": [joint_record(answer) for answer in audit.joint],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
         "stability": stability_record(
@@ -53,7 +52,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "approaches": [approach_record(one) for one in approaches(ledger, audit.assessments)],
         "sensitivity": sensitivity_record(ledger),
         "scatter": scatter_record(ledger, _observed(audit)),
-        "provenance": _provenance(),
+        "provenance": provenance(),
     }
 
 
@@ -100,6 +99,7 @@ def claim_record(ledger: Ledger, assessment: Assessment) -> dict[str, Any]:
         "rests_on": {name: list(entries) for name, entries in claim.inputs.items()},
         "assumes": assumptions(ledger, assessment),
         "explanation": explanation(ledger, assessment),
+        **explanation_record(ledger, claim.id),
     }
 
 
@@ -190,22 +190,4 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
             {"name": name, "value": float(printed.value), "verdict": verdict}
             for name, (printed, verdict) in inference.handbook.items()
         ],
-    }
-
-
-_LIBRARIES = (
-    "coldspray", "jinja2", "matplotlib", "mpmath", "numpy", "openpyxl", "pandas", "pint",
-    "python-flint", "XlsxWriter",
-)  # fmt: skip
-
-
-def _provenance() -> dict[str, Any]:
-    """What the audit was made with; no clock and no machine, so that it is the same again."""
-    folder = resources.files("reference.report")
-    files: Iterable[str] = ("de_rosset_2006.txt", "findings.toml", "ledger.toml")
-    return {
-        "command": "coldspray audit",
-        "python": platform.python_version(),
-        "versions": {name: metadata.version(name) for name in _LIBRARIES},
-        "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in files},
     }

@@ -6,6 +6,12 @@ from textwrap import fill, shorten
 from reference.ledger import Claim, Ledger
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.explanations import explain_claim
+from replication.audit.explanations.sentences import (
+    alternative_text,
+    back_solved_text,
+    misprint_text,
+)
 from replication.audit.findings import Finding
 from replication.audit.verdict import Assessment, Verdict
 from replication.text import aligned, number, with_unit
@@ -92,7 +98,20 @@ def claim_proof(ledger: Ledger, assessment: Assessment) -> str:
         ("because", explanation(ledger, assessment)),
         ("assumes", "; ".join(assumptions(ledger, assessment))),
     ]
+    rows += _tried(ledger, claim)
     return "\n".join(_labeled(label, text) for label, text in rows if text)
+
+
+def _tried(ledger: Ledger, claim: Claim) -> list[tuple[str, str]]:
+    """What was tried where a reading fails, a line for each attempt."""
+    found = explain_claim(ledger, claim.id)
+    rows = [("solved for", back_solved_text(b)) for b in found.back_solved]
+    rows += [("misprint", misprint_text(m, claim.unit)) for m in found.misprints]
+    rows += [("read as", alternative_text(a, claim.id)) for a in found.listed(claim.id)]
+    return [
+        (label if k == 0 or label != rows[k - 1][0] else "-", t)
+        for k, (label, t) in enumerate(rows)
+    ]
 
 
 def _labeled(label: str, text: str) -> str:

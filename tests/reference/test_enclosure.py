@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 
 from reference import exact, intervals
 from reference.computations import COMPUTATIONS
-from reference.enclosure import Exploration, admitted, evaluate, explore, extent
+from reference.enclosure import (
+    Exploration,
+    admitted,
+    evaluate,
+    explore,
+    extent,
+    satisfying,
+    solutions,
+)
 from reference.exact import Reals
 from reference.intervals import Intervals
 from reference.printed import Interval
@@ -634,3 +642,37 @@ def test_an_input_that_reaches_zero_does_not_take_all_the_cuts() -> None:
         return x + y * y - y
 
     assert explore(beside_zero, box(x=(0, "0.01"), y=(1, 2)), target("-0.1", "2.1")).always
+
+
+# All solutions
+
+
+def test_two_solutions_are_both_found() -> None:
+    found = solutions([(square, target(4, 9))], "x", (Fraction(-9), Fraction(9)), RESOLUTION)
+    assert len(found.inner) == len(found.outer) == 2
+    for inner, outer, ends in zip(found.inner, found.outer, ((-3, -2), (2, 3)), strict=True):
+        assert ends[0] <= inner.lower <= ends[0] + 2 * RESOLUTION
+        assert outer.lower <= ends[0]
+        assert ends[1] - 2 * RESOLUTION <= inner.upper <= ends[1] <= outer.upper
+    assert not found.reaches_an_end
+
+
+def test_no_solution_is_proven_by_an_empty_outer() -> None:
+    found = solutions([(square, target(-3, -2))], "x", (Fraction(-9), Fraction(9)), RESOLUTION)
+    assert (found.inner, found.outer) == ((), ())
+
+
+def test_what_a_budget_leaves_open_is_not_excluded() -> None:
+    search = (Fraction(-9), Fraction(0), Fraction(9))
+    found = solutions([(square, target(4, 9))], "x", search, RESOLUTION, budget=2)
+    assert found.inner == ()
+    assert [(part.lower, part.upper) for part in found.outer] == [(-9, 9)]
+    assert found.reaches_an_end
+
+
+def test_the_point_that_satisfies_does() -> None:
+    outcome, point = satisfying([(square, target(2, 3))], {"x": (Fraction(0), Fraction(9))})
+    assert outcome is True
+    assert point is not None
+    assert 2 <= point["x"] ** 2 <= 3
+    assert satisfying([(square, target(2, 3))], {"x": (Fraction(4), Fraction(9))}) == (False, None)

@@ -4,8 +4,9 @@ import math
 from fractions import Fraction
 
 from reference.enclosure import explore
-from reference.exact import Arithmetic, Number, cap_volume
+from reference.exact import cap_volume
 from reference.printed import Interval
+from reference.slips import equation_16_ratio
 from replication import frank_zook
 from replication.audit.entries import function_of, rounding
 from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
@@ -48,25 +49,20 @@ def _drag(known: Known) -> Fraction:
     return known.exact("fz-kt") * density * velocity**2
 
 
-def _log_ratio(ar: Arithmetic, drag: Number, armor: Number, stainless: Number) -> Number:
-    """X/R at one target resistance over X/R at the other; drag is k_t rho_t V^2, all in Pa."""
-    return ar.context.log(1 + drag / stainless) / ar.context.log(1 + drag / armor)
-
-
 def _pair(known: Known) -> Computed:
     lower, upper = (known.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
     (low, high), (least, greatest) = known_interval(lower.interval), known_interval(upper.interval)
     printed = Interval(least / high, greatest / low)
     strengths = {
         key: rounding(known.ledger, f"fz-resistance-{name}", loose=True)
-        for key, name in (("armor", "rha"), ("stainless", "stainless"))
+        for key, name in (("one", "rha"), ("other", "stainless"))
     }
     drag = _possible_drag(known)
-    found = explore(_log_ratio, {"drag": drag, **strengths}, printed)
+    found = explore(equation_16_ratio, {"common": drag, **strengths}, printed)
     # Octave by octave, as the ratio's two logarithms both vanish with the drag.
     octaves = [(_BOUND / 2 ** (k + 1), _BOUND / 2**k) for k in range(_OCTAVES)]
     excluded = all(
-        explore(_log_ratio, {"drag": ends, **strengths}, printed).never for ends in octaves
+        explore(equation_16_ratio, {"common": ends, **strengths}, printed).never for ends in octaves
     )
     z = float(_drag(known))
     armor, stainless = (known.number(f"fz-resistance-{name}") for name in ("rha", "stainless"))
