@@ -130,7 +130,7 @@ def test_every_computed_claim_has_its_picture_and_its_proof(root: ET.Element, re
         words = "".join(article.itertext())
         assert claim["reference"] in words
         assert repr(claim["computed"]) in words
-        (details,) = article.iter(f"{HTML}details")
+        details = next(article.iter(f"{HTML}details"))
         assert ("open" in details.attrib) == (claim["verdict"] != "reproduced")
         assert [e.get("class") for e in article.iter(f"{SVG}svg")] == ["gauge"]
 
