@@ -10,6 +10,7 @@ from replication.commands import (
     claims,
     converge,
     depth,
+    history,
     sheet,
     stability,
     workbook,
@@ -17,5 +18,14 @@ from replication.commands import (
 
 __all__ = ["COMMANDS"]
 
-COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability)
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    history,
+    converge,
+    stability,
+)
 """In the order in which `coldspray --help` lists them."""
