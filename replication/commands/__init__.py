@@ -12,10 +12,20 @@ from replication.commands import (
     depth,
     sheet,
     stability,
+    sweep,
     workbook,
 )
 
 __all__ = ["COMMANDS"]
 
-COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability)
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    converge,
+    stability,
+    sweep,
+)
 """In the order in which `coldspray --help` lists them."""
