@@ -1,8 +1,9 @@
 """A sweep on a dask cluster: `python on_dask.py PLAN.toml FOLDER [SCHEDULER]`.
 
-Each task writes some blocks as a Parquet file in a folder that all workers see; a file is there only
-when it is whole, so that another run takes up where one was interrupted. Without the address of a
-scheduler ("tcp://host:8786") the cluster is this machine.
+Each task writes some blocks as a Parquet file, in a folder that all workers see and whose name is the
+SHA-256 of the plan. A file is there only when it is whole, so that another run of the same plan
+takes up where one was interrupted. Without the address of a scheduler ("tcp://host:8786") the
+cluster is this machine.
 """
 
 import sys
@@ -26,8 +27,9 @@ def write_part(plan: Plan, folder: Path, first: int) -> Path:
 
 def run(client: Client, plan: Plan, folder: Path) -> None:
     """Have the cluster write all parts. Raises what a part raises."""
-    folder.mkdir(parents=True, exist_ok=True)
-    parts = client.map(partial(write_part, plan, folder), range(0, plan.blocks, BLOCKS))
+    parts_of_plan = folder / plan.digest
+    parts_of_plan.mkdir(parents=True, exist_ok=True)
+    parts = client.map(partial(write_part, plan, parts_of_plan), range(0, plan.blocks, BLOCKS))
     for _, part in as_completed(parts, with_results=True):
         print(part)
 

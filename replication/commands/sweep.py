@@ -35,9 +35,9 @@ def run(options: argparse.Namespace) -> int:
     """Compute and write, with a progress bar on a terminal."""
     from tqdm import tqdm
 
+    from replication.sweep.output import check_output, write
     from replication.sweep.pool import worthwhile_processes
     from replication.sweep.read import read_plan
-    from replication.sweep.write import check_output, write
 
     output = options.output or Path(f"{options.plan.stem}.csv")
     check_output(output)

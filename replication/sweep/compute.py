@@ -56,6 +56,8 @@ def compute(plan: Plan, first: int, count: int) -> Block:
 
 
 def _extras(names: tuple[str, ...], inputs: Block, first: int) -> Block:
+    if not names:
+        return {}
     cases = [
         dict(zip(inputs, map(float, case), strict=True))
         for case in zip(*inputs.values(), strict=True)

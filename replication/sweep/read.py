@@ -165,7 +165,7 @@ def _random(name: str, table: dict[str, Any]) -> Random:
     wanted, allowed = (shape, ends) if kind in NORMAL else (ends, [])
     _check_keys(table, ["distribution", *wanted], allowed)
     numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
-    for key in ("deviation", *(["mean"] if kind == "lognormal" else [])):
+    for key in ("deviation", *(wanted if kind.startswith("log") else [])):
         if numbers.get(key, 1.0) <= 0:
             raise ValueError(f"{key} must be greater than zero")
     lowest = -math.inf if kind == "normal" else 0.0

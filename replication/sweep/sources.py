@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from replication.sphere import volume
 from replication.stream import particle_velocity
 
 __all__ = ["ByMass", "Floats", "Listed", "Random", "Source", "Spaced"]
@@ -150,8 +151,8 @@ class ByMass:
 
     average_velocity V [m/s], average_mass m_o [kg].
 
-    >>> float(ByMass(500.0, 4.96e-11).at(11e-6, 8900.0))
-    499.92...
+    >>> f"{ByMass(500.0, 4.96e-11).at(5.5e-6, 8900.0):.0f}"
+    '1414'
     """
 
     average_velocity: float
@@ -159,7 +160,7 @@ class ByMass:
 
     def at(self, radius: Any, particle_density: Any) -> Any:
         """Velocity [m/s] of particles of radius [m] and particle density [kg/m^3]; broadcast."""
-        mass = particle_density * 4 / 3 * math.pi * radius * radius * radius
+        mass = particle_density * volume(radius)
         return particle_velocity(self.average_velocity, mass, self.average_mass)
 
 
