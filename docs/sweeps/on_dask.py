@@ -1,6 +1,6 @@
 """A sweep on a dask cluster: `python on_dask.py PLAN.toml FOLDER [SCHEDULER]`.
 
-Each task writes some blocks as a Parquet file, in a folder that all workers see and whose name is the
+Each task writes some blocks as a Parquet file, in a folder that all workers see. Its name is the
 SHA-256 of the plan. A file is there only when it is whole, so that another run of the same plan
 takes up where one was interrupted. Without the address of a scheduler ("tcp://host:8786") the
 cluster is this machine.

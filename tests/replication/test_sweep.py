@@ -264,6 +264,17 @@ def test_the_streams_are_the_report_s() -> None:
     np.testing.assert_allclose(energy, 521.0**2 * 4.96e-11, rtol=1e-14)
 
 
+def test_every_way_to_write_an_input_is_one(tmp_path: Path) -> None:
+    manual = (EXAMPLES / "README.md").read_text("utf-8")
+    ways = re.findall(r"^\| `(.+?)` \|", manual.partition("optional\ntable")[0], re.MULTILINE)
+    assert len(ways) == 6
+    for way in ways:
+        name = next(name for name in ("average", "um", "") if name in way)
+        key = {"average": "velocity", "um": "radius", "": "beta"}[name]
+        samples = "samples = 5" if "distribution" in way else ""
+        assert plan_of(tmp_path, f"[sweep]\n{samples}\n[inputs]\n{key} = {way}").count >= 1
+
+
 def test_every_example_runs(tmp_path: Path, coldspray: Command) -> None:
     examples = sorted(EXAMPLES.glob("*.toml"))
     assert len(examples) >= 4
@@ -322,7 +333,7 @@ DRAWN = {
     "distribution = 'normal', mean = 1, deviation = 1": "values down to -7.* give a lower end",
     "distribution = 'uniform', lower = 2, upper = 1": "lower must be less than upper",
     "distribution = 'normal', mean = 1, deviation = 1, lower = 9": "less than a millionth",
-    "distribution = 'loguniform', lower = 0, upper = 1": "radius is 0.0: it must be",
+    "distribution = 'loguniform', lower = 0, upper = 1": "lower must be greater than zero",
 }
 REFUSED |= {
     f"[sweep]\nsamples = 10\n[inputs]\nradius = {{{keys}}}": message
@@ -444,9 +455,7 @@ def test_parts_are_the_whole(tmp_path: Path) -> None:
     files = [tmp_path / f"{name}.parquet" for name in ("whole", "first", "rest")]
     for file, numbers in zip(files, (None, range(1), range(1, 3)), strict=True):
         write(plan, file, numbers=numbers)
-    whole, *parts = (
-        pyarrow.parquet.read_table(tmp_path / f"{x}.parquet") for x in ("whole", *"ab")
-    )
+    whole, *parts = map(pyarrow.parquet.read_table, files)
     assert pyarrow.concat_tables(parts).equals(whole)
 
 
