@@ -102,5 +102,7 @@ class Plan:
         source = self.sources[name]
         if not isinstance(source, ByMass):
             return source.bounds
-        (small, large), (light, heavy) = self._bounds("radius"), self._bounds("particle_density")
-        return float(source.at(large, heavy)), float(source.at(small, light))
+        radii, densities = np.array([self._bounds("radius"), self._bounds("particle_density")])
+        with np.errstate(divide="ignore", over="ignore"):  # a velocity of 0 or infinity is refused
+            fast, slow = source.at(radii, densities).tolist()
+        return slow, fast

@@ -1,16 +1,14 @@
 """The TOML file of a sweep, checked at the door (format: docs/sweeps/README.md)."""
 
 import hashlib
-import math
-from collections.abc import Callable, Collection, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from replication.case import INPUTS, parse_toml, read_number
-from replication.impact import CASES, checked
+from replication.case import INPUTS, parse_toml
+from replication.impact import CASES
 from replication.sweep.plan import EXTRAS, Plan
-from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
+from replication.sweep.sources import Listed, Random, Source
+from replication.sweep.tables import check_keys, place, read_source, whole_number
 
 __all__ = ["read_plan"]
 
@@ -22,42 +20,24 @@ def read_plan(path: Path) -> Plan:
     also where an input or a combination of them would leave the range that `Impact` allows.
     """
     content = path.read_bytes()
-    with _place(str(path)):
+    with place(str(path)):
         return _plan(parse_toml(content), hashlib.sha256(content).hexdigest())
 
 
-@contextmanager
-def _place(name: str) -> Iterator[None]:
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from error
-
-
 def _plan(document: dict[str, Any], digest: str) -> Plan:
-    _check_keys(document, ["inputs"], ["sweep"])
+    check_keys(document, ["inputs"], ["sweep"])
     for name, table in document.items():
         if not isinstance(table, dict):
             raise ValueError(f"{name} must be a table, [{name}]")
-    with _place("[sweep]"):
+    with place("[sweep]"):
         settings = document.get("sweep", {})
-        _check_keys(settings, [], ["case", "samples", "seed", "outputs"])
+        check_keys(settings, [], ["case", "samples", "seed", "outputs"])
         base, extras = _base(settings), _extras(settings)
-    with _place("[inputs]"):
+    with place("[inputs]"):
         sources = _sources(document["inputs"], base)
-    with _place("[sweep]"):
+    with place("[sweep]"):
         samples, seed = _sampling(settings, sources)
     return Plan(sources, samples, seed, extras, digest)
-
-
-def _check_keys(table: dict[str, Any], wanted: Collection[str], allowed: Collection[str]) -> None:
-    known = [*wanted, *allowed]
-    for key in table:
-        if key not in known:
-            raise ValueError(f"there is no {key!r} here: choose of {', '.join(known)}")
-    for key in wanted:
-        if key not in table:
-            raise ValueError(f"{key!r} is missing")
 
 
 def _base(settings: dict[str, Any]) -> dict[str, float]:
@@ -79,113 +59,21 @@ def _sampling(settings: dict[str, Any], sources: dict[str, Source]) -> tuple[int
     if any(isinstance(source, Random) for source in sources.values()):
         if "samples" not in settings:
             raise ValueError("samples is missing: how many cases to draw")
-        seed = _integer("seed", settings.get("seed", 0), 0, 2**64 - 1)
-        return _integer("samples", settings["samples"], 1), seed
+        seed = whole_number("seed", settings.get("seed", 0), 0, 2**64 - 1)
+        return whole_number("samples", settings["samples"], 1), seed
     for key in ("samples", "seed"):
         if key in settings:
             raise ValueError(f"{key} is for distributions, and no input has one")
     return 1, 0
 
 
-def _integer(key: str, value: Any, least: int, greatest: float = math.inf) -> int:
-    if type(value) is not int or not least <= value <= greatest:
-        end = "" if greatest == math.inf else f" to {greatest}"
-        raise ValueError(
-            f"{key} is {value!r}: it must be a whole number, {least}{end or ' or more'}"
-        )
-    return value
-
-
 def _sources(table: dict[str, Any], base: dict[str, float]) -> dict[str, Source]:
-    _check_keys(table, [], INPUTS)
+    check_keys(table, [], INPUTS)
     if "resistance" in table:
         base = {name: base[name] for name in base if name not in ("beta", "flow_stress")}
     sources: dict[str, Source] = {name: Listed((value,)) for name, value in base.items()}
     for name, value in table.items():
         sources.pop(name, None)  # so that the order is the file's
-        with _place(name):
-            sources[name] = _source(name, value)
+        with place(name):
+            sources[name] = read_source(name, value)
     return sources
-
-
-def _source(name: str, value: Any) -> Source:
-    source = _table_source(name, value) if isinstance(value, dict) else _listed(name, value)
-    if not isinstance(source, ByMass):
-        for number in source.values if isinstance(source, Listed) else source.bounds:
-            checked(name, number)
-    return source
-
-
-def _listed(name: str, value: Any) -> Listed:
-    values = value if isinstance(value, list) else [value]
-    if not values:
-        raise ValueError("the list is empty: give one value or more")
-    return Listed(tuple(read_number(str(item), INPUTS[name]) for item in values))
-
-
-def _table_source(name: str, table: dict[str, Any]) -> Source:
-    forms: dict[str, Callable[[str, dict[str, Any]], Source]] = {
-        "distribution": _random,
-        "from": _spaced,
-        "average_mass": _by_mass,
-    }
-    for key, read in forms.items():
-        if key in table:
-            return read(name, table)
-    raise ValueError("wants from, to, points; or distribution; or, by Eq. 1, average_mass")
-
-
-def _number(table: dict[str, Any], key: str, unit: str) -> float:
-    with _place(key):
-        number = read_number(str(table[key]), unit)
-        if not math.isfinite(number):
-            raise ValueError(f"{number!r} is not finite")
-    return number
-
-
-def _spaced(name: str, table: dict[str, Any]) -> Spaced:
-    _check_keys(table, ["from", "to", "points"], ["scale"])
-    scale = table.get("scale", "linear")
-    if scale not in ("linear", "log"):
-        raise ValueError(f"scale is {scale!r}: choose linear or log")
-    first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
-    if scale == "log" and min(first, last) <= 0:
-        raise ValueError("a log scale wants from and to greater than zero")
-    return Spaced(first, last, _integer("points", table["points"], 2), scale == "log")
-
-
-NORMAL, UNIFORM = ("normal", "lognormal"), ("uniform", "loguniform")
-
-
-def _random(name: str, table: dict[str, Any]) -> Random:
-    kind = table["distribution"]
-    if kind not in (*NORMAL, *UNIFORM):
-        raise ValueError(f"there is no {kind!r}: choose one of {', '.join((*NORMAL, *UNIFORM))}")
-    shape, ends = ["mean", "deviation"], ["lower", "upper"]
-    wanted, allowed = (shape, ends) if kind in NORMAL else (ends, [])
-    _check_keys(table, ["distribution", *wanted], allowed)
-    numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
-    for key in ("deviation", *(wanted if kind.startswith("log") else [])):
-        if numbers.get(key, 1.0) <= 0:
-            raise ValueError(f"{key} must be greater than zero")
-    lowest = -math.inf if kind == "normal" else 0.0
-    source = Random(**{"lower": lowest, "upper": math.inf, **numbers}, log=kind.startswith("log"))
-    _refuse_empty(source)
-    return source
-
-
-def _refuse_empty(source: Random) -> None:
-    if source.lower >= source.upper:
-        raise ValueError("lower must be less than upper")
-    if source.mean is not None and source.kept < 1e-6:
-        raise ValueError("less than a millionth of the distribution is between lower and upper")
-    if source.bounds[0] < 0:
-        raise ValueError(f"values down to {source.bounds[0]:.3g} would be drawn: give a lower end")
-
-
-def _by_mass(name: str, table: dict[str, Any]) -> ByMass:
-    if name != "velocity":
-        raise ValueError("only the velocity follows from the mass, by Eq. 1")
-    _check_keys(table, ["average_velocity", "average_mass"], [])
-    units = {"average_velocity": "m/s", "average_mass": "kg"}
-    return ByMass(*(checked(key, _number(table, key, unit)) for key, unit in units.items()))

@@ -120,7 +120,8 @@ class Random:
             inverse = self._normal().inv_cdf
             inside = np.minimum(share, 1 - LEAST_SHARE).tolist()
             values = np.fromiter(map(inverse, inside), np.float64, share.size)
-        return np.clip(np.exp(values) if self.log else values, self.lower, self.upper)
+        with np.errstate(over="ignore"):  # to infinity, which no input may be
+            return np.clip(np.exp(values) if self.log else values, self.lower, self.upper)
 
     def _shares(self) -> tuple[float, float]:
         """Where the draws begin and end: in the normal's cumulative probability, or themselves."""
@@ -137,7 +138,8 @@ class Random:
         if not self.log:
             return NormalDist(self.mean, self.deviation)
         # Mean and deviation are those of the quantity, before truncation; these of its logarithm.
-        variance = math.log1p((self.deviation / self.mean) ** 2)
+        ratio = self.deviation / self.mean
+        variance = math.log1p(ratio * ratio)
         return NormalDist(math.log(self.mean) - variance / 2, math.sqrt(variance))
 
 
