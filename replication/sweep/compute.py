@@ -8,12 +8,14 @@ import numpy.typing as npt
 from replication import closed_form
 from replication.case import INPUTS
 from replication.impact import Impact
-from replication.midpoint import run
+from replication.midpoint import Sheet, run
 from replication.sweep.plan import BLOCK, Plan
 
 __all__ = ["Block", "block", "columns"]
 
 Block = dict[str, npt.NDArray[Any]]
+
+MOTION = ("velocity", "radius", "particle_density", "target_density", "resistance")
 
 RESULTS = {
     "depth": "m",
@@ -44,37 +46,33 @@ def block(plan: Plan, number: int) -> Block:
 def compute(plan: Plan, first: int, count: int) -> Block:
     """Inputs and results of `count` cases from `first` on."""
     inputs = plan.inputs(first, count)
-    ratio = closed_form.normalized_depth(
-        *(inputs[name] for name in ("velocity", "particle_density", "target_density", "resistance"))
-    )
+    motion = [inputs[name] for name in MOTION]
+    velocity, radius, *materials = motion
+    ratio = closed_form.normalized_depth(velocity, *materials)
     results = {
-        "depth": inputs["radius"] * ratio,
+        "depth": radius * ratio,
         "normalized_depth": ratio,
         "beyond_radius": ratio > 1,
     }
-    return {**inputs, **results, **_extras(plan.extras, inputs, first)}
+    if "stop_time" in plan.extras:
+        times = map(closed_form.stop_time, *(column.tolist() for column in motion))
+        results["stop_time"] = np.fromiter(times, np.float64, count)
+    if {"sheet_depth", "sheet_steps"} & set(plan.extras):
+        results |= _sheets(inputs, first)
+    return inputs | {name: results[name] for name in plan.results}
 
 
-def _extras(names: tuple[str, ...], inputs: Block, first: int) -> Block:
-    if not names:
-        return {}
-    cases = [
-        dict(zip(inputs, map(float, case), strict=True))
-        for case in zip(*inputs.values(), strict=True)
-    ]
-    values: dict[str, list[float]] = {name: [] for name in names}
-    for number, case in enumerate(cases, first):
-        case.pop("beta", None)
-        case.pop("flow_stress", None)
-        impact = Impact(**case)
-        if "stop_time" in names:
-            values["stop_time"].append(closed_form.stop_time(**impact.motion))
-        if "sheet_depth" in names or "sheet_steps" in names:
-            try:
-                sheet = run(impact)
-            except ValueError as error:
-                raise ValueError(f"case {number}: {error} (with {case})") from error
-            for name, value in (("sheet_depth", sheet.final_depth), ("sheet_steps", sheet.steps)):
-                if name in names:
-                    values[name].append(value)
-    return {name: np.array(column) for name, column in values.items()}
+def _sheets(inputs: Block, first: int) -> Block:
+    names = (*MOTION, "step", "stop_velocity")
+    sheets: list[Sheet] = []
+    for values in zip(*(inputs[name].tolist() for name in names), strict=True):
+        case = dict(zip(names, values, strict=True))
+        try:
+            sheets.append(run(Impact(**case)))
+        except ValueError as error:
+            where = ", ".join(f"{name} {value!r}" for name, value in case.items())
+            raise ValueError(f"case {first + len(sheets)} ({where}): {error}") from error
+    return {
+        "sheet_depth": np.array([sheet.final_depth for sheet in sheets]),
+        "sheet_steps": np.array([sheet.steps for sheet in sheets]),
+    }

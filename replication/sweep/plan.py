@@ -57,6 +57,11 @@ class Plan:
         return self.samples * math.prod(source.count for source in self.grid.values())
 
     @property
+    def results(self) -> tuple[str, ...]:
+        """What is computed of each case."""
+        return ("depth", "normalized_depth", "beyond_radius", *self.extras)
+
+    @property
     def blocks(self) -> int:
         """Number of blocks."""
         return -(-self.count // BLOCK)
