@@ -26,9 +26,10 @@ def options(command: argparse.ArgumentParser) -> None:
         "--processes",
         type=int,
         metavar="N",
-        help="(default: one a core, if there is work for them)",
+        help="default: by the work, up to one a core",
     )
-    shared.output_options(command)
+    command.add_argument("--json", action="store_true", help="print JSON: file, cases, columns")
+    command.add_argument("--quiet", action="store_true", help="no progress, no word at the end")
 
 
 def run(options: argparse.Namespace) -> int:

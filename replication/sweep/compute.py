@@ -8,7 +8,7 @@ import numpy.typing as npt
 from replication import closed_form
 from replication.case import INPUTS
 from replication.impact import Impact
-from replication.midpoint import Sheet, run
+from replication.midpoint import run
 from replication.sweep.plan import BLOCK, Plan
 
 __all__ = ["Block", "block", "columns"]
@@ -64,15 +64,14 @@ def compute(plan: Plan, first: int, count: int) -> Block:
 
 def _sheets(inputs: Block, first: int) -> Block:
     names = (*MOTION, "step", "stop_velocity")
-    sheets: list[Sheet] = []
+    sheets: list[tuple[float, int]] = []
     for values in zip(*(inputs[name].tolist() for name in names), strict=True):
         case = dict(zip(names, values, strict=True))
         try:
-            sheets.append(run(Impact(**case)))
+            sheet = run(Impact(**case))
         except ValueError as error:
             where = ", ".join(f"{name} {value!r}" for name, value in case.items())
             raise ValueError(f"case {first + len(sheets)} ({where}): {error}") from error
-    return {
-        "sheet_depth": np.array([sheet.final_depth for sheet in sheets]),
-        "sheet_steps": np.array([sheet.steps for sheet in sheets]),
-    }
+        sheets.append((sheet.final_depth, sheet.steps))
+    depths, steps = zip(*sheets, strict=True)
+    return {"sheet_depth": np.array(depths), "sheet_steps": np.array(steps)}

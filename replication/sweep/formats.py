@@ -75,7 +75,10 @@ def _parquet(path: Path, plan: Plan) -> Iterator[Callable[[Block], object]]:
     ]
     schema = pa.schema(fields, metadata=provenance(plan))
     # Dictionaries do not pay: the results hardly repeat, and the inputs compress as they are.
-    with ParquetWriter(path, schema, compression="zstd", use_dictionary=False) as file:
+    with (
+        path.open("wb") as sink,  # Python's own file, whose errors have a number
+        ParquetWriter(sink, schema, compression="zstd", use_dictionary=False) as file,
+    ):
         yield lambda values: file.write_table(pa.table(values, schema), BLOCK)
 
 
