@@ -64,5 +64,5 @@ def _record(output: Path, plan: "Plan") -> dict[str, Any]:
     from replication.sweep.compute import columns
     from replication.sweep.formats import provenance
 
-    about = {"file": str(output), "cases": plan.count, "columns": columns(plan)}
-    return about | provenance(plan)
+    units = {name: unit for name, (unit, _) in columns(plan).items()}
+    return {"file": str(output), "cases": plan.count, "columns": units, **provenance(plan)}

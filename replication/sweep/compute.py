@@ -17,19 +17,20 @@ Block = dict[str, npt.NDArray[Any]]
 
 MOTION = ("velocity", "radius", "particle_density", "target_density", "resistance")
 
-RESULTS = {
-    "depth": "m",
-    "normalized_depth": "1",
-    "beyond_radius": "",
-    "stop_time": "s",
-    "sheet_depth": "m",
-    "sheet_steps": "1",
+RESULTS: dict[str, tuple[str, type]] = {
+    "depth": ("m", float),
+    "normalized_depth": ("1", float),
+    "beyond_radius": ("", bool),
+    "stop_time": ("s", float),
+    "sheet_depth": ("m", float),
+    "sheet_steps": ("1", int),
 }
 
 
-def columns(plan: Plan) -> dict[str, str]:
-    """The names of a block's columns, in order, and their SI units; a truth value has none."""
-    return {name: (INPUTS | RESULTS)[name] for name in compute(plan, 0, 1)}
+def columns(plan: Plan) -> dict[str, tuple[str, type]]:
+    """The names of a block's columns, in order, with SI unit (none for a truth value) and type."""
+    inputs = {name: (INPUTS[name], float) for name in plan.inputs(0, 1)}
+    return inputs | {name: RESULTS[name] for name in plan.results}
 
 
 def block(plan: Plan, number: int) -> Block:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from replication.sweep.compute import Block, columns, compute
+from replication.sweep.compute import Block, columns
 from replication.sweep.plan import BLOCK, Plan
 
 __all__ = ["FORMATS", "Format", "csv_lines", "provenance"]
@@ -52,7 +52,7 @@ def _spelt(column: npt.NDArray[Any]) -> list[str]:
 
 @contextmanager
 def _csv(path: Path, plan: Plan) -> Iterator[Callable[[bytes], object]]:
-    heads = (f"{name} [{unit}]" if unit else name for name, unit in columns(plan).items())
+    heads = (f"{name} [{unit}]" if unit else name for name, (unit, _) in columns(plan).items())
     with path.open("wb") as file:
         file.write(f"{','.join(heads)}\n".encode("ascii"))
         yield file.write
@@ -67,11 +67,10 @@ def _parquet(path: Path, plan: Plan) -> Iterator[Callable[[Block], object]]:
     import pyarrow as pa
     from pyarrow.parquet import ParquetWriter
 
+    types = {float: pa.float64(), bool: pa.bool_(), int: pa.int64()}
     fields = [
-        pa.field(name, pa.from_numpy_dtype(column.dtype), nullable=False, metadata={"unit": unit})
-        for (name, unit), column in zip(
-            columns(plan).items(), compute(plan, 0, 1).values(), strict=True
-        )
+        pa.field(name, types[kind], nullable=False, metadata={"unit": unit})
+        for name, (unit, kind) in columns(plan).items()
     ]
     schema = pa.schema(fields, metadata=provenance(plan))
     # Dictionaries do not pay: the results hardly repeat, and the inputs compress as they are.

@@ -1,6 +1,7 @@
 """A sweep's file, block after block: whole under its name, or not there."""
 
 from collections.abc import Callable
+from contextlib import closing
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -33,7 +34,7 @@ def write(
     form = FORMATS[path.suffix]
     numbers = range(plan.blocks) if numbers is None else numbers
     pieces = in_order(partial(_piece, form.piece, plan), numbers, processes)
-    with draft_of(path) as draft, form.open(draft, plan) as put:
+    with closing(pieces), draft_of(path) as draft, form.open(draft, plan) as put:
         for number, piece in zip(numbers, pieces, strict=True):
             put(piece)
             done(min(BLOCK, plan.count - number * BLOCK))

@@ -8,8 +8,8 @@ import numpy as np
 
 from replication.case import INPUTS
 from replication.impact import Impact
-from replication.sweep.draws import uniform
-from replication.sweep.sources import ByMass, Floats, Listed, Random, Source, Spaced
+from replication.sweep.draws import Floats, Random, uniform
+from replication.sweep.sources import ByMass, Listed, Source, Spaced
 
 __all__ = ["BLOCK", "EXTRAS", "MAX_CASES", "Plan"]
 

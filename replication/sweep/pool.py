@@ -4,7 +4,7 @@ import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context, parent_process
@@ -25,7 +25,7 @@ def worthwhile_processes(blocks: int) -> int:
 
 def in_order(
     work: Callable[[int], Piece], numbers: Iterable[int], processes: int
-) -> Iterator[Piece]:
+) -> Generator[Piece, None, None]:
     """`map(work, numbers)`, by as many processes; no more than three results a process wait.
 
     Raises what `work` raises, and ChildProcessError where a process was killed from outside.

@@ -6,8 +6,9 @@ from typing import Any
 
 from replication.case import INPUTS, parse_toml
 from replication.impact import CASES
+from replication.sweep.draws import Random
 from replication.sweep.plan import EXTRAS, Plan
-from replication.sweep.sources import Listed, Random, Source
+from replication.sweep.sources import Listed, Source
 from replication.sweep.tables import check_keys, place, read_source, whole_number
 
 __all__ = ["read_plan"]

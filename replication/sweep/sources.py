@@ -6,7 +6,6 @@ range everywhere between, and a sweep is refused before it runs, not in the midd
 
 import math
 from dataclasses import dataclass
-from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -14,13 +13,9 @@ import numpy.typing as npt
 
 from replication.sphere import volume
 from replication.stream import particle_velocity
+from replication.sweep.draws import Floats, Random
 
-__all__ = ["ByMass", "Floats", "Listed", "Random", "Source", "Spaced"]
-
-Floats = npt.NDArray[np.float64]
-
-LEAST_SHARE = 2.0**-53
-"""The least of the random numbers in (0, 1); the greatest is 1 less it (`draws.py`)."""
+__all__ = ["ByMass", "Listed", "Source", "Spaced"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,83 +63,11 @@ class Spaced:
 
     def at(self, index: npt.NDArray[np.int64]) -> Floats:
         """The values of these positions, each from 0 to count - 1."""
-        first, last = (
-            (math.log10(self.first), math.log10(self.last)) if self.log else (self.first, self.last)
-        )
+        ends = (self.first, self.last)
+        first, last = map(math.log10, ends) if self.log else ends
         values = first + index * ((last - first) / (self.count - 1))
         values = np.clip(10.0**values if self.log else values, *self.bounds)
-        return np.where(
-            index == 0, self.first, np.where(index == self.count - 1, self.last, values)
-        )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Random:
-    """A distribution, by the inverse of its cumulative probability.
-
-    Uniform between lower and upper, or normal with mean and deviation: of the quantity itself or
-    (log) of its logarithm. A normal one is truncated: what lies outside lower and upper is as if
-    drawn again, so that inside the density keeps its shape.
-
-    >>> normal = Random(lower=0.0, upper=math.inf, mean=11e-6, deviation=2.8e-6, log=False)
-    >>> [f"{x * 1e6:.2f}" for x in normal.quantile(np.array([0.1587, 0.5, 0.8413]))]
-    ['8.20', '11.00', '13.80']
-    """
-
-    lower: float
-    upper: float
-    log: bool
-    mean: float | None = None
-    deviation: float | None = None
-
-    @property
-    def bounds(self) -> tuple[float, float]:
-        """The least and the greatest value that can be drawn."""
-        least, greatest = self.quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE]))
-        return float(least), float(greatest)
-
-    @property
-    def kept(self) -> float:
-        """The part of the distribution that lies between lower and upper [1]."""
-        low, high = self._shares()
-        return high - low
-
-    def quantile(self, share: Floats) -> Floats:
-        """The values that this share of the cases falls short of; share in (0, 1)."""
-        low, high = self._shares()
-        share = low + (high - low) * share
-        if self.mean is None:
-            values = share
-        else:
-            # Python's own inverse (Wichura's AS241, 16 digits); rounding must not make it 1.
-            inverse = self._normal().inv_cdf
-            inside = np.minimum(share, 1 - LEAST_SHARE).tolist()
-            values = np.fromiter(map(inverse, inside), np.float64, share.size)
-        with np.errstate(over="ignore"):  # to infinity, which no input may be
-            return np.clip(np.exp(values) if self.log else values, self.lower, self.upper)
-
-    def _shares(self) -> tuple[float, float]:
-        """Where the draws begin and end: in the normal's cumulative probability, or themselves."""
-        ends = (_log(self.lower), _log(self.upper)) if self.log else (self.lower, self.upper)
-        return (
-            ends
-            if self.mean is None
-            else (self._normal().cdf(ends[0]), self._normal().cdf(ends[1]))
-        )
-
-    def _normal(self) -> NormalDist:
-        assert self.mean is not None
-        assert self.deviation is not None
-        if not self.log:
-            return NormalDist(self.mean, self.deviation)
-        # Mean and deviation are those of the quantity, before truncation; these of its logarithm.
-        ratio = self.deviation / self.mean
-        variance = math.log1p(ratio * ratio)
-        return NormalDist(math.log(self.mean) - variance / 2, math.sqrt(variance))
-
-
-def _log(value: float) -> float:
-    return math.log(value) if value > 0 else -math.inf
+        return np.select([index == 0, index == self.count - 1], ends, values)
 
 
 @dataclass(frozen=True, slots=True)

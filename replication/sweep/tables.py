@@ -7,7 +7,8 @@ from typing import Any
 
 from replication.case import INPUTS, read_number
 from replication.impact import checked
-from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
+from replication.sweep.draws import Random
+from replication.sweep.sources import ByMass, Listed, Source, Spaced
 
 __all__ = ["check_keys", "place", "read_source", "whole_number"]
 

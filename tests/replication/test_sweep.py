@@ -25,10 +25,10 @@ from replication.midpoint import run
 from replication.sphere import volume
 from replication.sweep import Plan, block, read_plan, write
 from replication.sweep.compute import compute
-from replication.sweep.draws import uniform
+from replication.sweep.draws import LEAST_SHARE, Random, uniform
 from replication.sweep.plan import BLOCK
 from replication.sweep.pool import in_order
-from replication.sweep.sources import LEAST_SHARE, Random, Spaced
+from replication.sweep.sources import Spaced
 
 Command = Callable[..., tuple[int, str, str]]
 EXAMPLES = Path(__file__).parents[2] / "docs" / "sweeps"
