@@ -9,6 +9,7 @@ import signal
 import statistics
 import subprocess
 import sys
+import termios
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -503,6 +504,19 @@ def test_the_command_writes_beside_and_reports(
     assert (record["file"], record["cases"]) == ("five.parquet", 101)
     assert record["columns"]["depth"] == "m"
     assert record["sweep_sha256"] == read_plan(plan).digest
+
+
+def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
+    plan_of(tmp_path, STREAM.format(samples=100))
+    command = [sys.executable, "-m", "replication", "sweep", tmp_path / "plan.toml"]
+    command += ["-o", tmp_path / "out.csv"]
+    screen, terminal = os.openpty()
+    termios.tcsetwinsize(terminal, (24, 90))
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=terminal, check=True)
+    os.close(terminal)
+    assert "100/100" in os.read(screen, 65536).decode()
+    os.close(screen)
+    assert subprocess.run(command, capture_output=True, check=True).stderr == b""
 
 
 def test_an_interrupted_sweep_leaves_nothing(tmp_path: Path) -> None:
