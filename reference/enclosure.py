@@ -185,16 +185,18 @@ def admitted(
     outside the outer one to violate some. Raises ValueError if none is proven to satisfy them, if
     those that do are not one interval, or if they reach an end of `search`.
     """
-    parts, inner, edge = [search], [], []
+    parts, inner, edge = [(search, constraints)], [], []
     while parts:
-        part = parts.pop()
-        verdict = _holds(constraints, {name: part})
-        if verdict:
+        part, remaining = parts.pop()
+        undecided = _undecided(remaining, {name: part})
+        if undecided is None:
+            continue
+        if not undecided:
             inner.append(part)
-        elif verdict is None and part[1] - part[0] > resolution:
+        elif part[1] - part[0] > resolution:
             middle = (part[0] + part[1]) / 2
-            parts += [(part[0], middle), (middle, part[1])]
-        elif verdict is None:
+            parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
+        else:
             edge.append(part)
     merged, outer = _merged(inner), _merged(inner + edge)
     if len(merged) != 1:
@@ -275,12 +277,6 @@ def _extreme(
         if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
             attained = near
     return attained, end(queue[0][2]) if queue else attained
-
-
-def _holds(constraints: Sequence[Constraint], box: Box) -> bool | None:
-    """True if all hold all over the box, False if one fails all over it, else None."""
-    undecided = _undecided(constraints, box)
-    return False if undecided is None else True if not undecided else None
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

@@ -151,22 +151,23 @@ class Intervals:
     context = _Functions()
 
     def __init__(self, digits: int = 50) -> None:
-        self.digits = digits
+        with ctx.workdps(digits):
+            self._bits = ctx.prec  # set in half the time that the digits take
 
     def working(self) -> Any:
         """A context manager in which operators carry the digits."""
-        return ctx.workdps(self.digits)
+        return ctx.workprec(self._bits)
 
     def number(self, value: Fraction | int) -> Span:
         with self.working():
-            return _point(arb(fmpq(value.numerator, value.denominator)))
+            return _point(_ball(value))
 
     def interval(self, lower: Fraction, upper: Fraction) -> Span:
         """An interval that contains both rationals and all between."""
         if lower == upper:
             return self.number(lower)
         with self.working():
-            return Span(self.number(lower).low.lower(), self.number(upper).high.upper())
+            return Span(_ball(lower).lower(), _ball(upper).upper())
 
     def ends(self, x: Span) -> tuple[Fraction, Fraction]:
         """Both ends, as the rationals that they are."""
@@ -210,6 +211,10 @@ class Intervals:
         if low is high and other_low is other_high:
             return x if low.rad() <= other_low.rad() else y
         return Span(_greatest(low, other_low), _least(high, other_high))
+
+
+def _ball(value: Fraction | int) -> arb:
+    return arb(fmpq(value.numerator, value.denominator))
 
 
 def _bounded(x: Span) -> tuple[arb, arb]:
