@@ -56,8 +56,7 @@ def compute(plan: Plan, first: int, count: int) -> Block:
         "beyond_radius": ratio > 1,
     }
     if "stop_time" in plan.extras:
-        times = map(closed_form.stop_time, *(column.tolist() for column in motion))
-        results["stop_time"] = np.fromiter(times, np.float64, count)
+        results["stop_time"] = closed_form.stop_time(*motion)
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
         results |= _sheets(inputs, first)
     return inputs | {name: results[name] for name in plan.results}

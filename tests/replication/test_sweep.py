@@ -226,7 +226,8 @@ def test_further_results_are_those_of_the_single_sheet(tmp_path: Path) -> None:
         given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
         impact = Impact(**{name: float(cases[name][k]) for name in given})
         sheet = run(impact)
-        assert cases["stop_time"][k] == stop_time(**impact.motion)
+        # As many Gauss panels as the hardest of the cases computed together wants; 1e-13 each.
+        assert cases["stop_time"][k] == pytest.approx(stop_time(**impact.motion), rel=2e-13)
         assert cases["sheet_depth"][k] == sheet.final_depth
         assert cases["sheet_steps"][k] == sheet.steps
 
