@@ -141,7 +141,7 @@ def depth_and_left(
 ) -> tuple[Any, Any]:
     """Normalized depth at the velocity `at` [m/s], and from there to rest at `final`."""
     y = _ratio_at_velocity(at, velocity, particle_density, target_density, resistance)
-    left = final - y
+    left = np.maximum(final - y, 0.0)
     work = np.log1p(target_density * at * at / (2 * resistance))
     work = particle_density * work / (0.75 * target_density)
     # Near rest the difference keeps few digits; one Newton step on the work gives them back.
