@@ -13,6 +13,7 @@ from replication.commands import (
     history,
     sheet,
     stability,
+    sweep,
     workbook,
 )
 
@@ -27,5 +28,6 @@ COMMANDS: tuple[ModuleType, ...] = (
     history,
     converge,
     stability,
+    sweep,
 )
 """In the order in which `coldspray --help` lists them."""
