@@ -7,6 +7,7 @@ from types import ModuleType
 
 from replication.commands import (
     audit,
+    bench,
     claims,
     converge,
     depth,
@@ -17,5 +18,5 @@ from replication.commands import (
 
 __all__ = ["COMMANDS"]
 
-COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability)
+COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability, bench)
 """In the order in which `coldspray --help` lists them."""

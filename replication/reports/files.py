@@ -2,6 +2,7 @@
 
 import os
 import tempfile
+from collections.abc import Iterable
 from errno import EACCES, ENOTDIR
 from pathlib import Path
 from typing import Any
@@ -18,14 +19,14 @@ __all__ = ["FILES", "check_folder", "write_audit"]
 FILES = ("workbook.xlsx", "audit.md", "audit.json", "audit.csv")
 
 
-def check_folder(folder: Path) -> None:
-    """Raise OSError where the audit's files cannot be written, before anything is computed."""
+def check_folder(folder: Path, names: Iterable[str] = FILES) -> None:
+    """Raise OSError where files of these names cannot be written, before anything is computed."""
     existing = _existing(folder)
     if not existing.is_dir():
         raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(existing))
     if not os.access(existing, os.W_OK):
         raise PermissionError(EACCES, "cannot be written to", str(existing))
-    for name in FILES if folder.is_dir() else ():
+    for name in names if folder.is_dir() else ():
         check_target(folder / name)
 
 
