@@ -11,11 +11,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from typing import Any
 
-from mpmath.ctx_iv import MPIntervalContext
-
-from reference.exact import Number, Reals
+from reference.exact import Number
+from reference.intervals import Intervals
 from reference.printed import Interval
 
 __all__ = [
@@ -23,7 +21,6 @@ __all__ = [
     "Constraint",
     "Exploration",
     "Function",
-    "Intervals",
     "admitted",
     "evaluate",
     "explore",
@@ -41,81 +38,15 @@ Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
 
 
-class Intervals:
-    """mpmath intervals of a given number of decimal digits, rounded outwards.
-
-    >>> ar = Intervals(20)
-    >>> low, high = ar.ends(ar.number(Fraction(1, 3)))
-    >>> low < Fraction(1, 3) < high
-    True
-    >>> ar.ends(ar.number(Fraction(-7, 2)))
-    (Fraction(-7, 2), Fraction(-7, 2))
-    """
-
-    def __init__(self, digits: int = 50) -> None:
-        self.context = MPIntervalContext()
-        self.context.dps = digits
-        self._reals = Reals(digits)
-
-    def number(self, value: Fraction | int) -> Number:
-        return self.context.mpf(value.numerator) / self.context.mpf(value.denominator)
-
-    def interval(self, lower: Fraction, upper: Fraction) -> Number:
-        """An interval that contains both rationals and all between."""
-        return self.hull([self.number(lower), self.number(upper)])
-
-    def ends(self, x: Number) -> tuple[Fraction, Fraction]:
-        """Both ends, as the rationals that they are."""
-        low, high = self._ends(x)
-        return Fraction(*low.as_integer_ratio()), Fraction(*high.as_integer_ratio())
-
-    def _ends(self, x: Number) -> tuple[Any, Any]:
-        return self._reals.context.mpf(x.a), self._reals.context.mpf(x.b)
-
-    def least(self, x: Number, bound: Number) -> Number:
-        pairs = zip(self._ends(x), self._ends(bound), strict=True)
-        return self.context.mpf([min(pair) for pair in pairs])
-
-    def positive_part(self, x: Number) -> Number:
-        zero = self._reals.context.zero
-        return self.context.mpf([max(end, zero) for end in self._ends(x)])
-
-    def cap_root(self, c: Number) -> Number:
-        """The roots for both ends, moved outwards and then verified by the residual's sign."""
-        margin = self._reals.context.eps * 2**20
-        low, high = (self._reals.cap_root(end) for end in self._ends(c))
-        low, high = self.context.mpf(low * (1 - margin)), self.context.mpf(high * (1 + margin))
-        below, above = low**2 - low**3 / 3 - c.a, high**2 - high**3 / 3 - c.b
-        if self._ends(below)[1] > 0 or self._ends(above)[0] < 0:
-            raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
-        return self.hull([low, high])
-
-    def may_be_below(self, x: Number, bound: Number) -> bool:
-        return bool(self._ends(x)[0] < self._ends(bound)[1])
-
-    def is_below(self, x: Number, bound: Number) -> bool:
-        return bool(self._ends(x)[1] < self._ends(bound)[0])
-
-    def hull(self, numbers: list[Number]) -> Number:
-        lows, highs = zip(*map(self._ends, numbers), strict=True)
-        return self.context.mpf([min(lows), max(highs)])
-
-    def meet(self, x: Number, y: Number) -> Number:
-        (low, high), (least, greatest) = self._ends(x), self._ends(y)
-        low, high = max(low, least), min(high, greatest)
-        if low > high:
-            raise ArithmeticError("one number was enclosed in two intervals that do not meet")
-        return self.context.mpf([low, high])
-
-
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
 
 
 def evaluate(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     """A proven range of the function over the box, in SI units."""
-    numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
-    value = function(_INTERVALS, **numbers)
+    with _INTERVALS.working():
+        numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
+        value = function(_INTERVALS, **numbers)
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
@@ -254,16 +185,18 @@ def admitted(
     outside the outer one to violate some. Raises ValueError if none is proven to satisfy them, if
     those that do are not one interval, or if they reach an end of `search`.
     """
-    parts, inner, edge = [search], [], []
+    parts, inner, edge = [(search, constraints)], [], []
     while parts:
-        part = parts.pop()
-        verdict = _holds(constraints, {name: part})
-        if verdict:
+        part, remaining = parts.pop()
+        undecided = _undecided(remaining, {name: part})
+        if undecided is None:
+            continue
+        if not undecided:
             inner.append(part)
-        elif verdict is None and part[1] - part[0] > resolution:
+        elif part[1] - part[0] > resolution:
             middle = (part[0] + part[1]) / 2
-            parts += [(part[0], middle), (middle, part[1])]
-        elif verdict is None:
+            parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
+        else:
             edge.append(part)
     merged, outer = _merged(inner), _merged(inner + edge)
     if len(merged) != 1:
@@ -344,12 +277,6 @@ def _extreme(
         if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
             attained = near
     return attained, end(queue[0][2]) if queue else attained
-
-
-def _holds(constraints: Sequence[Constraint], box: Box) -> bool | None:
-    """True if all hold all over the box, False if one fails all over it, else None."""
-    undecided = _undecided(constraints, box)
-    return False if undecided is None else True if not undecided else None
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

@@ -1,9 +1,8 @@
-"""The report's equations in mpmath, to any precision, written from the report, not the replica.
+"""The report's equations, to any precision, written from the report, not the replica.
 
 Every function takes an arithmetic first: `Reals` (mpmath numbers, 50 digits unless told otherwise)
-or `reference.enclosure.Intervals` (mpmath intervals), so that a formula stands here once and serves
-both. Each arithmetic has a context of its own: no global precision is read or changed. Quantities
-are in SI units.
+or `reference.intervals.Intervals` (between Arb's balls), so that a formula stands here once and
+serves both. Neither leaves a global precision changed. Quantities are in SI units.
 """
 
 from collections.abc import Iterator
@@ -29,7 +28,7 @@ __all__ = [
 ]
 
 Number = Any
-"""A number of the arithmetic in use (mpmath has no types): a real or an interval."""
+"""A number of the arithmetic in use: a real (mpmath has no types) or an interval."""
 
 
 class Arithmetic(Protocol):
@@ -37,7 +36,7 @@ class Arithmetic(Protocol):
 
     @property
     def context(self) -> Any:
-        """The mpmath context: log, sqrt, exp, pi."""
+        """Functions of numbers: log, sqrt, exp; and pi."""
 
     def number(self, value: Fraction | int) -> Number:
         """The rational in this arithmetic."""

@@ -27,7 +27,15 @@ MODELS = sorted(
         "workbook_values",
     }
 )
-NOT_FOR_MODELS = {"mpmath", "openpyxl", "xlsxwriter", "ironcalc", "formualizer", "spreadsheets"}
+NOT_FOR_MODELS = {
+    "mpmath",
+    "flint",
+    "openpyxl",
+    "xlsxwriter",
+    "ironcalc",
+    "formualizer",
+    "spreadsheets",
+}
 EDGES = (
     "replication.analysis",
     "replication.audit",
@@ -76,9 +84,9 @@ def test_models_are_found() -> None:
 @pytest.mark.parametrize(
     ("arguments", "unwanted"),
     [
-        (["--help"], {"numpy", "pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
-        (["depth"], {"pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
-        (["sheet"], {"pandas", "mpmath", "pint", "xlsxwriter", "openpyxl"}),
+        (["--help"], {"numpy", "pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl"}),
+        (["depth"], {"pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl"}),
+        (["sheet"], {"pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl"}),
     ],
     ids=["help", "depth", "sheet"],
 )

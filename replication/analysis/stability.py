@@ -10,8 +10,8 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from flint import arb, ctx
 
-from reference.exact import Reals
 from replication import closed_form
 from replication.analysis.budget import exact_motion
 from replication.impact import BETA_5, Impact
@@ -193,13 +193,12 @@ def worst_of(count: int, seed: int) -> Worst:
     """The worst of so many random cases. Depths that are no normal doubles are skipped, counted."""
     inputs = random_cases(count, seed)
     depths = closed_form.final_depth(**inputs)
-    reals = Reals(40)
     worst, skipped = Worst(count, 0, 0.0, {}), 0
     for depth, case in zip(depths.tolist(), _rows(inputs), strict=True):
         if not math.isfinite(depth) or depth < np.finfo(float).tiny:
             skipped += 1
             continue
-        error = _ulps(reals, depth, case)
+        error = _ulps(depth, case)
         if abs(error) > abs(worst.ulps):
             worst = Worst(count, 0, error, case)
     return Worst(count, skipped, worst.ulps, worst.inputs)
@@ -210,18 +209,18 @@ def _rows(inputs: dict[str, Any]) -> Iterator[dict[str, float]]:
         yield dict(zip(inputs, values, strict=True))
 
 
-def _ulps(reals: Reals, depth: float, case: dict[str, float]) -> float:
-    """Error of a depth in ulp, from the residual of the energy integral at it.
+@ctx.workdps(40)
+def _ulps(depth: float, case: dict[str, float]) -> float:
+    """Error of a depth in ulp, from the residual of the energy integral at it, in Arb.
 
     The residual's slope turns it into a distance; over a few ulp its curvature is nothing.
     """
-    mpf = reals.context.mpf
-    velocity, radius, particle, target, resistance = (mpf(value) for value in case.values())
-    pressure = target * velocity**2 / (2 * resistance)
-    work = 4 * particle / (3 * target) * reals.context.log1p(pressure)
-    y = mpf(depth) / radius
-    if work <= mpf(2) / 3:
-        distance = (y * y - y**3 / 3 - work) / (2 * y - y * y)
+    velocity, radius, particle, target, resistance = map(arb, case.values())
+    pressure = target * velocity * velocity / (2 * resistance)
+    work = 4 * particle / (3 * target) * pressure.log1p()
+    y = depth / radius
+    if work <= arb(2) / 3:
+        distance = (y * y - y * y * y / 3 - work) / (2 * y - y * y)
     else:
-        distance = y - (work + mpf(1) / 3)
+        distance = y - (work + arb(1) / 3)
     return float(distance * radius / math.ulp(depth))

@@ -38,10 +38,12 @@ def function_of(
     An entry that stands in several inputs is one variable. `fixed` gives inputs of the computation
     that the claim does not name.
     """
+    used = {name for names in claim.inputs.values() for name in names}
+    printed = {name: value(ledger, name) for name in used - free}
 
     def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
         def number(name: str) -> Number:
-            return entries[name] if name in free else ar.number(value(ledger, name))
+            return entries[name] if name in free else ar.number(printed[name])
 
         inputs = {key: prod(map(number, names)) for key, names in claim.inputs.items()}
         inputs |= {key: ar.number(number) for key, number in fixed.items()}

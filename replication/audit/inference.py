@@ -21,18 +21,50 @@ class Inference:
     `outer` does. `with_mass`: the same where the particle mass is the printed one. `with_results`:
     the values that serve the evidence and both final depths at once. With the other inputs anywhere
     within their rounding, and the printed mass and diameter as evidence, too: `attained` is the
-    hull of values that were found, `possible` holds all that there are.
+    hull of values that were found, `possible` holds all that there are. What not every verdict asks
+    for is computed when it is asked for.
     """
 
+    ledger: Ledger
     entry: Inferred
     inner: Interval
     outer: Interval
-    with_mass: Interval
-    with_results: Interval
-    attained: Interval
-    possible: Interval
-    joint: tuple[Constraint, ...]
-    box: Box
+
+    @cached_property
+    def with_mass(self) -> Interval:
+        mass = value(self.ledger, self.entry.mass)
+        return _single(self.ledger, self.entry, self.entry.evidence, mass=mass)[0]
+
+    @cached_property
+    def with_results(self) -> Interval:
+        claims = (*self.entry.evidence, *self.entry.results)
+        return _single(self.ledger, self.entry, claims)[0]
+
+    @property
+    def attained(self) -> Interval:
+        return self._extent[0]
+
+    @property
+    def possible(self) -> Interval:
+        return self._extent[1]
+
+    @cached_property
+    def _extent(self) -> tuple[Interval, Interval]:
+        start = self.entry.nominal
+        return extent(self._joint, self._unknown, self._box, start, tolerance=Fraction(1))
+
+    @property
+    def _unknown(self) -> str:
+        return f"inferred:{self.entry.id}"
+
+    @cached_property
+    def _box(self) -> Box:
+        return {**_rounded_inputs(self.ledger, self.entry), self._unknown: self.entry.search}
+
+    @cached_property
+    def _joint(self) -> list[Constraint]:
+        claims = (*self.entry.header, *self.entry.evidence)
+        return _constraints(self.ledger, claims, frozenset(self._box))
 
     @cached_property
     def handbook(self) -> Mapping[str, tuple[Printed, str]]:
@@ -41,22 +73,21 @@ class Inference:
 
     def holds_at(self, point: Mapping[str, Fraction]) -> bool:
         """Whether the evidence holds at a point; inputs that it leaves out are as printed."""
-        names = {**{name: (low + high) / 2 for name, (low, high) in self.box.items()}, **point}
-        return satisfiable(self.joint, {n: (names[n], names[n]) for n in self.box}) is True
+        names = {**{name: (low + high) / 2 for name, (low, high) in self._box.items()}, **point}
+        return satisfiable(self._joint, {n: (names[n], names[n]) for n in self._box}) is True
 
     def _verdict(self, handbook: Interval) -> str:
         assert handbook.lower is not None
         assert handbook.upper is not None
         if not self.inner.excludes(handbook.lower, handbook.upper):
             return "admitted"
-        name = f"inferred:{self.entry.id}"
         ends = (handbook.lower, handbook.upper)
         words = {
             True: "admitted only if the other inputs are rounded",
             False: "excluded",
             None: "undecided",
         }
-        return words[satisfiable(self.joint, {**self.box, name: ends})]
+        return words[satisfiable(self._joint, {**self._box, self._unknown: ends})]
 
 
 @cache
@@ -66,41 +97,30 @@ def infer(ledger: Ledger, name: str) -> Inference:
     Raises ValueError if the nominal value of the ledger is not admitted.
     """
     entry = ledger.inferred[name]
-    unknown = f"inferred:{name}"
-
-    def constraints(
-        claims: tuple[str, ...], free: frozenset[str], **fixed: Fraction
-    ) -> list[Constraint]:
-        found = []
-        for claim in (ledger.claims[claim] for claim in claims):
-            assert claim.interval is not None
-            function = function_of(ledger, claim, claim.functions[""], free, **fixed)
-            found.append((function, claim.interval.scaled(claim.si)))
-        return found
-
-    def single(claims: tuple[str, ...], **fixed: Fraction) -> tuple[Interval, Interval]:
-        alone = constraints(claims, frozenset({unknown}), **fixed)
-        return admitted(alone, unknown, entry.search, entry.resolution)
-
-    inner, outer = single(entry.evidence)
+    inner, outer = _single(ledger, entry, entry.evidence)
     if not inner.contains(entry.nominal):
         raise ValueError(f"the evidence does not admit {entry.title} {entry.nominal}: {inner}")
-    rounded = _rounded_inputs(ledger, entry)
-    free = frozenset({*rounded, unknown})
-    box: Box = {**rounded, unknown: entry.search}
-    joint = constraints((*entry.header, *entry.evidence), free)
-    attained, possible = extent(joint, unknown, box, entry.nominal, tolerance=Fraction(1))
-    return Inference(
-        entry=entry,
-        inner=inner,
-        outer=outer,
-        with_mass=single(entry.evidence, mass=value(ledger, entry.mass))[0],
-        with_results=single((*entry.evidence, *entry.results))[0],
-        attained=attained,
-        possible=possible,
-        joint=tuple(joint),
-        box=box,
-    )
+    return Inference(ledger, entry, inner, outer)
+
+
+def _single(
+    ledger: Ledger, entry: Inferred, claims: tuple[str, ...], **fixed: Fraction
+) -> tuple[Interval, Interval]:
+    """What the claims admit of the input where all others are as printed, or fixed."""
+    unknown = f"inferred:{entry.id}"
+    alone = _constraints(ledger, claims, frozenset({unknown}), **fixed)
+    return admitted(alone, unknown, entry.search, entry.resolution)
+
+
+def _constraints(
+    ledger: Ledger, claims: tuple[str, ...], free: frozenset[str], **fixed: Fraction
+) -> list[Constraint]:
+    found = []
+    for claim in (ledger.claims[claim] for claim in claims):
+        assert claim.interval is not None
+        function = function_of(ledger, claim, claim.functions[""], free, **fixed)
+        found.append((function, claim.interval.scaled(claim.si)))
+    return found
 
 
 def _rounded_inputs(ledger: Ledger, entry: Inferred) -> Box:

@@ -5,7 +5,6 @@ from typing import Any
 
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
-from replication.audit.findings import Finding
 from replication.audit.inference import infer
 from replication.audit.verdict import Assessment, Verdict
 from replication.reports.numerics import WHY
@@ -30,7 +29,7 @@ def markdown(audit: Audit, record: dict[str, Any]) -> str:
         + ", ".join(f"{count} are {kind}" for kind, count in audit.reproduced_kinds.items())
         + ".",
         "## Findings",
-        *(_finding(finding) for finding in audit.findings),
+        *(_finding(finding) for finding in record["findings"]),
         "## Inferred inputs",
         *(_inferred(audit, name) for name in ledger.inferred),
         "## Claims that are not plainly reproduced",
@@ -54,11 +53,29 @@ def _is_open(assessment: Assessment) -> bool:
     return assessment.verdict not in (Verdict.REPRODUCED, Verdict.NOT_CHECKABLE)
 
 
-def _finding(finding: Finding) -> str:
-    return (
-        f"### {finding.title}\n\n*{_capital(finding.kind)}*: {_claims(finding.claims)}\n\n"
-        f"{finding.evidence}"
-    )
+def _finding(finding: dict[str, Any]) -> str:
+    lines = [f"### {finding['title']}"]
+    if not finding["holds"]:
+        lines.append(
+            "**Its evidence has changed: the text below is not what this audit computes.**"
+        )
+    lines += [
+        f"*{_capital(finding['kind'])}, {finding['status']}*: {_claims(finding['claims'])}",
+        finding["statement"],
+    ]
+    lines += [f"By hand: {finding['by_hand']}"] if finding["by_hand"] else []
+    lines += [
+        f"What would settle it: {finding['settle']}",
+        _table(("evidence", "asserted", "computed"), map(_evidence, finding["evidence"])),
+    ]
+    return "\n\n".join(lines)
+
+
+def _evidence(piece: dict[str, Any]) -> tuple[str, ...]:
+    computed = piece["computed"]
+    shown = ("no", "yes")[computed] if isinstance(computed, bool) else number(computed, 7)
+    unit = piece["unit"]
+    return piece["meaning"], with_unit(piece["asserted"], unit), with_unit(shown, unit)
 
 
 def _claims(names: Iterable[str]) -> str:

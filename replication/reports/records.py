@@ -13,11 +13,12 @@ from reference.printed import Interval
 from replication.analysis.stability import HARD_CASES, outcome, worst_of
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.findings import Finding
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Assessment, Reading
 from replication.reports.numerics import budget_record, budget_sheets, stability_record
 
-__all__ = ["SCHEMA", "audit_record", "claim_record", "ledger_record"]
+__all__ = ["SCHEMA", "audit_record", "claim_record", "finding_record", "ledger_record"]
 
 SCHEMA = "coldspray-audit-1"
 
@@ -34,16 +35,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "summary": audit.summary,
         "reproduced": audit.reproduced_kinds,
         "claims": [claim_record(ledger, a) for a in audit.assessments.values()],
-        "findings": [
-            {
-                "id": finding.id,
-                "title": finding.title,
-                "kind": finding.kind,
-                "claims": list(finding.claims),
-                "evidence": finding.evidence,
-            }
-            for finding in audit.findings
-        ],
+        "findings": [finding_record(finding) for finding in audit.findings],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
         "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
         "stability": stability_record(
@@ -83,6 +75,33 @@ def claim_record(ledger: Ledger, assessment: Assessment) -> dict[str, Any]:
         "rests_on": {name: list(entries) for name, entries in claim.inputs.items()},
         "assumes": assumptions(ledger, assessment),
         "explanation": explanation(ledger, assessment),
+    }
+
+
+def finding_record(finding: Finding) -> dict[str, Any]:
+    """One element of `findings`: its texts with the numbers in them, and the evidence for these."""
+    text = finding.text
+    return {
+        "id": text.id,
+        "title": finding.title,
+        "kind": text.kind,
+        "status": text.status,
+        "claims": list(text.claims),
+        "statement": text.filled(text.statement),
+        "by_hand": text.filled(text.by_hand),
+        "settle": text.filled(text.settle),
+        "holds": finding.holds,
+        "evidence": [
+            {
+                "name": piece.assertion.name,
+                "meaning": piece.assertion.means,
+                "unit": piece.assertion.unit,
+                "asserted": piece.assertion.says,
+                "computed": piece.computed if piece.is_outcome else float(piece.computed),
+                "holds": piece.holds,
+            }
+            for piece in finding.evidence
+        ],
     }
 
 
@@ -149,7 +168,9 @@ def _inference_record(inference: Inference) -> dict[str, Any]:
     }
 
 
-_LIBRARIES = ("coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "XlsxWriter")
+_LIBRARIES = (
+    "coldspray", "mpmath", "numpy", "openpyxl", "pandas", "pint", "python-flint", "XlsxWriter",
+)  # fmt: skip
 
 
 def _provenance() -> dict[str, Any]:

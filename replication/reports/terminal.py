@@ -1,10 +1,12 @@
 """What `coldspray audit` and `coldspray claims` print for a person."""
 
+from collections.abc import Sequence
 from textwrap import fill, shorten
 
 from reference.ledger import Claim, Ledger
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
+from replication.audit.findings import Finding
 from replication.audit.verdict import Assessment, Verdict
 from replication.text import aligned, number, with_unit
 
@@ -29,9 +31,24 @@ def audit_summary(audit: Audit) -> str:
         *aligned([("", "printed", "computed", "verdict"), *map(_headline, shown)]),
         "",
         "Findings",
-        *(f"  {finding.id}: {finding.title}" for finding in audit.findings),
+        *_findings(audit.findings),
     ]
     return "\n".join(lines)
+
+
+_WEIGHTIEST = 8
+"""Findings that one screen has room for, besides those whose evidence has changed."""
+
+
+def _findings(findings: Sequence[Finding]) -> list[str]:
+    shown = [f for k, f in enumerate(findings) if k < _WEIGHTIEST or not f.holds]
+    more = len(findings) - len(shown)
+    return [*map(_finding_line, shown), *([f"  and {more} more in audit.md"] if more else [])]
+
+
+def _finding_line(finding: Finding) -> str:
+    changed = "" if finding.holds else " (ITS EVIDENCE HAS CHANGED)"
+    return f"  {finding.text.id}: {finding.title}{changed}"
 
 
 def _counts(audit: Audit) -> list[tuple[str, int, str]]:

@@ -4,15 +4,16 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import mpmath
+import flint
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reference import exact
+from reference import exact, intervals
 from reference.computations import COMPUTATIONS
-from reference.enclosure import Exploration, Intervals, admitted, evaluate, explore, extent
+from reference.enclosure import Exploration, admitted, evaluate, explore, extent
 from reference.exact import Reals
+from reference.intervals import Intervals
 from reference.printed import Interval
 
 RELAXED = settings(deadline=None, max_examples=60)
@@ -73,6 +74,8 @@ OPERATIONS: list[Callable[[Any, Any], Any]] = [
     lambda x, y: x * x - 2 * x * y + y**2,
     lambda x, y: (x - y) ** 3 / 7,
     lambda x, y: x / (1 + y**2),
+    lambda x, y: 3 / (x - 2000) + 1 / (2000 + y),
+    lambda x, y: -(x**4) + (1 - y) ** 0,
 ]
 
 
@@ -91,6 +94,24 @@ def test_arithmetic_encloses_rationals(
     ar = Intervals(15)
     low, high = ar.ends(operation(ar.interval(*first), ar.interval(*second)))
     assert low <= operation(x, y) <= high
+
+
+@pytest.mark.parametrize("name", ["log", "exp", "sqrt"])
+@RELAXED
+@given(ends=st.tuples(*[st.fractions("0.001", 99, max_denominator=1000)] * 2).map(sorted), s=SHARES)
+def test_functions_enclose_what_mpmath_gives(name: str, ends: list[Fraction], s: Fraction) -> None:
+    low, high = evaluate(lambda ar, x: getattr(ar.context, name)(x), {"x": (ends[0], ends[1])})
+    reals = Reals(50)
+    values = [
+        Fraction(*getattr(reals.context, name)(reals.number(x)).as_integer_ratio())
+        for x in (ends[0], ends[0] + s * (ends[1] - ends[0]), ends[1])
+    ]
+    # mpmath's value is off by less than a hundredth of an enclosure's width to 30 digits.
+    width = max(map(abs, values)) * Fraction(1, 10**27) + Fraction(1, 10**30)
+    assert values[0] - width <= low <= values[0] + width / 100
+    assert low <= values[1] + width / 100
+    assert values[1] - width / 100 <= high
+    assert values[2] - width / 100 <= high <= values[2] + width
 
 
 @RELAXED
@@ -145,11 +166,41 @@ def test_certain_is_not_possible(x: Ends, bound: Ends, may: bool, must: bool) ->
     assert ar.is_below(one, other) is must
 
 
-def test_a_context_of_its_own() -> None:
-    before = mpmath.iv.dps, mpmath.mp.dps
-    assert Intervals(33).context.dps == 33
-    assert Intervals().context.dps == 50
-    assert (mpmath.iv.dps, mpmath.mp.dps) == before
+def test_a_precision_of_its_own() -> None:
+    before = flint.ctx.prec
+    with Intervals(33).working():
+        assert flint.ctx.dps == 33
+        Intervals(20).cap_root(Intervals(40).interval(Fraction(1, 3), Fraction(1, 2)))
+        assert flint.ctx.dps == 33
+    assert flint.ctx.prec == before
+    with pytest.raises(ZeroDivisionError, match="may be zero"):
+        evaluate(lambda ar, x: 1 / x, box(x=(-1, 2)))
+    assert flint.ctx.prec == before
+
+
+UNDEFINED: dict[str, tuple[Callable[..., Any], Ends]] = {
+    "log of a negative number": (lambda ar, x: ar.context.log(x), (Fraction(-2), Fraction(-1))),
+    "log of what may be zero": (lambda ar, x: ar.context.log(x), (Fraction(0), Fraction(1))),
+    "root of what may be negative": (lambda ar, x: ar.context.sqrt(x), (Fraction(-1), Fraction(1))),
+    "over what may be zero": (lambda ar, x: 1 / x, (Fraction(-1), Fraction(1))),
+    "over zero": (lambda ar, x: 1 / x, (Fraction(0), Fraction(0))),
+    "too large": (lambda ar, x: ar.context.exp(ar.context.exp(x)), (Fraction(99), Fraction(10**6))),
+    "least of nothing": (lambda ar, x: ar.least(ar.context.log(x), x), (Fraction(-1),) * 2),
+    "compared": (lambda ar, x: ar.number(ar.may_be_below(1 / x, x)), (Fraction(0), Fraction(0))),
+    "negative power": (lambda ar, x: x**-1, (Fraction(1), Fraction(2))),
+}
+
+
+@pytest.mark.parametrize("name", UNDEFINED)
+def test_what_is_undefined_proves_nothing(name: str) -> None:
+    function, ends = UNDEFINED[name]
+    with pytest.raises((ArithmeticError, ValueError)):
+        explore(function, {"x": ends}, target(None, None))
+
+
+def test_wide_factors_keep_their_sign() -> None:
+    """Arb's own product of two balls about [0, 2] would reach down to -2."""
+    assert evaluate(lambda ar, x, y: x * y, box(x=(0, 2), y=(0, 2))) == (0, 4)
 
 
 # Roots
@@ -185,9 +236,9 @@ def test_roots_of_an_interval_reach_from_root_to_root(ends: list[Fraction]) -> N
 def test_a_root_that_is_off_is_not_believed(
     factor: Fraction, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    true_root = Reals.cap_root
-    monkeypatch.setattr(Reals, "cap_root", lambda self, c: true_root(self, c) * self.number(factor))
-    ar = Intervals(30)
+    ar, true_root = Intervals(30), intervals._cap_root
+    off = ar.number(factor).low
+    monkeypatch.setattr(intervals, "_cap_root", lambda c: true_root(c) * off)
     with pytest.raises(ArithmeticError, match="could not be verified"):
         ar.cap_root(ar.number(Fraction(1, 3)))
 

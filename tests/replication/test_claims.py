@@ -1,6 +1,5 @@
 """One test for every number that the report prints, by its id."""
 
-import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -165,27 +164,6 @@ def whole() -> Audit:
 def test_summary_counts_every_claim_once(whole: Audit) -> None:
     assert sum(whole.summary.values()) == len(LEDGER.claims) == len(whole.assessments)
     assert whole.summary["not reproduced"] == len(NOT_REPRODUCED)
-
-
-def test_findings_touch_claims_and_show_numbers(whole: Audit) -> None:
-    for finding in whole.findings:
-        assert set(finding.claims) <= set(LEDGER.claims)
-        assert any(character.isdigit() for character in finding.evidence)
-
-
-def test_no_one_set_of_inputs_gives_both_frank_zook_values(whole: Audit) -> None:
-    finding = next(f for f in whole.findings if f.id == "frank-zook-pair")
-    assert "no one set of inputs gives both" in finding.evidence
-    # ln(1 + z / 7.6) / ln(1 + z / 9.13) falls with z = k_t rho_t V^2; 0.297 / 0.278 is 1.068.
-    assert math.log1p(2.053 / 7.6) / math.log1p(2.053 / 9.13) == pytest.approx(1.179, abs=1e-3)
-    assert math.log1p(60 / 7.65) / math.log1p(60 / 9.125) > 0.2975 / 0.2775
-    assert math.log1p(300 / 7.6) / math.log1p(300 / 9.13) < 0.2965 / 0.2785
-
-
-def test_the_coarse_step_prints_7_66(whole: Audit) -> None:
-    finding = next(f for f in whole.findings if f.id == "coarse-step")
-    assert "from 10.0 to 10.0" in finding.evidence
-    assert "from 7.67 to 7.66" in finding.evidence
 
 
 def test_errors_are_in_units_of_the_last_printed_digit(whole: Audit) -> None:

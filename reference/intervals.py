@@ -1,0 +1,231 @@
+"""Intervals between Arb balls: the arithmetic in which the equations are proven over boxes.
+
+Arb's balls are rigorous and fast, but too coarse for wide boxes: their product of [0, 2] and [0, 2]
+is [-2, 4], and a deceleration that may be negative drives the sheet apart. So an interval is a
+`Span` between two balls, its ends, to which each operation is applied where it is monotone; Arb
+keeps the rounding errors of either end. A point is a span whose ends are one and the same ball.
+"""
+
+from collections.abc import Callable
+from fractions import Fraction
+from math import prod
+from operator import add, mul, sub, truediv
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from reference.exact import Number
+
+__all__ = ["Intervals", "Span"]
+
+
+class Span:
+    """All numbers from the least in the ball `low` to the greatest in the ball `high`."""
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: arb, high: arb) -> None:
+        self.low, self.high = low, high
+
+    def __repr__(self) -> str:
+        return f"[{self.low}, {self.high}]"
+
+    def __neg__(self) -> "Span":
+        return 0 - self
+
+    def __add__(self, other: Number) -> "Span":
+        low, high = _sides(other)
+        return _between(add, self.low, low, self.high, high)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Number) -> "Span":
+        low, high = _sides(other)
+        return _between(sub, self.low, high, self.high, low)
+
+    def __rsub__(self, other: int) -> "Span":
+        return _between(sub, other, self.high, other, self.low)
+
+    def __mul__(self, other: Number) -> "Span":
+        low, high = _sides(other)
+        if self.low >= 0 and low >= 0:
+            return _between(mul, self.low, low, self.high, high)
+        corners = [x * y for x in (self.low, self.high) for y in (low, high)]
+        return Span(_least(*corners), _greatest(*corners))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Number) -> "Span":
+        return self * _inverse(*_sides(other))
+
+    def __rtruediv__(self, other: int) -> "Span":
+        return _inverse(self.low, self.high) * other
+
+    def __pow__(self, power: int) -> "Span":
+        """A power with a natural exponent, as the equations have them."""
+        if power < 0:
+            raise ValueError(f"the power {power} of an interval is negative")
+        if power % 2 or self.low >= 0:
+            return _between(_power, self.low, power, self.high, power)
+        nearest, farthest = _greatest(self.low, -self.high, arb(0)), _greatest(-self.low, self.high)
+        return _between(_power, nearest, power, farthest, power)
+
+
+def _sides(x: Span | int) -> tuple[Any, Any]:
+    return (x.low, x.high) if isinstance(x, Span) else (x, x)
+
+
+def _between(operation: Callable[[Any, Any], arb], a: Any, b: Any, c: Any, d: Any) -> Span:
+    """From one result to another; a point, if both are of the same numbers."""
+    low = operation(a, b)
+    return Span(low, low if a is c and b is d else operation(c, d))
+
+
+def _inverse(low: Any, high: Any) -> Span:
+    if not (low > 0 or high < 0):
+        raise ZeroDivisionError(f"division by [{low}, {high}], which may be zero")
+    one = arb(1)
+    return _between(truediv, one, high, one, low)
+
+
+def _power(x: arb, power: int) -> arb:
+    """By products, as Arb's own real power knows nothing of a ball about 0."""
+    return prod([x] * power, start=arb(1))
+
+
+def _least(first: arb, *others: arb) -> arb:
+    """A ball that has the least number of all: one of them wherever it can be told which."""
+    for other in others:
+        if not (first <= other or first.contains(other)):
+            first = other if other <= first or other.contains(first) else first.min(other)
+    return first
+
+
+def _greatest(first: arb, *others: arb) -> arb:
+    for other in others:
+        if not (first >= other or first.contains(other)):
+            first = other if other >= first or other.contains(first) else first.max(other)
+    return first
+
+
+class _Functions:
+    """Increasing functions of spans, and pi, at flint's precision of the moment."""
+
+    @property
+    def pi(self) -> Span:
+        return _point(arb.pi())
+
+    def log(self, x: Span) -> Span:
+        return self._increasing(arb.log, x)
+
+    def exp(self, x: Span) -> Span:
+        return self._increasing(arb.exp, x)
+
+    def sqrt(self, x: Span) -> Span:
+        return self._increasing(arb.sqrt, x)
+
+    def _increasing(self, function: Callable[[arb], arb], x: Span) -> Span:
+        low = function(x.low)
+        return Span(low, low if x.low is x.high else function(x.high))
+
+
+def _point(ball: arb) -> Span:
+    return Span(ball, ball)
+
+
+class Intervals:
+    """Spans of a given number of decimal digits, rounded outwards.
+
+    Operators work at flint's own precision, which `working` sets: a proof whatever it is, but only
+    there as narrow as the digits allow. A number that is unbounded or undefined (a logarithm of
+    zero, say) raises ArithmeticError where it would be compared or given out.
+
+    >>> ar = Intervals(20)
+    >>> low, high = ar.ends(ar.number(Fraction(1, 3)))
+    >>> low < Fraction(1, 3) < high
+    True
+    >>> ar.ends(ar.interval(Fraction(-7, 2), Fraction(1)))
+    (Fraction(-7, 2), Fraction(1, 1))
+    """
+
+    context = _Functions()
+
+    def __init__(self, digits: int = 50) -> None:
+        with ctx.workdps(digits):
+            self._bits = ctx.prec  # set in half the time that the digits take
+
+    def working(self) -> Any:
+        """A context manager in which operators carry the digits."""
+        return ctx.workprec(self._bits)
+
+    def number(self, value: Fraction | int) -> Span:
+        with self.working():
+            return _point(_ball(value))
+
+    def interval(self, lower: Fraction, upper: Fraction) -> Span:
+        """An interval that contains both rationals and all between."""
+        if lower == upper:
+            return self.number(lower)
+        with self.working():
+            return Span(_ball(lower).lower(), _ball(upper).upper())
+
+    def ends(self, x: Span) -> tuple[Fraction, Fraction]:
+        """Both ends, as the rationals that they are."""
+        low, high = _bounded(x)
+        least = low.mid().fmpq() - low.rad().fmpq()
+        greatest = high.mid().fmpq() + high.rad().fmpq()
+        return Fraction(int(least.p), int(least.q)), Fraction(int(greatest.p), int(greatest.q))
+
+    def least(self, x: Span, bound: Span) -> Span:
+        (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
+        return Span(_least(low, other_low), _least(high, other_high))
+
+    def positive_part(self, x: Span) -> Span:
+        (low, high), zero = _bounded(x), arb(0)
+        return Span(_greatest(low, zero), _greatest(high, zero))
+
+    def cap_root(self, c: Span) -> Span:
+        """The roots for both ends, moved outwards and then verified by the residual's sign."""
+        with self.working():
+            (least, greatest), margin = _bounded(c), arb(2) ** (20 - ctx.prec)
+            low = (_cap_root(least) * (1 - margin)).lower()
+            high = (_cap_root(greatest) * (1 + margin)).upper()
+            if not (low**2 - low**3 / 3 <= least and high**2 - high**3 / 3 >= greatest):
+                raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
+        return Span(low, high)
+
+    def may_be_below(self, x: Span, bound: Span) -> bool:
+        return not _bounded(x)[0] >= _bounded(bound)[1]
+
+    def is_below(self, x: Span, bound: Span) -> bool:
+        return bool(_bounded(x)[1] < _bounded(bound)[0])
+
+    def hull(self, numbers: list[Span]) -> Span:
+        lows, highs = zip(*map(_bounded, numbers), strict=True)
+        return Span(_least(*lows), _greatest(*highs))
+
+    def meet(self, x: Span, y: Span) -> Span:
+        (low, high), (other_low, other_high) = _bounded(x), _bounded(y)
+        if high < other_low or other_high < low:
+            raise ArithmeticError("one number was enclosed in two intervals that do not meet")
+        if low is high and other_low is other_high:
+            return x if low.rad() <= other_low.rad() else y
+        return Span(_greatest(low, other_low), _least(high, other_high))
+
+
+def _ball(value: Fraction | int) -> arb:
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def _bounded(x: Span) -> tuple[arb, arb]:
+    """The balls at both ends, proven to be finite: nothing can be said of any other."""
+    low, high = x.low, x.high
+    if not (low.is_finite() and high.is_finite()):
+        raise ArithmeticError(f"an enclosure is unbounded or undefined: {x}")
+    return low, high
+
+
+def _cap_root(c: arb) -> arb:
+    """The root of y^2 - y^3/3 = c by the triple angle of 1 - y, without cancellation."""
+    third = ((3 * c).sqrt() / 2).asin() / 3
+    return 2 * third.sin() ** 2 + arb(3).sqrt() * (2 * third).sin()
