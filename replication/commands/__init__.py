@@ -11,6 +11,7 @@ from replication.commands import (
     claims,
     converge,
     depth,
+    history,
     sheet,
     stability,
     workbook,
@@ -18,5 +19,15 @@ from replication.commands import (
 
 __all__ = ["COMMANDS"]
 
-COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability, bench)
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    history,
+    converge,
+    stability,
+    bench,
+)
 """In the order in which `coldspray --help` lists them."""

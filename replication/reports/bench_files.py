@@ -32,7 +32,7 @@ def write(done: Bench, folder: Path) -> None:
     files = {name: text.encode() for name, text in zip(TEXTS, texts, strict=True)}
     for result in done.results:
         for kind in FORMATS:
-            files[_figure(result.case.name, kind)] = image(result, done.machine, kind)
+            files[_figure(result.case.name, kind)] = image(result, kind)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
         write_bytes(folder / name, content)

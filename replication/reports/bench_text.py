@@ -54,8 +54,12 @@ def _rows(result: Result) -> Iterator[tuple[str, ...]]:
 def _cells(point: Point | None, fronts: Sequence[Point]) -> tuple[str, ...]:
     if point is None or point.error is None or point.timing is None:
         return ("" if point is None else "-", "", "", "")
-    times = (number(1e6 * point.timing.best, 4), number(1e6 * point.timing.median, 4))
+    times = (_microseconds(point.timing.best), _microseconds(point.timing.median))
     return (f"{point.error:.1e}", *times, "*" if point in fronts else "")
+
+
+def _microseconds(seconds: float) -> str:
+    return f"{1e6 * seconds:.0f}" if seconds >= 1e-3 else number(1e6 * seconds, 4)
 
 
 _RATIO_HEADS = ("digits", "best of SciPy", "times our time: final depth", "over arrays",
