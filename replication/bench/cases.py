@@ -32,7 +32,7 @@ POINTS = 101
 class Case:
     """One case with the truth about it, to 50 digits.
 
-    `times` [s], shape (POINTS,), run from the impact to rest; `depths` [m] are the exact ones there.
+    `times` [s], shape (POINTS,), run from the impact to rest; `depths` [m] are the exact ones.
     """
 
     name: str
@@ -70,9 +70,9 @@ def build(name: str) -> Case:
 def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
     """The k-th time as a double, and the exact depth at that very double.
 
-    Time is found for a depth, a single quadrature, where depth for a time would take a dozen. Depths
-    X (1 - s^2) with s falling evenly are about evenly spaced in time. What rounding the time to a
-    double leaves out, 1e-16 of the motion, one Taylor step carries to 1e-32 of the depth.
+    Time is found for a depth, a single quadrature, where depth for a time would take a dozen.
+    Depths X (1 - s^2) with s falling evenly are about evenly spaced in time. What rounding the time
+    to a double leaves out, 1e-16 of the motion, one Taylor step makes up for but for 1e-32.
     """
     s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
     depth = motion.final_depth * (1 - s * s)

@@ -94,7 +94,7 @@ def _at_rest() -> Any:
 
 
 def mpmath_tasks(case: Case) -> list[Task]:
-    """15 digits: the separated equation by quadrature, and the differential one by Taylor series."""
+    """15 digits: the separated equation by quadrature, the differential one by Taylor series."""
     from reference.trajectory import Integration, Trajectory
 
     inputs = [Fraction(value) for value in case.impact.motion.values()]

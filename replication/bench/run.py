@@ -11,7 +11,7 @@ from replication.bench.measure import measure
 from replication.bench.methods import ARRAYS, CLOSED_FORM, closed_form_tasks, sheet_tasks
 from replication.bench.pareto import Choice, Point, choices, front
 from replication.bench.peers import SCIPY, mpmath_tasks, scipy_tasks
-from replication.bench.task import MEASURES, Measure, Task
+from replication.bench.task import Measure, Task
 
 __all__ = ["Bench", "Result", "Watch", "bench", "point_of", "tasks"]
 

@@ -79,6 +79,4 @@ def _name(point: Point | None) -> str | None:
 
 def bench_rows(record: dict[str, Any]) -> list[dict[str, Any]]:
     """The points of a record as the rows of its CSV, each with its case's name."""
-    return [
-        {"case": case["name"], **point} for case in record["cases"] for point in case["points"]
-    ]
+    return [{"case": case["name"], **point} for case in record["cases"] for point in case["points"]]

@@ -25,7 +25,7 @@ _STYLES = {
     ARRAYS: ("#D55E00", "D"),
 }
 
-_SETTINGS = {
+_SETTINGS: Any = {
     "font.family": "DejaVu Sans",  # comes with matplotlib: the same letters on every machine
     "font.size": 9,
     "axes.spines.top": False,

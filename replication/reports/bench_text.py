@@ -19,8 +19,10 @@ def bench_text(done: Bench) -> str:
     return "\n".join(
         [
             machine,
-            f"Times are a case's: best and median of {done.repeat} repeats or of what {done.limit:g} s "
-            "allow. * marks the Pareto front of the methods that do one case at a time.",
+            "The final depth of the sheet is measured against the exact one at the stop velocity, "
+            "all others at rest; a history's worst error is relative to the depth at rest.",
+            f"Times are a case's: best and median of {done.repeat} repeats, or of those that "
+            f"{done.limit:g} s allow. * marks the Pareto front of one case at a time.",
             *(line for result in done.results for line in ("", *_case_lines(result))),
             "",
             "What should I use for N digits?",
