@@ -8,7 +8,8 @@ from reference.exact import cap_volume
 from reference.printed import Interval
 from reference.slips import equation_16_ratio
 from replication import frank_zook
-from replication.audit.entries import function_of, rounding
+from replication.audit.entries import rounding
+from replication.audit.explanations import Explanation, explain_claim
 from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
 from replication.audit.inference import infer
 from replication.impact import BETA_3, BETA_5
@@ -101,34 +102,44 @@ def _possible_drag(known: Known) -> tuple[Fraction, Fraction]:
 
 
 def _values(known: Known) -> Computed:
-    k_t, z = known.number("fz-kt"), float(_drag(known))
-    wanted = {
-        name: known.number(f"frank-zook-{name}") * k_t / float(_inertia(known))
-        for name in ("rha", "stainless")
-    }
-    found: dict[str, Fraction | float | bool] = {}
-    for name, logarithm in wanted.items():
-        strength = known.number(f"fz-resistance-{name}")
-        found[f"{name}_resistance"] = z / math.expm1(logarithm)
-        found[f"{name}_velocity"] = known.number("a1-initial-velocity") * math.sqrt(
-            strength * math.expm1(logarithm) / z
-        )
-    alone = [_within_rounding(known, f"frank-zook-{name}") for name in wanted]
-    return {**found, "rounding": any(alone), "inertia": _inertia(known), "logarithm": wanted["rha"]}
-
-
-def _within_rounding(known: Known, name: str) -> bool:
-    """Whether some input, alone and within its printed digits, may give the claim's number."""
-    ledger, claim = known.ledger, known.ledger.claims[name]
-    target = Interval(*known_interval(claim.interval))
-    entries = {entry for names in claim.inputs.values() for entry in names}
-    boxes = {e: rounding(ledger, e) for e in entries if not e.startswith("inferred:")}
-    boxes["inferred:target-density"] = known_interval(infer(ledger, "target-density").possible)
-    return not all(
-        explore(function_of(ledger, claim, function, frozenset({e})), {e: ends}, target).never
-        for function in claim.functions.values()
-        for e, ends in boxes.items()
+    rha, stainless = (
+        explain_claim(known.ledger, f"frank-zook-{name}") for name in ("rha", "stainless")
     )
+    tried = rha.alternatives
+    assert tried is not None
+    logarithm = known.number("frank-zook-rha") * known.number("fz-kt") / float(_inertia(known))
+    edits = [{(m.what, m.edit.text) for m in of.misprints} for of in (rha, stainless)]
+    return {
+        **_back_solved("rha", rha),
+        **_back_solved("stainless", stainless),
+        "rounding": any(solved.rounding for of in (rha, stainless) for solved in of.back_solved),
+        "misprints_rha": Fraction(len(rha.misprints)),
+        "misprints": Fraction(len(stainless.misprints)),
+        "both": Fraction(len(edits[0] & edits[1])),
+        "readings": Fraction(len(tried.tried)),
+        "explain_both": any(a.explains_all is not False for a in tried.tried),
+        "inertia": _inertia(known),
+        "logarithm": logarithm,
+    }
+
+
+_SYMBOLS = {
+    "a1-initial-velocity": "velocity",
+    "sphere-length-ratio": "length",
+    "fz-k1": "k_1",
+    "fz-kt": "k_t",
+    "a1-density": "density",
+    "inferred:target-density": "target",
+    "fz-resistance-rha": "resistance",
+    "fz-resistance-stainless": "resistance",
+}
+
+
+def _back_solved(name: str, explanation: Explanation) -> dict[str, float]:
+    """The value of each input that alone gives the number, in the form as derived."""
+    values = {b.entry: b.value for b in explanation.back_solved if b.reading == _DERIVED}
+    found = {f"{name}_{_SYMBOLS[entry]}": value for entry, value in values.items()}
+    return {key: value for key, value in found.items() if value is not None}
 
 
 def _closest(known: Known) -> Computed:
