@@ -9,7 +9,7 @@ from typing import Any
 
 from replication.impact import CASES, Impact
 
-__all__ = ["INPUTS", "inputs_of", "read_case", "read_number"]
+__all__ = ["INPUTS", "inputs_of", "parse_toml", "read_case", "read_number"]
 
 INPUTS = {
     "velocity": "m/s",
@@ -78,12 +78,19 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(f"{text!r} is beyond the range of doubles") from error
 
 
+def parse_toml(content: bytes) -> dict[str, Any]:
+    """A TOML document, its floats as they are written. Raises ValueError if it is none."""
+    try:
+        return tomllib.loads(content.decode("utf-8"), parse_float=str)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"is no TOML file: {error}") from error
+
+
 def _file(path: Path) -> dict[str, str]:
     try:
-        with path.open("rb") as file:
-            document = tomllib.load(file, parse_float=str)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is no TOML file: {error}") from error
+        document = parse_toml(path.read_bytes())
+    except ValueError as error:
+        raise ValueError(f"{path} {error}") from error
     table = document.get("impact")
     if not isinstance(table, dict) or set(document) != {"impact"}:
         raise ValueError(f"{path}: wants one table, [impact], with inputs such as velocity")

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, fields
 
-__all__ = ["BETA_3", "BETA_5", "CASES", "Impact"]
+__all__ = ["BETA_3", "BETA_5", "CASES", "Impact", "checked"]
 
 _MAY_BE_ZERO = {"stop_velocity", "resistance"}
 
@@ -41,11 +41,11 @@ class Impact:
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None:
-                object.__setattr__(self, field.name, _checked(field.name, value))
+                object.__setattr__(self, field.name, checked(field.name, value))
         if self.target_resistance == 0:
             raise ValueError("target resistance is 0.0: nothing would bring the particle to rest")
         for name, value in self._derived().items():
-            _checked(name, value)
+            checked(name, value)
             if not 1e-250 <= value <= 1e250 and name != "particle mass":
                 raise ValueError(f"{name} is {value!r}: doubles carry 1e-250 to 1e250 safely")
 
@@ -108,7 +108,13 @@ class Impact:
         return self.particle_density * 4 / 3 * math.pi * r * r * r
 
 
-def _checked(name: str, value: float) -> float:
+def checked(name: str, value: float) -> float:
+    """The number, if an input of this name may have it: finite, positive or, for some, zero.
+
+    >>> checked("radius", -1.0)
+    Traceback (most recent call last):
+    ValueError: radius is -1.0: it must be a finite number greater than zero
+    """
     number = float(value)
     least = "zero or more" if name in _MAY_BE_ZERO else "greater than zero"
     if not math.isfinite(number) or number < 0 or (number == 0 and name not in _MAY_BE_ZERO):

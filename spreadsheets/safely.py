@@ -1,10 +1,12 @@
 """Files that are written whole or not at all."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from errno import EINVAL, EISDIR
 from pathlib import Path
 
-__all__ = ["check_target", "write_bytes"]
+__all__ = ["check_target", "draft_of", "write_bytes"]
 
 
 def check_target(path: Path) -> Path:
@@ -22,14 +24,39 @@ def check_target(path: Path) -> Path:
     return target
 
 
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file by way of a draft beside it. Raises OSError, naming the path."""
+@contextmanager
+def draft_of(path: Path) -> Iterator[Path]:
+    """A file beside `path` to write to; it takes that name if the block ends well, or goes.
+
+    A draft that an earlier run left, because it was killed, goes first; were that run still at it,
+    it would end with an error, not with a file of two runs. Raises OSError, naming the path.
+    """
     target = check_target(path)
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        draft.write_bytes(content)
+        for left in _drafts_of(target):
+            left.unlink(missing_ok=True)
+        yield draft
         draft.replace(target)
     except OSError as error:
+        if error.errno is None:
+            raise
         raise type(error)(error.errno, error.strerror, str(path)) from error
     finally:
         draft.unlink(missing_ok=True)
+
+
+def _drafts_of(target: Path) -> list[Path]:
+    start = f".{target.name}."
+    return [
+        file
+        for file in target.parent.iterdir()
+        if file.name.startswith(start)
+        and file.name.removeprefix(start).removesuffix(".part").isdigit()
+    ]
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file by way of a draft beside it. Raises OSError, naming the path."""
+    with draft_of(path) as draft:
+        draft.write_bytes(content)

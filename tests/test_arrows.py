@@ -16,7 +16,8 @@ FORBIDDEN = {
 }
 MODELS = sorted(
     path
-    for path in (ROOT / "replication").glob("*.py")
+    for folder in ("replication", "replication/closed_form")
+    for path in (ROOT / folder).glob("*.py")
     if path.stem
     not in {
         "__init__",
@@ -78,7 +79,9 @@ def test_models_stand_alone(path: Path) -> None:
 
 
 def test_models_are_found() -> None:
-    assert {"impact", "midpoint", "closed_form", "frank_zook"} <= {path.stem for path in MODELS}
+    assert {"impact", "midpoint", "depth", "history", "frank_zook"} <= {
+        path.stem for path in MODELS
+    }
 
 
 HEAVY = {"pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl", "matplotlib", "jinja2"}

@@ -54,11 +54,13 @@ def test_the_two_commands_are_those_that_users_were_promised() -> None:
     assert "python -m pip install --quiet -e '.[test]'" in (ROOT / ".ci" / "run").read_text()
 
 
-@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"])
+@pytest.mark.parametrize(
+    "document", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/sweeps/README.md"]
+)
 def test_links_and_paths_lead_somewhere(document: str) -> None:
     text = (ROOT / document).read_text("utf-8")
     for target in re.findall(r"\]\((?!https?:|#)([^)]+)\)", text):
-        assert (ROOT / target).exists(), target
+        assert ((ROOT / document).parent / target).exists(), target
     for path in re.findall(r"`((?:reference|replication|spreadsheets|tests)/[\w/.]*)`", text):
         assert (ROOT / path).exists(), path
 

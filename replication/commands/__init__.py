@@ -10,12 +10,24 @@ from replication.commands import (
     claims,
     converge,
     depth,
+    history,
     sheet,
     stability,
+    sweep,
     workbook,
 )
 
 __all__ = ["COMMANDS"]
 
-COMMANDS: tuple[ModuleType, ...] = (audit, claims, workbook, sheet, depth, converge, stability)
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    history,
+    converge,
+    stability,
+    sweep,
+)
 """In the order in which `coldspray --help` lists them."""

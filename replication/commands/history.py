@@ -1,0 +1,76 @@
+"""`coldspray history`: depth and velocity of a case against time, without small steps."""
+
+import argparse
+import sys
+from typing import Any
+
+from replication.case import inputs_of, read_number
+from replication.commands import shared
+
+HELP = "depth and velocity of a case against time, without small steps"
+
+MAX_POINTS = 1_000_000
+"""As many as a sheet may have steps."""
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    shared.input_options(command)
+    at = command.add_mutually_exclusive_group()
+    at.add_argument(
+        "--points",
+        metavar="N",
+        type=int,
+        default=101,
+        help="so many times, equally spaced from touch to rest (default: 101)",
+    )
+    at.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
+    command.add_argument("--csv", action="store_true", help="print CSV")
+    shared.output_options(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compute the history and print it."""
+    from replication.closed_form import history, stop_time
+
+    case = shared.case(options)
+    stop = float(stop_time(**case.motion))
+    times = _times(options, stop)
+    depth, velocity = (values.tolist() for values in history(times, **case.motion))
+    if options.json:
+        shared.print_json(
+            {
+                "inputs": inputs_of(case),
+                "time": times,
+                "depth": depth,
+                "velocity": velocity,
+                "stop_time": stop,
+            }
+        )
+    elif options.csv:
+        from replication.reports.plain import rows_csv
+
+        names = ("time", "depth", "velocity")
+        rows = zip(times, depth, velocity, strict=True)
+        sys.stdout.write(rows_csv([dict(zip(names, row, strict=True)) for row in rows]))
+    else:
+        print("\n".join(_table(times, depth, velocity)))
+        print(f"\nstop time  {stop * 1e9:.8g} ns")
+    return 0
+
+
+def _times(options: argparse.Namespace, stop: float) -> list[float]:
+    if options.times is not None:
+        return [read_number(text.strip(), "s") for text in options.times.split(",")]
+    if not 2 <= options.points <= MAX_POINTS:
+        raise ValueError(f"--points wants 2 to {MAX_POINTS:,}, not {options.points}")
+    last = options.points - 1
+    return [stop * (k / last) for k in range(options.points)]
+
+
+def _table(*columns: Any) -> list[str]:
+    lines = ["".join(f"{head:>21}" for head in ("time [ns]", "x [um]", "velocity [m/s]"))]
+    for time, depth, velocity in zip(*columns, strict=True):
+        values = (time * 1e9, depth * 1e6, velocity)
+        lines.append("".join(f"{value:>21.9g}" for value in values))
+    return lines

@@ -1,0 +1,603 @@
+"""Sweeps: what a plan means, what is refused at the door, and files that are whole and the same."""
+
+import csv
+import json
+import math
+import os
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from replication.closed_form import final_depth, normalized_depth, stop_time
+from replication.impact import BETA_5, Impact
+from replication.midpoint import run
+from replication.sphere import volume
+from replication.sweep import Plan, block, read_plan, write
+from replication.sweep.compute import compute
+from replication.sweep.draws import LEAST_SHARE, Random, uniform
+from replication.sweep.plan import BLOCK
+from replication.sweep.pool import in_order
+from replication.sweep.sources import Spaced
+
+Command = Callable[..., tuple[int, str, str]]
+EXAMPLES = Path(__file__).parents[2] / "docs" / "sweeps"
+STREAM = """
+[sweep]
+samples = {samples}
+seed = 1
+[inputs]
+radius = {{ distribution = "lognormal", mean = "11 um", deviation = "2.8 um" }}
+velocity = {{ distribution = "normal", mean = "500 m/s", deviation = "50 m/s" }}
+"""
+
+
+def plan_of(folder: Path, text: str) -> Plan:
+    file = folder / "plan.toml"
+    file.write_text(text)
+    return read_plan(file)
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+# What a plan means
+
+
+def test_the_first_input_of_the_file_varies_slowest(tmp_path: Path) -> None:
+    text = (
+        '[inputs]\nvelocity = ["400 m/s", 500.0]\nradius = {from = "1 um", to = 3e-6, points = 3}'
+    )
+    plan = plan_of(tmp_path, text)
+    cases = block(plan, 0)
+    assert plan.count == 6
+    assert cases["velocity"].tolist() == [400, 400, 400, 500, 500, 500]
+    assert cases["radius"].tolist() == pytest.approx([1e-6, 2e-6, 3e-6] * 2, rel=1e-15)
+
+
+def test_what_the_file_leaves_out_is_the_case_s(tmp_path: Path) -> None:
+    cases = block(plan_of(tmp_path, '[sweep]\ncase = "beta-3"\n[inputs]\nradius = "5 um"'), 0)
+    assert (cases["beta"].tolist(), cases["velocity"].tolist()) == ([3.0], [500.0])
+    assert cases["resistance"].tolist() == [2.1e9]
+
+
+def test_a_resistance_stands_instead_of_beta_and_flow_stress(tmp_path: Path) -> None:
+    cases = block(plan_of(tmp_path, '[inputs]\nresistance = ["98 ksi", 2.1e9]'), 0)
+    assert not {"beta", "flow_stress"} & set(cases)
+    assert cases["resistance"].tolist() == [pytest.approx(6.756862e8, rel=1e-6), 2.1e9]
+
+
+@given(
+    first=st.floats(1e-9, 1e9),
+    last=st.floats(1e-9, 1e9),
+    count=st.integers(2, 200),
+)
+def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
+    index = np.arange(count)
+    linear = Spaced(first, last, count, log=False)
+    # Both round a product and a sum, in an order of their own.
+    tolerance = 4 * np.spacing(max(first, last))
+    np.testing.assert_allclose(
+        linear.at(index), np.linspace(first, last, count), rtol=0, atol=tolerance
+    )
+    # The exponent, at most 9, is off by two ulp (4e-15): relatively that times ln 10.
+    log = Spaced(first, last, count, log=True)
+    np.testing.assert_allclose(log.at(index), np.geomspace(first, last, count), rtol=2e-14)
+    for source in (linear, log):
+        values = source.at(index)
+        assert (values[0], values[-1]) == (first, last)
+        assert source.bounds == (values.min(), values.max())
+
+
+def test_velocity_by_mass_is_equation_1(tmp_path: Path) -> None:
+    text = '[inputs]\nradius = ["5.5 um", "11 um", "22 um"]\n'
+    mass = BETA_5.mass
+    law = f'velocity = {{ average_velocity = "500 m/s", average_mass = {mass!r} }}'
+    cases = block(plan_of(tmp_path, text + law), 0)
+    # Mass as the cube of the radius: velocities in the ratio 8^(1/2). Each is rounded thrice.
+    expected = [500 * math.sqrt(8), 500.0, 500 / math.sqrt(8)]
+    assert cases["velocity"].tolist() == pytest.approx(expected, rel=1e-15)
+
+
+# Random numbers
+
+
+@given(seed=st.integers(0, 2**64 - 1), first=st.integers(0, 10**12), count=st.integers(0, 40))
+def test_a_case_has_its_random_number_in_any_block(seed: int, first: int, count: int) -> None:
+    whole = uniform(seed, 3, first, count + 7)
+    assert (uniform(seed, 3, first, count) == whole[:count]).all()
+    assert (uniform(seed, 3, first + count, 7) == whole[count:]).all()
+    assert ((whole >= LEAST_SHARE) & (whole <= 1 - LEAST_SHARE)).all()
+
+
+def test_seeds_and_inputs_have_numbers_of_their_own() -> None:
+    count = 100_000
+    drawn = [uniform(*key, 0, count) for key in ((0, 0), (0, 1), (1, 0), (1, 1))]
+    correlation = np.corrcoef(drawn)
+    # Of independent numbers a correlation is normal about 0 with deviation count^(-1/2).
+    assert (abs(correlation - np.eye(4)) < 5 / math.sqrt(count)).all()
+
+
+NORMAL = statistics.NormalDist()
+
+
+def truncated_mean(low: float, high: float) -> float:
+    """Of the standard normal distribution between low and high."""
+    return (NORMAL.pdf(low) - NORMAL.pdf(high)) / (NORMAL.cdf(high) - NORMAL.cdf(low))
+
+
+DISTRIBUTIONS = {
+    "normal": ('mean = "11 um", deviation = "2.8 um", lower = 0', 11.0, 2.8),
+    "truncated": (
+        'mean = "11 um", deviation = "2.8 um", lower = "11 um", upper = "13.8 um"',
+        11 + 2.8 * truncated_mean(0, 1),
+        None,
+    ),
+    "lognormal": ('mean = "11 um", deviation = "2.8 um"', 11.0, 2.8),
+    "uniform": ('lower = "5 um", upper = "15 um"', 10.0, 10 / math.sqrt(12)),
+    "loguniform": ('lower = "1 um", upper = "100 um"', 99 / math.log(100), None),
+}
+
+
+@pytest.mark.parametrize("name", DISTRIBUTIONS)
+def test_samples_have_the_moments_of_their_distribution(name: str, tmp_path: Path) -> None:
+    keys, mean, deviation = DISTRIBUTIONS[name]
+    kind = "normal" if name == "truncated" else name
+    count = 200_000
+    text = f'[sweep]\nsamples = {count}\n[inputs]\nradius = {{ distribution = "{kind}", {keys} }}'
+    radii = plan_of(tmp_path, text).inputs(0, count)["radius"] * 1e6
+    spread = radii.std()
+    # Five deviations of a mean of so many samples, and of a standard deviation (by the kurtosis);
+    # what the normal's end at zero takes away, four in a hundred thousand, is much less.
+    assert radii.mean() == pytest.approx(mean, abs=5 * spread / math.sqrt(count))
+    if deviation is not None:
+        kurtosis = (((radii - radii.mean()) / spread) ** 4).mean()
+        error = 5 * spread * math.sqrt((kurtosis - 1) / (4 * count))
+        assert spread == pytest.approx(deviation, abs=error)
+
+
+@given(
+    mean=st.floats(1e-6, 1e-4),
+    deviation=st.floats(1e-7, 1e-4),
+    lower=st.floats(0, 1e-4),
+    log=st.booleans(),
+    shares=st.lists(st.floats(LEAST_SHARE, 1 - LEAST_SHARE), min_size=2),
+)
+def test_quantiles_rise_and_keep_within_the_bounds(
+    mean: float, deviation: float, lower: float, log: bool, shares: list[float]
+) -> None:
+    source = Random(lower=lower, upper=lower + 2e-4, log=log, mean=mean, deviation=deviation)
+    if source.kept < 1e-6:
+        return  # refused at the door
+    values = source.quantile(np.array(sorted(shares)))
+    least, greatest = source.bounds
+    assert (np.diff(values) >= 0).all()
+    assert ((values >= least) & (values <= greatest)).all()
+    assert lower <= least <= greatest <= lower + 2e-4
+
+
+# Results
+
+
+def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=200) + "beta = [1, 3, 5]")
+    cases = block(plan, 0)
+    for k in range(plan.count):
+        given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
+        impact = Impact(**{name: float(cases[name][k]) for name in given})
+        assert cases["resistance"][k] == impact.target_resistance
+        assert cases["depth"][k] == final_depth(**impact.motion)
+        ratio = normalized_depth(
+            impact.velocity,
+            impact.particle_density,
+            impact.target_density,
+            impact.target_resistance,
+        )
+        assert cases["normalized_depth"][k] == ratio
+        assert cases["beyond_radius"][k] == (ratio > 1)
+    assert 0 < cases["beyond_radius"].sum() < plan.count
+
+
+def test_further_results_are_those_of_the_single_sheet(tmp_path: Path) -> None:
+    text = (
+        '[sweep]\noutputs = ["sheet_steps", "stop_time", "sheet_depth"]\n[inputs]\n'
+        'velocity = [0.5, 1, 400, 2000]\nradius = ["1 um", "11 um"]\nbeta = [0.01, 5]'
+    )
+    cases = block(plan_of(tmp_path, text), 0)
+    assert list(cases)[-3:] == ["stop_time", "sheet_depth", "sheet_steps"]
+    for k in range(len(cases["depth"])):
+        given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
+        impact = Impact(**{name: float(cases[name][k]) for name in given})
+        sheet = run(impact)
+        # As many Gauss panels as the hardest of the cases computed together wants; 1e-13 each.
+        assert cases["stop_time"][k] == pytest.approx(stop_time(**impact.motion), rel=2e-13)
+        assert cases["sheet_depth"][k] == sheet.final_depth
+        assert cases["sheet_steps"][k] == sheet.steps
+
+
+def test_figure_5_is_a_sweep() -> None:
+    cases = block(read_plan(EXAMPLES / "figure-5.toml"), 0)
+    assert (cases["velocity"][[0, -1]] == [400, 500]).all()
+    assert (cases["radius"] == 11e-6).all()
+    assert (cases["beta"] == 5).all()
+    assert (np.diff(cases["sheet_depth"]) > 0).all()
+    assert cases["sheet_depth"][-1] == run(BETA_5).final_depth
+
+
+def test_the_size_does_not_matter_but_to_the_sheet() -> None:
+    cases = block(read_plan(EXAMPLES / "size-independence.toml"), 0)
+    sheet = cases["sheet_depth"] / cases["radius"]
+    for beta in (3.0, 5.0):
+        of = cases["beta"] == beta
+        assert len(set(cases["normalized_depth"][of])) == 1
+        # At 1 um the impact takes some 17 rows of 0.2 ns, at 100 um a hundred times as many; the
+        # scheme is of first order.
+        errors = abs(sheet / cases["normalized_depth"] - 1)[of]
+        assert errors[0] > 5e-3
+        assert errors[-1] < 1e-4
+
+
+def test_the_streams_are_the_report_s() -> None:
+    drawn = read_plan(EXAMPLES / "stream.toml").inputs(0, 200_000)
+    by_mass = read_plan(EXAMPLES / "stream-by-mass.toml").inputs(0, 100_000)
+    for cases in (drawn, by_mass):
+        assert cases["radius"].min() >= 5e-6
+        assert cases["radius"].max() <= 15e-6
+    assert statistics.stdev(drawn["velocity"].tolist()) == pytest.approx(50, rel=0.01)
+    mass = 8900 * volume(by_mass["radius"])
+    energy = by_mass["velocity"] ** 2 * mass  # Eq. 1: the same for all
+    np.testing.assert_allclose(energy, 521.0**2 * 4.96e-11, rtol=1e-14)
+
+
+def test_every_way_to_write_an_input_is_one(tmp_path: Path) -> None:
+    manual = (EXAMPLES / "README.md").read_text("utf-8")
+    ways = re.findall(r"^\| `(.+?)` \|", manual.partition("optional table")[0], re.MULTILINE)
+    assert len(ways) == 6
+    for way in ways:
+        name = next(name for name in ("average", "um", "") if name in way)
+        key = {"average": "velocity", "um": "radius", "": "beta"}[name]
+        samples = "samples = 5" if "distribution" in way else ""
+        assert plan_of(tmp_path, f"[sweep]\n{samples}\n[inputs]\n{key} = {way}").count >= 1
+
+
+def test_every_example_runs(tmp_path: Path, coldspray: Command) -> None:
+    examples = sorted(EXAMPLES.glob("*.toml"))
+    assert len(examples) >= 4
+    for example in examples:
+        output = tmp_path / f"{example.stem}.parquet"
+        assert coldspray("sweep", example, "-o", output)[::2] == (0, "")
+        table = pyarrow.parquet.read_metadata(output)
+        assert table.num_rows == read_plan(example).count
+
+
+# Refused at the door
+
+REFUSED = {
+    "velocity = 500": r"there is no 'velocity' here: choose of inputs, sweep",
+    "[sweep]": "'inputs' is missing",
+    "inputs = 3": r"inputs must be a table, \[inputs\]",
+    "[inputs": "is no TOML file",
+    "[inputs]\nvelocty = 5": r"\[inputs\]: there is no 'velocty' here: choose of velocity, radius",
+    "[inputs]\nradius = '5 s'": r"\[inputs\]: radius: '5 s': s does not measure what m does",
+    "[inputs]\nradius = true": "radius: 'True' is no finite number",
+    "[inputs]\nradius = []": "radius: the list is empty",
+    "[inputs]\nradius = [1e-6, nan]": "radius: radius is nan: it must be a finite number",
+    "[inputs]\nradius = [[1e-6]]": "radius: .* is no finite number",
+    "[inputs]\nradius = -1": "radius is -1.0: it must be a finite number greater than zero",
+    "[inputs]\nradius = {points = 3}": "wants from, to, points; or distribution; or, by Eq. 1",
+    "[inputs]\nradius = {from = 1, to = 2}": "radius: 'points' is missing",
+    "[inputs]\nradius = {from = 1, to = 2, points = 2, step = 1}": "there is no 'step' here",
+    "[inputs]\nradius = {from = 1, to = 2, points = 1}": "points is 1: it must be a whole number",
+    "[inputs]\nradius = {from = 1, to = 2, points = 2.5}": "points is '2.5': it must be a whole",
+    "[inputs]\nradius = {from = 1, to = inf, points = 2}": "to: inf is not finite",
+    "[inputs]\nradius = {from = 'x', to = 1, points = 2}": "radius: from: 'x' is no finite number",
+    "[inputs]\nstop_velocity = {from = 0, to = 2, points = 2, scale = 'log'}": "log scale wants",
+    "[inputs]\nradius = {from = 1, to = 2, points = 2, scale = 'ln'}": "'ln': choose linear or log",
+    "[inputs]\nradius = {from = 0, to = 2, points = 2}": "radius is 0.0: it must be",
+    "[inputs]\nradius = {average_mass = 1}": "only the velocity follows from the mass",
+    "[inputs]\nvelocity = {average_mass = 1}": "'average_velocity' is missing",
+    "[inputs]\nvelocity = {average_mass = 0, average_velocity = 1}": "average_mass is 0.0",
+    "[inputs]\nradius = 1e-110\nvelocity = {average_mass = 1, average_velocity = 1}": "is inf",
+    "[inputs]\nradius = 1e110\nvelocity = {average_mass = 1, average_velocity = 1}": r"is 0\.0",
+    "[inputs]\nbeta = 3\nresistance = 1e9": "resistance stands instead of beta and flow_stress",
+    "[inputs]\nresistance = [0, 1e9]": r"target resistance is 0\.0.*with resistance 0\.0",
+    "[inputs]\nradius = [1e-6, 1e110]": r"particle mass is inf.*with radius 1e\+110",
+    "[sweep]\nmode = 'grid'\n[inputs]": r"\[sweep\]: there is no 'mode' here: choose of case",
+    "[sweep]\ncase = 'beta-4'\n[inputs]": "no case 'beta-4': choose one of beta-3, beta-5",
+    "[sweep]\noutputs = ['depth']\n[inputs]": "wants a list of stop_time, sheet_depth",
+    "[sweep]\noutputs = 'stop_time'\n[inputs]": "wants a list",
+    "[sweep]\nsamples = 3\n[inputs]": "samples is for distributions",
+    "[sweep]\nseed = 3\n[inputs]": "seed is for distributions",
+}
+DRAWN = {
+    "distribution = 'gamma'": "there is no 'gamma': choose one of normal, lognormal, uniform",
+    "distribution = ['normal']": "choose one of normal",
+    "distribution = 'normal', mean = 1": "'deviation' is missing",
+    "distribution = 'uniform', mean = 1": "there is no 'mean' here: choose of distribution, lower",
+    "distribution = 'normal', mean = 1, deviation = 0": "deviation must be greater than zero",
+    "distribution = 'lognormal', mean = 0, deviation = 1": "mean must be greater than zero",
+    "distribution = 'normal', mean = '1 s', deviation = 1": "radius: mean: '1 s': s does not",
+    "distribution = 'normal', mean = 1, deviation = 1": "values down to -7.* give a lower end",
+    "distribution = 'uniform', lower = 2, upper = 1": "lower must be less than upper",
+    "distribution = 'normal', mean = 1, deviation = 1, lower = 9": "less than a millionth",
+    "distribution = 'lognormal', mean = 1, deviation = 1e300": "radius is nan",
+    "distribution = 'lognormal', mean = 1e300, deviation = 1e305": "radius is inf",
+    "distribution = 'lognormal', mean = 1, deviation = 1e-300": "sigma is zero",
+    "distribution = 'loguniform', lower = 0, upper = 1": "lower must be greater than zero",
+}
+REFUSED |= {
+    f"[sweep]\nsamples = 10\n[inputs]\nradius = {{{keys}}}": message
+    for keys, message in DRAWN.items()
+}
+UNIFORM = "[inputs]\nradius = {distribution = 'uniform', lower = 1, upper = 2}"
+REFUSED |= {
+    UNIFORM: r"\[sweep\]: samples is missing",
+    f"[sweep]\nsamples = 0\n{UNIFORM}": "samples is 0: it must be a whole number, 1 or more",
+    f"[sweep]\nsamples = 1e6\n{UNIFORM}": "samples is '1e6': it must be a whole number",
+    f"[sweep]\nsamples = true\n{UNIFORM}": "samples is True: it must be a whole number",
+    f"[sweep]\nsamples = 9\nseed = -1\n{UNIFORM}": "seed is -1: it must be a whole number, 0 to",
+    f"[sweep]\nsamples = 9_000_000_000_000\n{UNIFORM}": "9000000000000 cases are more than",
+}
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_a_bad_plan_gets_one_line_and_no_file(
+    text: str, tmp_path: Path, coldspray: Command
+) -> None:
+    file = tmp_path / "plan.toml"
+    file.write_text(text)
+    status, out, err = coldspray("sweep", file, "-o", tmp_path / "out.csv")
+    assert (status, out, len(err.splitlines())) == (2, "", 1)
+    assert re.search(rf"plan\.toml: .*{REFUSED[text]}", err)
+    assert names(tmp_path) == ["plan.toml"]
+
+
+def test_a_bad_output_is_refused_before_the_work(
+    tmp_path: Path, coldspray: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    plan = EXAMPLES / "figure-5.toml"
+    Path("own.csv").write_text("[inputs]")
+    for arguments, message in {
+        (plan, "-o", "out.xlsx"): r"out.xlsx: the file's name must end in .csv or .parquet",
+        (plan, "-o", "absent/out.csv"): "absent: the folder to write to does not exist",
+        (plan, "-o", "out.csv", "--processes", "0"): "--processes wants 1 or more",
+        ("own.csv",): "own.csv is the plan itself",
+        ("absent.toml",): "absent.toml: No such file",
+    }.items():
+        status, out, err = coldspray("sweep", *arguments)
+        assert (status, out) == (2, "")
+        assert re.search(message, err)
+    assert names(Path()) == ["own.csv"]
+
+
+def test_a_missing_library_is_named(
+    tmp_path: Path, coldspray: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("replication.sweep.output.find_spec", lambda name: None)
+    arguments = (EXAMPLES / "figure-5.toml", "-o", tmp_path / "out.parquet")
+    status, _, err = coldspray("sweep", *arguments)
+    assert status == 2
+    assert "python -m pip install 'coldspray[parquet]'" in err
+
+
+def test_a_case_that_the_sheet_refuses_ends_the_sweep(tmp_path: Path, coldspray: Command) -> None:
+    file = tmp_path / "plan.toml"
+    file.write_text('[sweep]\noutputs = ["sheet_depth"]\n[inputs]\nstep = [1e-9, 1e-10, 1e-15]')
+    status, out, err = coldspray("sweep", file, "-o", tmp_path / "out.csv")
+    assert (status, out) == (2, "")
+    assert re.search(r"case 2.*would take about 2\.6\d*e\+07 steps", err)
+    assert names(tmp_path) == ["plan.toml"]
+
+
+# Files
+
+
+def test_csv_has_units_and_all_digits(tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=100))
+    write(plan, tmp_path / "out.csv")
+    rows, cases = rows_of(tmp_path / "out.csv"), block(plan, 0)
+    assert list(rows[0])[:2] == ["velocity [m/s]", "radius [m]"]
+    assert list(rows[0])[-3:] == ["depth [m]", "normalized_depth [1]", "beyond_radius"]
+    for name, column in zip(rows[0], cases.values(), strict=True):
+        if name == "beyond_radius":
+            assert [row[name] == "true" for row in rows] == column.tolist()
+            assert {row[name] for row in rows} <= {"true", "false"}
+        else:
+            assert [float(row[name]) for row in rows] == column.tolist()
+
+
+def test_a_single_case_is_a_sweep_too(tmp_path: Path) -> None:
+    write(plan_of(tmp_path, "[inputs]"), tmp_path / "out.csv")
+    assert [row["depth [m]"] for row in rows_of(tmp_path / "out.csv")] == ["7.674932926028623e-06"]
+
+
+def test_parquet_has_units_types_and_provenance(tmp_path: Path) -> None:
+    plan = read_plan(EXAMPLES / "figure-5.toml")
+    write(plan, tmp_path / "out.parquet")
+    table = pyarrow.parquet.read_table(tmp_path / "out.parquet")
+    cases = block(plan, 0)
+    assert table.column_names == list(cases)
+    for name, column in cases.items():
+        assert table[name].to_numpy().tolist() == column.tolist()
+    units = {field.name: field.metadata[b"unit"] for field in table.schema}
+    assert units["velocity"] == b"m/s"
+    assert units["sheet_depth"] == b"m"
+    assert units["normalized_depth"] == b"1"
+    assert str(table.schema.field("beyond_radius").type) == "bool"
+    assert str(table.schema.field("sheet_steps").type) == "int64"
+    assert table.schema.metadata[b"sweep_sha256"].decode() == plan.digest
+    assert re.fullmatch(rb"\d+\.\d+\.\d+", table.schema.metadata[b"coldspray"])
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_the_bytes_are_the_same_whatever_the_processes(suffix: str, tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=3 * BLOCK + 17))
+    counts: dict[int, list[int]] = {1: [], 2: []}
+    for processes, told in counts.items():
+        write(plan, tmp_path / f"{processes}{suffix}", processes=processes, done=told.append)
+    assert counts[1] == counts[2] == [BLOCK] * 3 + [17]
+    assert (tmp_path / f"1{suffix}").read_bytes() == (tmp_path / f"2{suffix}").read_bytes()
+
+
+def test_parts_are_the_whole(tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=2 * BLOCK + 17))
+    files = [tmp_path / f"{name}.parquet" for name in ("whole", "first", "rest")]
+    for file, numbers in zip(files, (None, range(1), range(1, 3)), strict=True):
+        write(plan, file, numbers=numbers)
+    whole, *parts = map(pyarrow.parquet.read_table, files)
+    assert pyarrow.concat_tables(parts).equals(whole)
+
+
+def test_cases_do_not_depend_on_their_block(tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=300) + "beta = [3, 5]")
+    whole = compute(plan, 0, 600)
+    for first, count in ((0, 1), (299, 3), (17, 583)):
+        part = compute(plan, first, count)
+        assert all((part[name] == whole[name][first : first + count]).all() for name in whole)
+
+
+def test_memory_does_not_grow_with_the_cases(tmp_path: Path) -> None:
+    program = (
+        "import resource, sys; from replication.cli import main; main(sys.argv[1:]);"
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)"
+    )
+    peaks = []
+    for samples in (300_000, 3_000_000):
+        plan_of(tmp_path, STREAM.format(samples=samples))
+        arguments = ["sweep", tmp_path / "plan.toml", "-o", tmp_path / "o.parquet", "--quiet"]
+        arguments += ["--processes", "1"]
+        done = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True)
+        peaks.append(int(done.stdout))
+    # All the columns of the 2.7 million cases more would take 260 MB.
+    assert peaks[1] < peaks[0] + 50
+
+
+# The command
+
+
+def test_the_command_writes_beside_and_reports(
+    tmp_path: Path, coldspray: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    plan = EXAMPLES / "figure-5.toml"
+    assert coldspray("sweep", plan) == (0, "Written: figure-5.csv (101 cases)\n", "")
+    assert len(rows_of(Path("figure-5.csv"))) == 101
+    assert coldspray("sweep", plan, "--quiet") == (0, "", "")
+    record = json.loads(coldspray("sweep", plan, "--json", "-o", "five.parquet")[1])
+    assert (record["file"], record["cases"]) == ("five.parquet", 101)
+    assert record["columns"]["depth"] == "m"
+    assert record["sweep_sha256"] == read_plan(plan).digest
+
+
+def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
+    plan_of(tmp_path, STREAM.format(samples=100))
+    command = [sys.executable, "-m", "replication", "sweep", tmp_path / "plan.toml"]
+    command += ["-o", tmp_path / "out.csv"]
+    screen, terminal = os.openpty()
+    termios.tcsetwinsize(terminal, (24, 90))
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=terminal, check=True)
+    os.close(terminal)
+    assert "100/100" in os.read(screen, 65536).decode()
+    os.close(screen)
+    assert subprocess.run(command, capture_output=True, check=True).stderr == b""
+
+
+def test_an_interrupted_sweep_leaves_nothing(tmp_path: Path) -> None:
+    sweep = started(tmp_path)
+    os.killpg(sweep.pid, signal.SIGINT)
+    _, err = sweep.communicate(timeout=60)
+    assert (sweep.returncode, err) == (130, b"coldspray sweep: interrupted, nothing written\n")
+    assert names(tmp_path) == ["plan.toml"]
+
+
+def test_a_killed_sweep_is_started_again(tmp_path: Path) -> None:
+    sweep = started(tmp_path)
+    workers = children(sweep.pid)
+    assert len(workers) >= 2
+    sweep.kill()
+    sweep.communicate(timeout=60)
+    assert not (tmp_path / "out.csv").exists()
+    assert len(drafts(tmp_path)) == 1
+    assert ended(workers), "a killed sweep leaves processes behind"
+    plan = plan_of(tmp_path, STREAM.format(samples=50))
+    write(plan, tmp_path / "out.csv")
+    assert names(tmp_path) == ["out.csv", "plan.toml"]
+
+
+def started(folder: Path) -> "subprocess.Popen[bytes]":
+    """A sweep of many blocks, once the first of them is in its draft."""
+    plan_of(folder, STREAM.format(samples=40 * BLOCK))
+    command = [sys.executable, "-m", "replication", "sweep", folder / "plan.toml"]
+    command += ["-o", folder / "out.csv", "--processes", "2"]
+    sweep = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    for _ in range(6000):
+        if any(draft.stat().st_size > 100_000 for draft in drafts(folder)):
+            return sweep
+        assert sweep.poll() is None, sweep.communicate()
+        time.sleep(0.01)
+    pytest.fail("the sweep has not begun within a minute")
+
+
+def drafts(folder: Path) -> list[Path]:
+    return list(folder.glob(".out.csv.*.part"))
+
+
+def children(pid: int) -> list[int]:
+    return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def ended(pids: list[int]) -> bool:
+    for _ in range(3000):
+        if not any(alive(pid) for pid in pids):
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def alive(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"
+
+
+def die(number: int) -> int:
+    os.kill(os.getpid(), signal.SIGKILL)
+    return number
+
+
+def test_a_worker_killed_from_outside_is_an_error() -> None:
+    with pytest.raises(ChildProcessError, match="killed from outside"):
+        list(in_order(die, range(3), 2))
+
+
+# A cluster
+
+
+def test_dask_writes_the_same_cases(tmp_path: Path) -> None:
+    plan = plan_of(tmp_path, STREAM.format(samples=1000))
+    write(plan, tmp_path / "here.parquet")
+    command = [sys.executable, "-W", "error", EXAMPLES / "on_dask.py", tmp_path / "plan.toml"]
+    for _ in range(2):  # the second finds what the first wrote
+        subprocess.run([*command, tmp_path / "parts"], check=True, capture_output=True)
+    (part,) = (tmp_path / "parts" / plan.digest).iterdir()
+    assert part.read_bytes() == (tmp_path / "here.parquet").read_bytes()
