@@ -30,6 +30,7 @@ __all__ = [
     "build",
     "relative_tolerance",
     "report_plan",
+    "to_bytes",
     "values",
     "write",
     "write_verified",
@@ -43,6 +44,11 @@ REPORT: Cases = {"Sheet beta 3": BETA_3, "Sheet beta 5": BETA_5}
 that are about the report alone: its figures, its other time step, and the audit."""
 
 _PRINTED = {BETA_3: ("10.0", "0.91"), BETA_5: ("7.67", "0.70")}
+
+
+def to_bytes(cases: Cases = REPORT) -> bytes:
+    """The workbook of these cases, as the bytes of its file. Raises as `build` does."""
+    return emit.to_bytes(*build(cases))
 
 
 def write(path: Path, cases: Cases = REPORT) -> None:

@@ -1,12 +1,13 @@
 """Files that are written whole or not at all."""
 
 import os
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from errno import EINVAL, EISDIR
+from errno import EACCES, EINVAL, EISDIR, ENOTDIR
 from pathlib import Path
 
-__all__ = ["check_target", "draft_of", "write_bytes"]
+__all__ = ["check_folder", "check_target", "draft_of", "write_bytes", "write_folder"]
 
 
 def check_target(path: Path) -> Path:
@@ -60,3 +61,38 @@ def write_bytes(path: Path, content: bytes) -> None:
     """Write a file by way of a draft beside it. Raises OSError, naming the path."""
     with draft_of(path) as draft:
         draft.write_bytes(content)
+
+
+def check_folder(folder: Path, names: Iterable[str]) -> None:
+    """Raise OSError, naming the path, where files of these names could not be written.
+
+    The names may lead into folders below; none of the folders need be there yet.
+    """
+    for path in (folder / name for name in names):
+        there = _existing(path.parent)
+        if not there.is_dir():
+            raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(there))
+        if not os.access(there, os.W_OK):
+            raise PermissionError(EACCES, "cannot be written to", str(there))
+        if path.parent.is_dir():
+            check_target(path)
+
+
+def _existing(folder: Path) -> Path:
+    """The folder, or the nearest above it that exists."""
+    return next(path for path in (folder, *folder.absolute().parents) if path.exists())
+
+
+def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write files by name into a folder, made if needed.
+
+    They are made beside the folder first and moved in when all are done. Raises OSError.
+    """
+    with tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".coldspray-") as temporary:
+        for name, content in files.items():
+            draft = Path(temporary, name)
+            draft.parent.mkdir(parents=True, exist_ok=True)
+            draft.write_bytes(content)
+        for name in files:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            Path(temporary, name).replace(folder / name)

@@ -40,6 +40,7 @@ NOT_FOR_MODELS = {
 EDGES = (
     "replication.analysis",
     "replication.audit",
+    "replication.bench",
     "replication.reports",
     "replication.commands",
     "replication.cli",

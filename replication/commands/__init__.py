@@ -7,6 +7,7 @@ from types import ModuleType
 
 from replication.commands import (
     audit,
+    bench,
     claims,
     converge,
     depth,
@@ -29,5 +30,6 @@ COMMANDS: tuple[ModuleType, ...] = (
     converge,
     stability,
     sweep,
+    bench,
 )
 """In the order in which `coldspray --help` lists them."""

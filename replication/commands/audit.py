@@ -24,11 +24,12 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Audit, write, summarize."""
     from replication.audit import Verdict, audit
-    from replication.reports.files import FILES, check_folder, write_audit
+    from replication.reports.files import FILES, write_audit
     from replication.reports.records import audit_record
     from replication.reports.terminal import audit_summary
+    from spreadsheets.safely import check_folder
 
-    check_folder(options.out)
+    check_folder(options.out, FILES)
     done = audit()
     record = audit_record(done)
     write_audit(done, record, options.out)

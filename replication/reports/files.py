@@ -1,8 +1,5 @@
 """The audit's files, written all or none."""
 
-import os
-import tempfile
-from errno import EACCES, ENOTDIR
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +10,9 @@ from replication.reports.html import page
 from replication.reports.markdown import markdown
 from replication.reports.plain import json_text, rows_csv
 from replication.reports.provenance import sealed
-from spreadsheets.safely import check_target
+from spreadsheets.safely import write_folder
 
-__all__ = ["FILES", "check_folder", "write_audit"]
+__all__ = ["FILES", "write_audit"]
 
 
 FILES = (
@@ -24,39 +21,15 @@ FILES = (
 )  # fmt: skip
 
 
-def check_folder(folder: Path) -> None:
-    """Raise OSError where the audit's files cannot be written, before anything is computed."""
-    for wanted in (folder, folder / "figures"):
-        existing = _existing(wanted)
-        if not existing.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(existing))
-        if not os.access(existing, os.W_OK):
-            raise PermissionError(EACCES, "cannot be written to", str(existing))
-    for path in (folder / name for name in FILES):
-        if path.parent.is_dir():
-            check_target(path)
-
-
-def _existing(folder: Path) -> Path:
-    """The folder, or the nearest above it that exists."""
-    return next(path for path in (folder, *folder.absolute().parents) if path.exists())
-
-
-def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> list[Path]:
-    """Write the audit's `FILES` into a folder, made if needed.
+def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> None:
+    """Write the audit's `FILES` into a folder, made if needed: all or none.
 
     `record` is the audit as `reports.records.audit_record` gives it; the hash of the workbook is
-    added to its provenance. The files are made beside the folder first and moved in when all are
-    done. Raises OSError when it cannot be done.
+    added to its provenance. Raises OSError when it cannot be done.
     """
-    with tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".coldspray-") as temporary:
-        made = Path(temporary)
-        workbook.write(made / "workbook.xlsx")
-        (made / "figures").mkdir()
-        for name, content in _contents(audit, sealed(record, made / "workbook.xlsx")).items():
-            (made / name).write_bytes(content)
-        (folder / "figures").mkdir(parents=True, exist_ok=True)
-        return [(made / name).replace(folder / name) for name in FILES]
+    book = workbook.to_bytes()
+    files = _contents(audit, sealed(record, {"workbook.xlsx": book}))
+    write_folder(folder, {"workbook.xlsx": book, **files})
 
 
 def _contents(audit: Audit, record: dict[str, Any]) -> dict[str, bytes]:

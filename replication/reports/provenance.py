@@ -1,9 +1,9 @@
 """What an audit was made with and from; no clock and no machine, so that it is the same again."""
 
 import platform
+from collections.abc import Mapping
 from hashlib import sha256
 from importlib import metadata, resources
-from pathlib import Path
 from typing import Any
 
 __all__ = ["provenance", "sealed"]
@@ -26,8 +26,8 @@ def provenance() -> dict[str, Any]:
     }
 
 
-def sealed(record: dict[str, Any], workbook: Path) -> dict[str, Any]:
-    """An audit's record with the hash of the workbook that stands beside it."""
+def sealed(record: dict[str, Any], files: Mapping[str, bytes]) -> dict[str, Any]:
+    """An audit's record with the hashes of files that stand beside it."""
     made = record["provenance"]
-    hashes = {**made["sha256"], workbook.name: sha256(workbook.read_bytes()).hexdigest()}
-    return {**record, "provenance": {**made, "sha256": hashes}}
+    hashes = {name: sha256(content).hexdigest() for name, content in files.items()}
+    return {**record, "provenance": {**made, "sha256": {**made["sha256"], **hashes}}}

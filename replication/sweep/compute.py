@@ -2,13 +2,11 @@
 
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from replication import closed_form
 from replication.case import INPUTS
-from replication.impact import Impact
-from replication.midpoint import run
+from replication.midpoint_many import run_many
 from replication.sweep.plan import BLOCK, Plan
 
 __all__ = ["Block", "block", "columns"]
@@ -63,15 +61,9 @@ def compute(plan: Plan, first: int, count: int) -> Block:
 
 
 def _sheets(inputs: Block, first: int) -> Block:
-    names = (*MOTION, "step", "stop_velocity")
-    sheets: list[tuple[float, int]] = []
-    for values in zip(*(inputs[name].tolist() for name in names), strict=True):
-        case = dict(zip(names, values, strict=True))
-        try:
-            sheet = run(Impact(**case))
-        except ValueError as error:
-            where = ", ".join(f"{name} {value!r}" for name, value in case.items())
-            raise ValueError(f"case {first + len(sheets)} ({where}): {error}") from error
-        sheets.append((sheet.final_depth, sheet.steps))
-    depths, steps = zip(*sheets, strict=True)
-    return {"sheet_depth": np.array(depths), "sheet_steps": np.array(steps)}
+    cases: Any = {name: inputs[name] for name in (*MOTION, "step", "stop_velocity")}
+    try:
+        depth, steps = run_many(**cases)
+    except ValueError as error:
+        raise ValueError(f"of the cases from {first} on: {error}") from error
+    return {"sheet_depth": depth, "sheet_steps": steps}

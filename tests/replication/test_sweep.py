@@ -403,7 +403,7 @@ def test_a_case_that_the_sheet_refuses_ends_the_sweep(tmp_path: Path, coldspray:
     file.write_text('[sweep]\noutputs = ["sheet_depth"]\n[inputs]\nstep = [1e-9, 1e-10, 1e-15]')
     status, out, err = coldspray("sweep", file, "-o", tmp_path / "out.csv")
     assert (status, out) == (2, "")
-    assert re.search(r"case 2.*would take about 2\.6\d*e\+07 steps", err)
+    assert re.search(r"cases from 0 on: .*case \[2\].*would take about 2\.6\d*e\+07 steps", err)
     assert names(tmp_path) == ["plan.toml"]
 
 

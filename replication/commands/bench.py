@@ -1,0 +1,79 @@
+"""`coldspray bench`: speed against error, every method and its peers in one run."""
+
+import argparse
+import sys
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from replication.case import read_number
+from replication.commands import shared
+
+if TYPE_CHECKING:
+    from replication.bench.run import Watch
+    from replication.bench.task import Task
+
+HELP = "speed against error: every method and its peers"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    command.add_argument(
+        "--case", action="append", metavar="NAME", help="only this case; may be repeated"
+    )
+    command.add_argument(
+        "--quick", action="store_true", help="beta-5 unless --case is given, 1 repeat, 1 s"
+    )
+    command.add_argument("--repeat", type=int, metavar="N", help="repeats (7)")
+    command.add_argument("--limit", metavar="X", help="for each task, in s or with its unit (5 s)")
+    command.add_argument(
+        "--out", type=shared.path, metavar="DIR", help="also write JSON, CSV, text and figures"
+    )
+    command.add_argument("--csv", action="store_true", help="print CSV")
+    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument("--quiet", action="store_true", help="no progress")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure, print, and write the files if asked to."""
+    from replication.bench.cases import CASES
+    from replication.bench.run import bench
+    from replication.reports.bench import bench_record, bench_rows
+    from replication.reports.bench_files import check, write
+    from replication.reports.bench_text import bench_text
+    from replication.reports.plain import rows_csv
+
+    names = options.case or (["beta-5"] if options.quick else list(CASES))
+    if options.out is not None:
+        check(options.out, names)
+    done = bench(names, **_effort(options), watch=_watch(options))
+    if options.out is not None:
+        write(done, options.out)
+    if options.json:
+        shared.print_json(bench_record(done))
+    elif options.csv:
+        sys.stdout.write(rows_csv(bench_rows(bench_record(done))))
+    else:
+        print(bench_text(done))
+    return 0
+
+
+def _effort(options: argparse.Namespace) -> dict[str, Any]:
+    """Repeats and limit: as given, or as much as a quick or a full run takes."""
+    repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
+    return {
+        "repeat": repeat if options.repeat is None else options.repeat,
+        "limit": limit if options.limit is None else read_number(options.limit, "s"),
+    }
+
+
+def _watch(options: argparse.Namespace) -> "Watch":
+    """A progress bar on standard error, if that is a terminal."""
+    from tqdm import tqdm
+
+    quiet = True if options.quiet else None  # None: tqdm looks whether it is a terminal
+
+    def watch(todo: "Sequence[Task]", name: str) -> "Iterable[Task]":
+        bar: Iterable[Task] = tqdm(todo, desc=name, disable=quiet, leave=False)
+        return bar
+
+    return watch
