@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from replication import closed_form
-from replication.analysis.budget import exact_motion
 from replication.impact import CASES, Impact
 from replication.midpoint import run
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
@@ -53,9 +52,7 @@ def plot(figure: Figure, _: dict[str, Any]) -> None:
 
 
 def _exact(case: Impact) -> tuple[Any, Any]:
-    """Time [s] and depth [m] down to rest, closest where the motion is slow."""
-    motion = exact_motion(case)
-    velocities = case.velocity * np.linspace(1, 0, 60) ** 1.5
-    times = [closed_form.stop_time(**case.motion, stop_velocity=float(v)) for v in velocities]
-    depths = [float(motion.depth_at_velocity(v)) for v in velocities]
-    return np.array(times), np.array(depths)
+    """Time [s] and depth [m] from touch to rest."""
+    times = np.linspace(0.0, float(closed_form.stop_time(**case.motion)), 101)
+    depths, _ = closed_form.history(times, **case.motion)
+    return times, depths
