@@ -116,4 +116,5 @@ def _lead(choices: Sequence[Choice]) -> str:
     if not ratios:
         return ""
     least, most = number(min(ratios), 3), number(max(ratios), 3)
-    return f"; SciPy takes {least} to {most} times as long as the closed form"
+    times = least if least == most else f"{least} to {most}"
+    return f"; SciPy takes {times} times as long as the closed form"
