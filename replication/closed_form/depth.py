@@ -182,15 +182,22 @@ def _root(r: Any, r_low: Any) -> Any:
     The first by the triple angle, in the form that does not cancel for shallow craters: with
     h = asin(sqrt(r)) / 3, y = 4 sin(h) sin(h + pi/3), here by the one tangent of h.
     """
+    work, rest = 4 * r, 4 * r_low
     capped = np.minimum(r, 0.5)
     t = np.tan(np.arcsin(np.sqrt(capped)) / 3)
-    y = 2 * t * (t + _SQRT_3) / (1 + t * t)
+    y = 2 * t
+    y *= t + _SQRT_3
+    y /= 1 + t * t
     # One Newton step takes out the rounding of the root, and what r leaves out of the ratio.
-    y = y - (y * y * (3 - y) - 4 * capped - 4 * r_low) / (3 * y * (2 - y))
-    work = 4 * r
+    over = y * y
+    over *= 3 - y
+    over -= 4 * capped
+    over -= rest
+    over /= 3 * y * (2 - y)
+    y -= over
     deep = 1 + work
     # [()] makes a number of an array without axes: its arithmetic costs a fifth.
-    return np.where(r <= 0.5, y, (deep + (work - deep + 1 + 4 * r_low)) / 3)[()]
+    return np.where(r <= 0.5, y, (deep + (work - deep + 1 + rest)) / 3)[()]
 
 
 _SQRT_3 = float(np.sqrt(3.0))
@@ -232,5 +239,6 @@ _HIGH_26, _HIGH_17 = 2.0**27 + 1, 2.0**36 + 1
 
 def _high(a: Any, splitter: float = _HIGH_26) -> Any:
     """The upper 26, or 17, bits (Veltkamp)."""
-    shifted = splitter * a
-    return shifted - (shifted - a)
+    high = splitter * a
+    high -= high - a
+    return high

@@ -36,7 +36,14 @@ def elementwise(
     return lifted(numeric, inputs)
 
 
+_KEPT = 1 << 20
+"""Doubles: more than the temporary arrays of a block together."""
+
+
 def _in_blocks(formula: Formula, arrays: Sequence[Any], block: int) -> Any:
+    # The C library keeps memory freed by the formula for its next block, instead of giving it back
+    # to the system page by page, once it has seen a larger piece come and go (glibc, mallopt).
+    np.empty(_KEPT)
     flags: Any = [*[["readonly"]] * len(arrays), ["writeonly", "allocate"]]
     blocks = np.nditer(
         [*arrays, None],

@@ -22,17 +22,18 @@ def best(work: Callable[[], Any], number: int = 1, repeat: int = 7) -> float:
 
 def depth(count: int) -> None:
     """Against the elementary calls alone, of the same number of elements."""
-    cases = random_cases(count, seed=1)
+    cases, number = random_cases(count, seed=1), 2_000_000 // count
     p = 0.5 * cases["target_density"] * cases["velocity"] ** 2 / cases["resistance"]
     ratio = np.minimum(cases["particle_density"] / cases["target_density"] * np.log1p(p), 0.5)
     root = np.sqrt(ratio)
     angle = np.arcsin(root) / 3
     common = sum(
-        best(lambda f=f, x=x: f(x)) for f, x in ((np.log1p, p), (np.sqrt, ratio), (np.arcsin, root))
+        best(lambda f=f, x=x: f(x), number)
+        for f, x in ((np.log1p, p), (np.sqrt, ratio), (np.arcsin, root))
     )
-    sines = common + 2 * best(lambda: np.sin(angle))
-    tangent = common + best(lambda: np.tan(angle))
-    ours = best(lambda: closed_form.final_depth(**cases))
+    sines = common + 2 * best(lambda: np.sin(angle), number)
+    tangent = common + best(lambda: np.tan(angle), number)
+    ours = best(lambda: closed_form.final_depth(**cases), number)
     print(f"final depth of {count} cases: {ours / count * 1e9:.1f} ns each")
     print(f"  over log1p, sqrt, arcsin and two sin:  {ours / sines:.2f}")
     print(f"  over log1p, sqrt, arcsin and one tan:  {ours / tangent:.2f}")
