@@ -1,8 +1,8 @@
 """The motion without time steps: Eq. 13 separated and integrated once, over arrays of cases.
 
-All arguments broadcast. Scalars give a scalar, NumPy arrays an array, pandas Series a Series (joined
-by their labels), xarray and dask arrays a lazy one if they are. Work goes in blocks that fit the
-cache. Bad elements raise a ValueError that names the first by its index (within its chunk, where a
+All arguments broadcast. Scalars give a scalar, NumPy arrays an array, pandas Series one matched
+by label, xarray and dask arrays the like, lazily if they are lazy. Work goes in blocks that fit
+the cache. Bad elements raise a ValueError that names the first by its index (in its chunk, where a
 dask array is computed).
 """
 

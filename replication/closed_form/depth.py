@@ -133,7 +133,7 @@ def _ratio_at_velocity(
     left = 2 * resistance + target_density * at * at
     lost = target_density * (velocity - at) * (velocity + at) / left
     r = particle_density * np.log1p(np.where(lost >= 0, lost, np.nan)) / target_density
-    return np.where(lost == 0, 0.0, _root(r, 0.0))
+    return np.where(lost == 0, 0.0, _root(r, 0.0))[()]
 
 
 def depth_and_left(
@@ -141,13 +141,13 @@ def depth_and_left(
 ) -> tuple[Any, Any]:
     """Normalized depth at the velocity `at` [m/s], and from there to rest at `final`."""
     y = _ratio_at_velocity(at, velocity, particle_density, target_density, resistance)
-    left = final - y
+    left = np.maximum(final - y, 0.0)
     work = np.log1p(target_density * at * at / (2 * resistance))
     work = particle_density * work / (0.75 * target_density)
     # Near rest the difference keeps few digits; one Newton step on the work gives them back.
     edge = np.minimum(y, 1.0)
     newton = left - (_work_left(final, left) - work) / (edge * (2 - edge))
-    return y, np.where(2 * left < final, np.maximum(newton, 0.0), left)
+    return y, np.where(2 * left < final, np.maximum(newton, 0.0), left)[()]
 
 
 def _velocity_at_depth(
@@ -182,14 +182,22 @@ def _root(r: Any, r_low: Any) -> Any:
     The first by the triple angle, in the form that does not cancel for shallow craters: with
     h = asin(sqrt(r)) / 3, y = 4 sin(h) sin(h + pi/3), here by the one tangent of h.
     """
+    work, rest = 4 * r, 4 * r_low
     capped = np.minimum(r, 0.5)
     t = np.tan(np.arcsin(np.sqrt(capped)) / 3)
-    y = 2 * t * (t + _SQRT_3) / (1 + t * t)
+    y = 2 * t
+    y *= t + _SQRT_3
+    y /= 1 + t * t
     # One Newton step takes out the rounding of the root, and what r leaves out of the ratio.
-    y = y - (y * y * (3 - y) - 4 * capped - 4 * r_low) / (3 * y * (2 - y))
-    work = 4 * r
+    over = y * y
+    over *= 3 - y
+    over -= 4 * capped
+    over -= rest
+    over /= 3 * y * (2 - y)
+    y -= over
     deep = 1 + work
-    return np.where(r <= 0.5, y, (deep + (work - deep + 1 + 4 * r_low)) / 3)
+    # [()] makes a number of an array without axes: its arithmetic costs a fifth.
+    return np.where(r <= 0.5, y, (deep + (work - deep + 1 + rest)) / 3)[()]
 
 
 _SQRT_3 = float(np.sqrt(3.0))
@@ -231,5 +239,6 @@ _HIGH_26, _HIGH_17 = 2.0**27 + 1, 2.0**36 + 1
 
 def _high(a: Any, splitter: float = _HIGH_26) -> Any:
     """The upper 26, or 17, bits (Veltkamp)."""
-    shifted = splitter * a
-    return shifted - (shifted - a)
+    high = splitter * a
+    high -= high - a
+    return high

@@ -1,6 +1,7 @@
 """A formula for blocks of numbers, applied to whatever holds them: the door of `closed_form`."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,14 @@ def elementwise(
     return lifted(numeric, inputs)
 
 
+_KEPT = 1 << 20
+"""Doubles: more than the temporary arrays of a block together."""
+
+
 def _in_blocks(formula: Formula, arrays: Sequence[Any], block: int) -> Any:
+    # The C library keeps memory freed by the formula for its next block, instead of giving it back
+    # to the system page by page, once it has seen a larger piece come and go (glibc, mallopt).
+    np.empty(_KEPT)
     flags: Any = [*[["readonly"]] * len(arrays), ["writeonly", "allocate"]]
     blocks = np.nditer(
         [*arrays, None],
@@ -94,15 +102,16 @@ def lifted(numeric: Formula, inputs: Mapping[str, Any], outputs: int = 1) -> Any
 
     They are recognized by their type, so that none is imported before it is in use.
     """
-    libraries = {
-        parent.__module__.partition(".")[0]
-        for value in inputs.values()
-        for parent in type(value).__mro__
-    }
+    libraries = set().union(*map(_libraries, map(type, inputs.values())))
     for library, lift in _LIFTS.items():
         if library in libraries:
             return lift(numeric, inputs, outputs)
     return numeric(**inputs)
+
+
+@cache
+def _libraries(kind: type) -> frozenset[str]:
+    return frozenset(parent.__module__.partition(".")[0] for parent in kind.__mro__)
 
 
 def _xarray(numeric: Formula, inputs: Mapping[str, Any], outputs: int) -> Any:

@@ -1,5 +1,6 @@
 """Depth and velocity against time: the motion tabulated by its time, and read between the lines."""
 
+from collections.abc import Sequence
 from math import prod
 from typing import Any
 
@@ -43,20 +44,27 @@ def _history(**inputs: Any) -> tuple[Any, Any]:
     """Cases first, their times last: a table is made once for a case, not for each of its times."""
     arrays = checked(inputs)
     time, *given = arrays.values()
-    case = np.broadcast_arrays(*given)
-    shape = np.broadcast_shapes(time.shape, case[0].shape)
-    sizes = (1,) * (len(shape) - case[0].ndim) + case[0].shape
+    cases = _stacked(given)
+    shape = np.broadcast_shapes(time.shape, cases.shape[1:])
+    sizes = (1,) * (len(shape) + 1 - cases.ndim) + cases.shape[1:]
     order = sorted(range(len(shape)), key=lambda axis: sizes[axis] == 1)
     times = np.broadcast_to(time, shape).transpose(order)
     moved = times.shape
-    count = case[0].size
+    count = prod(sizes)
     times = times.reshape(count, prod(moved) // max(count, 1))
     with np.errstate(all="ignore"):
-        results = _in_blocks(times, np.array([value.ravel() for value in case]))
+        results = _in_blocks(times, cases.reshape(len(cases), count))
     back = np.argsort(order)
     depth, velocity = (result.reshape(moved).transpose(back)[()] for result in results)
     require_finite(arrays, depth + velocity)
     return depth, velocity
+
+
+def _stacked(inputs: Sequence[Any]) -> Any:
+    stack = np.empty((len(inputs), *np.broadcast_shapes(*(value.shape for value in inputs))))
+    for row, value in enumerate(inputs):
+        stack[row] = value
+    return stack
 
 
 _CASES, _ELEMENTS = 64, 16384
@@ -95,15 +103,14 @@ class _Table:
         per_radius = motion.drag / radius
         a = -per_radius * stress * area
         jerk = -2 * per_radius * v * (a * area + stress * (1 - y) / radius)
-        lines = np.array([[radius * y, v], [v, a], [a, jerk]])
-        self.width = np.diff(self.time)
-        self.polynomials = _quintic(lines[..., :-1], lines[..., 1:], self.width)
+        self.width = self.time[:, 1:] - self.time[:, :-1]
+        self.polynomials = _quintics(((radius * y, v, a), (v, a, jerk)), self.width)
 
     def at(self, time: Any) -> tuple[Any, Any]:
         """Depth and velocity at times of shape (n, m)."""
         motion, end = self.motion, self.time[:, -1:]
         panel, share = self._place(np.minimum(time, end))
-        depth, velocity = _horner(self.polynomials[..., panel], share)
+        depth, velocity = _horner(self.polynomials.take(panel, axis=-1), share)
         if np.any(motion.beyond):
             y, v = motion.deep(time - end)
         else:
@@ -133,25 +140,41 @@ def _panels(motion: Motion) -> int:
 
 def _times(motion: Motion, e: Any) -> Any:
     """Times of shape (n, panels + 1) at the ends of the panels."""
-    nodes, weights = gauss(4)
-    width = np.diff(e)
+    nodes, weights = gauss(3)
+    width = e[:, 1:] - e[:, :-1]
     slowness = motion.slowness(e[:, :-1] + np.multiply.outer(nodes, width))
     times = np.zeros_like(e)
-    np.cumsum((weights @ slowness.reshape(4, -1)).reshape(width.shape) * width, 1, out=times[:, 1:])
+    np.cumsum(
+        (weights @ slowness.reshape(len(nodes), -1)).reshape(width.shape) * width,
+        1,
+        out=times[:, 1:],
+    )
     return times
 
 
-def _quintic(before: Any, after: Any, width: Any) -> Any:
-    """Coefficients, in the share of the panel, of what has these values and derivatives."""
-    (f, d, s), (f1, d1, s1) = before, after
-    d, d1 = d * width, d1 * width
-    s, s1 = s * width**2 / 2, s1 * width**2 / 2
-    rise = f1 - f
-    cubic = 10 * rise - 6 * d - 4 * d1 - 3 * s + s1
-    quartic = -15 * rise + 8 * d + 7 * d1 + 3 * s - 2 * s1
-    quintic = 6 * rise - 3 * (d + d1) - s + s1
-    coefficients = np.array([f, d, s, cubic, quartic, quintic])
-    return coefficients.reshape(*coefficients.shape[:-2], -1)
+_QUINTIC = np.array(
+    [  # of the first value, the rise, both slopes, both halved curvatures
+        [1, 0, 0, 0, 0, 0],
+        [0, 0, 1, 0, 0, 0],
+        [0, 0, 0, 0, 1, 0],
+        [0, 10, -6, -4, -3, 1],
+        [0, -15, 8, 7, 3, -2],
+        [0, 6, -3, -3, -1, 1],
+    ],
+    dtype=float,
+)
+
+
+def _quintics(curves: Any, width: Any) -> Any:
+    """Coefficients, in the share of the panel, of curves given by value, slope and curvature."""
+    ends = np.empty((6, len(curves), *width.shape))
+    half_square = width * width / 2
+    for k, (value, slope, curvature) in enumerate(curves):
+        before, after = value[:, :-1], value[:, 1:]
+        ends[:2, k] = before, after - before
+        ends[2:4, k] = slope[:, :-1] * width, slope[:, 1:] * width
+        ends[4:, k] = curvature[:, :-1] * half_square, curvature[:, 1:] * half_square
+    return (_QUINTIC @ ends.reshape(6, -1)).reshape(6, len(curves), -1)
 
 
 def _horner(coefficients: Any, share: Any) -> Any:

@@ -50,6 +50,27 @@ def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
     assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
 
 
+def test_history_prints_the_promised_keys(coldspray: Command) -> None:
+    status, out, err = coldspray("history", "--points", 5, "--json")
+    record = json.loads(out)
+    assert (status, err) == (0, "")
+    assert list(record) == ["inputs", "time", "depth", "velocity", "stop_time"]
+    assert {len(record[name]) for name in ("time", "depth", "velocity")} == {5}
+    assert record["time"][-1] == record["stop_time"] == pytest.approx(2.6079233782409e-08)
+    assert record["depth"][-1] == pytest.approx(7.674932926028624e-06, rel=1e-13)
+    assert record["velocity"][0] == 500.0
+
+
+def test_history_at_given_times_as_text_and_csv(coldspray: Command) -> None:
+    times = ["--times", "0 ns,5 ns, 1e-6"]
+    rows = list(csv.DictReader(coldspray("history", *times, "--csv")[1].splitlines()))
+    assert [float(row["time"]) for row in rows] == [0.0, 5e-9, 1e-6]
+    assert float(rows[-1]["velocity"]) == 0.0
+    text = coldspray("history", *times)[1]
+    assert re.search(r"^ +5 +2\.4396484 +464\.8750", text, re.MULTILINE)
+    assert re.search(r"^stop time +26\.079234 ns$", text, re.MULTILINE)
+
+
 def test_claims_are_listed_and_proven(coldspray: Command) -> None:
     listing = coldspray("claims")[1].splitlines()
     records = json.loads(coldspray("claims", "--json")[1])
@@ -105,6 +126,10 @@ WRONG = {
     "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
     "no command": ([], "required: COMMAND"),
     "too many rows": (["sheet", "--step", "1e-18"], r"about 2\.604e\+10 steps"),
+    "one point": (["history", "--points", "1"], "--points wants 2 to 1,000,000, not 1"),
+    "before the impact": (["history", "--times", "0,-1 ns"], r"time\[1\] is -1e-09.*zero or more"),
+    "no time": (["history", "--times", "soon"], "'soon' is no finite number"),
+    "points and times": (["history", "--points", "3", "--times", "0"], "not allowed with"),
     "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
     "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
     "file for a folder": (["audit", "--out", "taken"], "taken: is a file"),
