@@ -85,7 +85,10 @@ def test_models_are_found() -> None:
     }
 
 
-HEAVY = {"pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl", "matplotlib", "jinja2"}
+HEAVY = {
+    "pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl", "matplotlib", "jinja2", "scipy",
+    "tqdm",
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -94,8 +97,9 @@ HEAVY = {"pandas", "mpmath", "flint", "pint", "xlsxwriter", "openpyxl", "matplot
         (["--help"], HEAVY | {"numpy"}),
         (["depth"], HEAVY),
         (["sheet"], HEAVY),
+        (["history"], HEAVY),
     ],
-    ids=["help", "depth", "sheet"],
+    ids=["help", "depth", "sheet", "history"],
 )
 def test_light_commands_load_no_heavy_library(arguments: list[str], unwanted: set[str]) -> None:
     program = (

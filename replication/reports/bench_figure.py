@@ -64,7 +64,7 @@ def _draw(panel: Any, points: Sequence[Point], front: Sequence[Point]) -> None:
         times, errors = [p.seconds for p in ladder], [p.met for p in ladder]
         panel.plot(times, errors, color=color, marker=marker, markersize=5, linewidth=1.2)
         ends.append((method, times[-1], errors[-1]))
-    panel.set(xlim=_wide(panel.get_xlim(), 1, 20), ylim=_wide(panel.get_ylim(), 30, 1))
+    panel.set(xlim=_wide(panel.get_xlim(), 3, 20), ylim=_wide(panel.get_ylim(), 30, 1))
     _label(panel, ends)
     _draw_front(panel, front)
 
@@ -76,23 +76,21 @@ def _wide(limits: tuple[float, float], left: float, right: float) -> tuple[float
 
 def _label(panel: Any, ends: Sequence[tuple[str, float, float]]) -> None:
     """Every method's name at its last point, moved down where it would cover another."""
+    low, high = panel.get_xlim()
+    decades = math.log10(high / low)
     placed: list[tuple[float, float]] = []
     for method, time, error in sorted(ends, key=lambda end: (-end[2], end[1])):
         x, y = math.log10(time), math.log10(error)
-        while any(abs(x - u) < _WIDTH and abs(y - v) < _HEIGHT for u, v in placed):
+        while any(abs(x - u) < decades * _WIDTH and abs(y - v) < _HEIGHT for u, v in placed):
             y -= _HEIGHT / 8
         placed.append((x, y))
-        panel.annotate(
-            method,
-            (time, error),
-            xytext=(time * 1.2, 10**y),
-            color=_STYLES[method][0],
-            verticalalignment="center",
+        panel.text(
+            time * 10 ** (0.013 * decades), 10**y, method, color=_STYLES[method][0], va="center"
         )
 
 
-_WIDTH, _HEIGHT = 1.7, 0.8
-"""Of a name, in decades."""
+_WIDTH, _HEIGHT = 0.2, 0.8
+"""Of a name: in widths of the panel, and in decades of the error."""
 
 
 def _draw_front(panel: Any, front: Sequence[Point]) -> None:

@@ -96,8 +96,9 @@ def _answer(results: Sequence[Result], measure: Measure) -> Iterator[str]:
     for advice, group in groupby(rows, key=lambda row: _advice(names, row)):
         choices = [choice for row in group for choice in row]
         first, last = choices[0].digits, choices[-1].digits
-        digits = str(first) if first == last else f"{first} to {last}"
-        yield f"{TITLES[measure]}, {digits} digits: {advice}{_lead(choices)}"
+        digits = "1 digit" if last == 1 else f"{last} digits"
+        digits = digits if first == last else f"{first} to {digits}"
+        yield f"{TITLES[measure]}, {digits}: {advice}{_lead(choices)}"
 
 
 def _advice(names: Sequence[str], row: Sequence[Choice]) -> str:
@@ -116,4 +117,5 @@ def _lead(choices: Sequence[Choice]) -> str:
     if not ratios:
         return ""
     least, most = number(min(ratios), 3), number(max(ratios), 3)
-    return f"; SciPy takes {least} to {most} times as long as the closed form"
+    times = least if least == most else f"{least} to {most}"
+    return f"; SciPy takes {times} times as long as the closed form"
