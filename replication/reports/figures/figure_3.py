@@ -12,7 +12,7 @@ from replication.reports.figures.drawing import BLUE, INK, VERMILION
 
 NAME = "figure-3"
 TITLE = "Penetration depth against time, as in Figure 3 of the report"
-SIZE = (7.2, 4.4)
+SIZE = (5.0, 4.2)
 
 
 def describe(_: dict[str, Any]) -> str:
@@ -29,21 +29,23 @@ def describe(_: dict[str, Any]) -> str:
     return f"Depth rises ever more slowly to rest: {told}. At this scale the two coincide."
 
 
-def plot(figure: Figure, _: dict[str, Any]) -> None:
+def plot(figure: Figure, record: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
+    printed = {one["id"]: one["printed"] for one in record["claims"]}
     axes = figure.subplots()
-    looks = ((VERMILION, "o", (0, 9), "right"), (BLUE, "s", (8, -4), "left"))
-    for case, (color, marker, offset, side) in zip(CASES.values(), looks, strict=True):
+    looks = ((VERMILION, "o", (0, 9)), (BLUE, "s", (8, 9)))
+    for (name, case), (color, marker, offset) in zip(CASES.items(), looks, strict=True):
         times, depths = _exact(case)
         axes.plot(times * 1e9, depths * 1e6, color=INK, linewidth=1.0)
         rows = run(case).arrays()
         axes.plot(rows["time"][::4] * 1e9, rows["depth"][::4] * 1e6, marker, color=color, ms=4)
         axes.annotate(
-            f"β = {case.beta:g}: {rows['depth'][-1] * 1e6:.2f} µm",
+            f"β = {case.beta:g}: sheet {rows['depth'][-1] * 1e6:.2f}, "
+            f"report {printed[f'depth-{name}']} µm",
             (times[-1] * 1e9, depths[-1] * 1e6),
             xytext=offset,
             textcoords="offset points",
-            ha=side,
+            ha="right",
         )
     axes.plot([], [], "o", color=INK, ms=4, label="the sheet, every fourth row")
     axes.plot([], [], color=INK, linewidth=1.0, label="exact")

@@ -15,7 +15,7 @@ from replication.reports.figures.drawing import BLUE, INK
 
 NAME = "figure-5"
 TITLE = "Normalized depth against impact velocity, as in Figure 5 of the report"
-SIZE = (7.2, 4.0)
+SIZE = (5.0, 3.6)
 
 
 def describe(record: dict[str, Any]) -> str:

@@ -1,0 +1,99 @@
+"""The record's numbers and texts as a reader sees them, alike in HTML and in Markdown."""
+
+import re
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
+from fractions import Fraction
+from typing import Any
+
+from replication.text import number, rounded
+
+__all__ = ["NOTHING_OPEN", "answer", "digits_of", "evidence", "plain", "proven", "share", "witness"]
+
+NOTHING_OPEN = "Nothing is open."
+"""What a finding says of how to settle it where there is nothing to settle."""
+
+
+def plain(text: str) -> str:
+    r"""A printed text without the TeX in which it was read.
+
+    >>> plain(r"9.13 \times 10^9"), plain(r"\frac{1}{2}")
+    ('9.13 × 10^9', '1/2')
+    """
+    return re.sub(r"\\frac\{(\w+)\}\{(\w+)\}", r"\1/\2", text).replace(r"\times", "×")
+
+
+def digits_of(text: str) -> int:
+    """How many significant digits a number is printed with.
+
+    >>> digits_of("0.0550"), digits_of(">= 2680"), digits_of("7.6E9")
+    (3, 4, 2)
+    """
+    mantissa = re.split(r"[eE×\\]", text)[0]
+    return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
+
+
+_ROUNDING = {">=": ROUND_FLOOR, ">": ROUND_FLOOR, "<=": ROUND_CEILING, "<": ROUND_CEILING}
+
+
+def evidence(piece: dict[str, Any]) -> str:
+    """What was computed for a finding, to two digits beyond the asserted ones.
+
+    A bound is rounded to its safe side.
+
+    >>> evidence({"asserted": ">= 1.147", "computed": 1.1475699})
+    '1.1475'
+    """
+    asserted, computed = piece["asserted"], piece["computed"]
+    if isinstance(computed, bool):
+        return "yes" if computed else "no"
+    rounding = _ROUNDING.get(asserted.partition(" ")[0], ROUND_HALF_EVEN)
+    return rounded(Fraction(computed), digits_of(asserted) + 2, rounding)
+
+
+def proven(ends: list[float]) -> str:
+    """A proven range, widened to ten digits at each end.
+
+    >>> proven([0.12374472967338257, 0.13081477249718315])
+    '0.1237447296 to 0.1308147725'
+    """
+    low, high = map(Fraction, ends)
+    return f"{rounded(low, 10, ROUND_FLOOR)} to {rounded(high, 10, ROUND_CEILING)}"
+
+
+def share(part: float) -> str:
+    """A share of a whole.
+
+    >>> share(0.0021214), share(4e-6)
+    ('0.21 %', 'less than 0.01 %')
+    """
+    return f"{number(100 * part, 2)} %" if part >= 1e-4 else "less than 0.01 %"
+
+
+def answer(joint: dict[str, Any]) -> str:
+    """What is known of a joint question: why not, or inputs that give all the claims.
+
+    >>> answer({"bound": "", "witness": {"a1-radius": 1.1e-05}, "outcome": "possible"})
+    'Inputs that print like the report’s give them all, for instance (SI) a1-radius 1.1e-05.'
+    """
+    if joint["witness"] is None:
+        return str(joint["bound"])
+    inputs = witness(joint["witness"])
+    if joint["bound"]:
+        return f"{joint['bound']} They are (SI) {inputs}."
+    inferred = any(name.startswith("inferred:") for name in joint["witness"])
+    which = ", with an inferred one that the evidence allows," if inferred else ""
+    return f"Inputs that print like the report’s{which} give them all, for instance (SI) {inputs}."
+
+
+def witness(values: dict[str, float]) -> str:
+    """Inputs by name.
+
+    >>> witness({"inferred:target-density": 7777.4658203125})
+    'target-density (inferred) 7777.46582'
+    """
+    return ", ".join(f"{_entry(name)} {number(value, 10)}" for name, value in values.items())
+
+
+def _entry(name: str) -> str:
+    _, _, inferred = name.partition("inferred:")
+    return f"{inferred} (inferred)" if inferred else name
