@@ -14,7 +14,7 @@ from replication.reports.comparison import shown_range
 from replication.reports.failing import failing
 from replication.reports.figures.drawing import Drawing
 from replication.reports.gauge import Gauge, gauge
-from replication.reports.glossary import KINDS, SYMBOLS, VERDICTS
+from replication.reports.glossary import CAPTIONS, KINDS, SYMBOLS, VERDICTS
 from replication.text import number
 from spreadsheets.sheets.audit import UNITS
 
@@ -56,6 +56,7 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
         touched_by=_touched_by(record["findings"]),
         picture=_picture,
         quoted=_quoted,
+        captions=CAPTIONS,
         failing=failing(record),
         kinds=KINDS,
         shown=shown,
@@ -68,11 +69,7 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
 
 def _sections(claims: list[dict[str, Any]]) -> list[tuple[str, list[dict[str, Any]]]]:
     """The claims by section of the report, in its order; those of the table by themselves."""
-
-    def section(claim: dict[str, Any]) -> str:
-        return "Table A-1" if claim["cell"] else claim["section"].capitalize()
-
-    return [(name, list(group)) for name, group in groupby(claims, section)]
+    return [(name, list(group)) for name, group in groupby(claims, shown.section)]
 
 
 def _touched_by(findings: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:

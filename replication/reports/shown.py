@@ -3,11 +3,15 @@
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
+from math import inf, nextafter
 from typing import Any
 
 from replication.text import number, rounded
 
-__all__ = ["NOTHING_OPEN", "answer", "digits_of", "evidence", "plain", "proven", "share", "witness"]
+__all__ = [
+    "NOTHING_OPEN", "admitted", "answer", "capital", "digits_of", "evidence", "off_by", "plain",
+    "proven", "section", "share", "witness",
+]  # fmt: skip
 
 NOTHING_OPEN = "Nothing is open."
 """What a finding says of how to settle it where there is nothing to settle."""
@@ -20,6 +24,16 @@ def plain(text: str) -> str:
     ('9.13 × 10^9', '1/2')
     """
     return re.sub(r"\\frac\{(\w+)\}\{(\w+)\}", r"\1/\2", text).replace(r"\times", "×")
+
+
+def capital(text: str) -> str:
+    """A text with a capital first letter."""
+    return text[:1].upper() + text[1:]
+
+
+def section(claim: dict[str, Any]) -> str:
+    """Where a claim is listed: the section of the report, or the table by itself."""
+    return "Table A-1" if claim["cell"] else capital(claim["section"])
 
 
 def digits_of(text: str) -> int:
@@ -41,7 +55,7 @@ def evidence(piece: dict[str, Any]) -> str:
     A bound is rounded to its safe side.
 
     >>> evidence({"asserted": ">= 1.147", "computed": 1.1475699})
-    '1.1475'
+    '1.14756'
     """
     asserted, computed = piece["asserted"], piece["computed"]
     if isinstance(computed, bool):
@@ -53,11 +67,40 @@ def evidence(piece: dict[str, Any]) -> str:
 def proven(ends: list[float]) -> str:
     """A proven range, widened to ten digits at each end.
 
+    One that a double fills, or the gap between two neighbors, is shown as a number.
+
     >>> proven([0.12374472967338257, 0.13081477249718315])
     '0.1237447296 to 0.1308147725'
+    >>> proven([0.057999999999999996, 0.058])
+    '0.058'
     """
-    low, high = map(Fraction, ends)
-    return f"{rounded(low, 10, ROUND_FLOOR)} to {rounded(high, 10, ROUND_CEILING)}"
+    low, high = ends
+    if nextafter(low, inf) >= high:
+        return number(high, 10)
+    least = rounded(Fraction(low), 10, ROUND_FLOOR)
+    return f"{least} to {rounded(Fraction(high), 10, ROUND_CEILING)}"
+
+
+def admitted(ends: list[float]) -> str:
+    """A range of values that are all admitted, narrowed to eight digits at each end.
+
+    >>> admitted([7839.582920074463, 7863.304376602173])
+    '7839.583 to 7863.3043'
+    """
+    least = rounded(Fraction(ends[0]), 8, ROUND_CEILING)
+    return f"{least} to {rounded(Fraction(ends[1]), 8, ROUND_FLOOR)}"
+
+
+def off_by(claim: dict[str, Any]) -> str:
+    """How far a claim's number is off, where digits count: nothing is a digit off an exact 2.
+
+    >>> off_by({"kind": "result", "error_in_last_digit": -150.7268})
+    '-151 units of the last printed digit'
+    """
+    error = claim["error_in_last_digit"]
+    if error is None or claim["kind"] == "constant":
+        return ""
+    return f"{number(error, 3)} units of the last printed digit"
 
 
 def share(part: float) -> str:

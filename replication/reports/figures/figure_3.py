@@ -33,23 +33,23 @@ def plot(figure: Figure, record: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
     printed = {one["id"]: one["printed"] for one in record["claims"]}
     axes = figure.subplots()
-    looks = ((VERMILION, "o", (0, 9)), (BLUE, "s", (8, 9)))
-    for (name, case), (color, marker, offset) in zip(CASES.items(), looks, strict=True):
+    looks = ((VERMILION, "o", (0, 8), "right"), (BLUE, "s", (8, -12), "left"))
+    for (name, case), (color, marker, offset, side) in zip(CASES.items(), looks, strict=True):
         times, depths = _exact(case)
         axes.plot(times * 1e9, depths * 1e6, color=INK, linewidth=1.0)
         rows = run(case).arrays()
         axes.plot(rows["time"][::4] * 1e9, rows["depth"][::4] * 1e6, marker, color=color, ms=4)
         axes.annotate(
-            f"β = {case.beta:g}: sheet {rows['depth'][-1] * 1e6:.2f}, "
+            f"β = {case.beta:g}: sheet {rows['depth'][-1] * 1e6:.2f},\n"
             f"report {printed[f'depth-{name}']} µm",
             (times[-1] * 1e9, depths[-1] * 1e6),
             xytext=offset,
             textcoords="offset points",
-            ha="right",
+            ha=side,
         )
     axes.plot([], [], "o", color=INK, ms=4, label="the sheet, every fourth row")
     axes.plot([], [], color=INK, linewidth=1.0, label="exact")
-    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, None), ylim=(0, 11.5))
+    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, None), ylim=(0, 12))
     axes.legend(loc="lower right")
 
 

@@ -58,7 +58,9 @@ _AT_RIGHT = ("axes fraction", "data")
 
 def _changes(changes: list[float]) -> str:
     """What the low and the high end change the depth by [µm]."""
-    return "\n".join(f"{change:+.3f}".replace("-", "\N{MINUS SIGN}") for change in changes if change)
+    return "\n".join(
+        f"{change:+.3f}".replace("-", "\N{MINUS SIGN}") for change in changes if change
+    )
 
 
 def _label(effect: dict[str, Any], which: str) -> str:
