@@ -1,9 +1,9 @@
-"""The claims that fail, each in one line: what is printed, what follows, and why."""
+"""The claims not plainly reproduced, each in a line: what is printed, what follows, and why."""
 
 from dataclasses import dataclass
 from typing import Any
 
-from replication.reports.shown import digits_of, plain
+from replication.reports.shown import digits_of, is_open, plain
 from replication.text import with_unit
 
 __all__ = ["Failing", "failing"]
@@ -11,7 +11,7 @@ __all__ = ["Failing", "failing"]
 
 @dataclass(frozen=True, slots=True)
 class Failing:
-    """A claim that fails: its record, what the report prints, what follows from its words.
+    """A claim not plainly reproduced: its record, what is printed, what follows from the report.
 
     `finding` is the record of the weightiest finding on it, if there is one.
     """
@@ -23,12 +23,12 @@ class Failing:
 
 
 def failing(record: dict[str, Any]) -> list[Failing]:
-    """The claims of an audit's record that are not reproduced, in the report's order."""
+    """Those of an audit's record, in the report's order; blank cells have no number to tell."""
     claims = {claim["id"]: claim for claim in record["claims"]}
     return [
         Failing(claim, *_numbers(claim, claims), _finding(claim, record["findings"]))
         for claim in claims.values()
-        if claim["verdict"] == "not reproduced" and claim["computed"] is not None
+        if is_open(claim) and claim["computed"] is not None
     ]
 
 

@@ -49,12 +49,12 @@ def _summary(record: dict[str, Any]) -> Iterator[str]:
     yield pipe_table(("verdict", "claims"), ((v, str(n)) for v, n in record["summary"].items()))
     kinds = (f"{count} are {kind}" for kind, count in record["reproduced"].items())
     yield f"Of the reproduced ones {', '.join(kinds)}."
-    heads = ("not reproduced", "the report prints", "what follows", "why")
+    heads = ("not plainly reproduced", "the report prints", "what follows", "why")
     yield pipe_table(
         heads,
         (
             (
-                f"`{one.claim['id']}` {one.claim['title']}",
+                f"`{one.claim['id']}` {one.claim['title']}: {one.claim['verdict']}",
                 one.printed,
                 one.follows,
                 one.finding["title"] if one.finding else "",

@@ -12,7 +12,7 @@ from replication.audit.explanations.sentences import (
     back_solved_text,
     misprint_text,
 )
-from replication.reports.shown import capital, off_by, plain, proven, section, witness
+from replication.reports.shown import capital, is_open, off_by, plain, proven, section, witness
 from replication.text import number, with_unit
 
 __all__ = ["every_claim", "ids", "proof"]
@@ -26,7 +26,7 @@ def ids(names: Iterable[str]) -> str:
 def proof(audit: Audit, record: dict[str, Any]) -> Iterator[str]:
     """The claims that are not plainly reproduced, each with its proof and with what was tried."""
     claims = {claim["id"]: claim for claim in record["claims"]}
-    for claim in filter(_is_open, claims.values()):
+    for claim in filter(is_open, claims.values()):
         yield f"### `{claim['id']}`: {claim['title']}"
         yield f"{claim['where']}: {_quote(claim)}. **{capital(claim['verdict'])}.**"
         yield claim["explanation"]
@@ -45,14 +45,10 @@ def every_claim(record: dict[str, Any]) -> Iterator[str]:
         yield f"### {name}\n\n" + "\n".join(lines)
 
 
-def _is_open(claim: dict[str, Any]) -> bool:
-    return claim["verdict"] not in ("reproduced", "not checkable")
-
-
 def _line(claim: dict[str, Any], claims: dict[str, Any]) -> str:
     head = f"- `{claim['id']}` {claim['title']}. {capital(claim['where'])}: {_quote(claim)}. "
     verdict = f"**{capital(claim['verdict'])}**"
-    if _is_open(claim):
+    if is_open(claim):
         return f"{head}{verdict}, with its proof above."
     facts = "; ".join(_facts(claim, claims))
     given = f". {claim['explanation']}" if claim["computed"] is None else "."

@@ -9,8 +9,8 @@ from typing import Any
 from replication.text import number, rounded
 
 __all__ = [
-    "NOTHING_OPEN", "admitted", "answer", "capital", "digits_of", "evidence", "off_by", "plain",
-    "proven", "section", "share", "witness",
+    "NOTHING_OPEN", "admitted", "answer", "capital", "digits_of", "evidence", "is_open", "off_by",
+    "plain", "proven", "section", "share", "witness",
 ]  # fmt: skip
 
 NOTHING_OPEN = "Nothing is open."
@@ -34,6 +34,11 @@ def capital(text: str) -> str:
 def section(claim: dict[str, Any]) -> str:
     """Where a claim is listed: the section of the report, or the table by itself."""
     return "Table A-1" if claim["cell"] else capital(claim["section"])
+
+
+def is_open(claim: dict[str, Any]) -> bool:
+    """Whether a claim is decided by the report's words, but not plainly reproduced."""
+    return claim["verdict"] not in ("reproduced", "not checkable")
 
 
 def digits_of(text: str) -> int:
