@@ -11,7 +11,7 @@ from reference.ledger import Claim, Ledger
 from reference.units import to_si
 from replication.audit.replica import REPLICA
 
-__all__ = ["function_of", "replica_of", "rounding", "title", "value"]
+__all__ = ["entries_of", "function_of", "replica_of", "rounding", "title", "value"]
 
 
 def value(ledger: Ledger, name: str) -> Fraction:
@@ -23,6 +23,14 @@ def value(ledger: Ledger, name: str) -> Fraction:
     claim = ledger.claims[name]
     assert claim.printed is not None
     return claim.printed.value * claim.si
+
+
+def entries_of(ledger: Ledger, claim: Claim) -> list[str]:
+    """The entries that the claim rests on, of a comparison those that the other one does not."""
+    shared = {} if claim.like is None else ledger.claims[claim.like].inputs
+    known = {name for names in shared.values() for name in names}
+    entries = dict.fromkeys(name for names in claim.inputs.values() for name in names)
+    return [name for name in entries if name not in known]
 
 
 def title(ledger: Ledger, name: str) -> str:
