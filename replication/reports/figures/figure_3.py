@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from replication import closed_form
-from replication.analysis.budget import exact_motion
 from replication.impact import CASES, Impact
 from replication.midpoint import run
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
@@ -54,8 +53,6 @@ def plot(figure: Figure, _: dict[str, Any]) -> None:
 
 def _exact(case: Impact) -> tuple[Any, Any]:
     """Time [s] and depth [m] down to rest, closest where the motion is slow."""
-    motion = exact_motion(case)
     velocities = case.velocity * np.linspace(1, 0, 60) ** 1.5
-    times = [closed_form.stop_time(**case.motion, stop_velocity=float(v)) for v in velocities]
-    depths = [float(motion.depth_at_velocity(v)) for v in velocities]
-    return np.array(times), np.array(depths)
+    times = closed_form.stop_time(**case.motion, stop_velocity=velocities)
+    return times, closed_form.depth_at_velocity(velocities, **case.motion)
