@@ -34,6 +34,9 @@ Number = Any
 class Arithmetic(Protocol):
     """What the formulas need of numbers, beyond the operators and functions of `context`."""
 
+    def __hash__(self) -> int:
+        """As of any object: what was computed in an arithmetic is kept by it."""
+
     @property
     def context(self) -> Any:
         """Functions of numbers: log, sqrt, exp; and pi, zero and one."""

@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cache, reduce
 from math import prod
 from operator import mul
-from typing import Any
 
 from reference.computations import Computation
 from reference.enclosure import Function
@@ -56,7 +55,7 @@ def function_of(
     printed = {name: value(ledger, name) for name in used - free}
 
     @cache
-    def known(ar: Any) -> tuple[dict[str, Number], dict[str, Number]]:
+    def known(ar: Arithmetic) -> tuple[dict[str, Number], dict[str, Number]]:
         entries, inputs = (
             {name: ar.number(number) for name, number in numbers.items()}
             for numbers in (printed, fixed)

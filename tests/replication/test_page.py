@@ -28,8 +28,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("page")
-    done = audit()
-    write_audit(done, audit_record(done), path)
+    write_audit(path)
     return path
 
 
