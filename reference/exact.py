@@ -195,11 +195,11 @@ def midpoint(
     else:
         area_over_mass = ar.context.pi * radius * radius / mass
 
-    half_density, half_step, per_radius = target_density / 2, step / 2, 1 / radius
+    drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
+    half_step, per_radius = step / 2, 1 / radius
 
     def deceleration(x: Number, v: Number) -> Number:
-        stress = half_density * v**2 + resistance
-        return stress * contact_share(ar, x * per_radius) * area_over_mass
+        return (drag * v**2 + push) * contact_share(ar, x * per_radius)
 
     time, x, v = ar.context.zero, velocity * half_step, velocity
     while True:

@@ -170,7 +170,7 @@ class Intervals:
 
     def interval(self, lower: Fraction, upper: Fraction) -> Span:
         """An interval that contains both rationals and all between."""
-        if lower == upper:
+        if lower is upper or lower == upper:  # in this order, as rationals compare slowly
             return self.number(lower)
         with self.working():
             return Span(_ball(lower).lower(), _ball(upper).upper())
