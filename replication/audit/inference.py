@@ -82,6 +82,8 @@ class Inference:
         if not self.inner.excludes(handbook.lower, handbook.upper):
             return "admitted"
         ends = (handbook.lower, handbook.upper)
+        if self.possible.excludes(*ends):
+            return "excluded"
         words = {
             True: "admitted only if the other inputs are rounded",
             False: "excluded",

@@ -117,9 +117,7 @@ def test_of_a_comparison_only_what_the_other_claim_does_not_share_is_tried() -> 
 
 
 def test_a_handbook_value_that_would_serve_is_named() -> None:
-    stainless = solved(
-        "frank-zook-stainless", "derived from Eqs. 14 and 15", "fz-resistance-stainless"
-    )
+    stainless = solved("frank-zook-stainless", DERIVED, "fz-resistance-stainless")
     inside = replace(
         assess_claim(LEDGER, "frank-zook-stainless").claim,
         interval=Interval(Fraction("0.3"), Fraction("0.3003")),
@@ -222,7 +220,7 @@ def test_the_2_of_eq_16_may_be_a_1() -> None:
 def test_another_density_would_break_the_printed_mass() -> None:
     found = explain_claim(LEDGER, "excess-beta-5").misprints
     density = next(m for m in found if m.what == "a1-density")
-    assert density.breaks[0] == "a1-mass"
+    assert "a1-mass" in density.breaks
     assert [m.rank for m in found] == sorted(m.rank for m in found)
 
 

@@ -132,7 +132,7 @@ def _acceleration_sign(known: Known) -> Computed:
 def _meaning_of_x(known: Known) -> Computed:
     half_step = split(midpoint.run(BETA_5)).half_step
     assert half_step is not None
-    motion = exact_motion(BETA_5)
+    motion = exact_motion(BETA_5, digits=20)  # a time takes quadrature, in as many digits
     return {
         "exact": float(motion.depth_at_time(motion.reals.number(known.exact("a1-time-1")))),
         "lag": known.exact("a1-initial-velocity") * known.exact("a-half-step"),
