@@ -1,7 +1,9 @@
 """A formula for blocks of numbers, applied to whatever holds them: the door of `closed_form`."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import cache
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -27,12 +29,18 @@ def elementwise(
         arrays = checked(inputs)
         if all(array.ndim == 0 for array in arrays.values()):
             with np.errstate(all="ignore"):
-                result = np.float64(formula(*(float(array) for array in arrays.values())))
+                result = formula(*(np.float64(array) for array in arrays.values()))
         else:
             result = _in_blocks(formula, list(arrays.values()), block)
         require_finite(arrays, result, never)
         return result
 
+    if all(type(x) is float and x < inf and _above(name, x) for name, x in inputs.items()):
+        # One case: to make arrays of its numbers would take longer than the formula.
+        with suppress(ZeroDivisionError, OverflowError):  # which `numeric` explains
+            result = float(formula(*inputs.values()))
+            if isfinite(result):
+                return result
     return lifted(numeric, inputs)
 
 
