@@ -82,6 +82,8 @@ def _facts(claim: dict[str, Any], claims: dict[str, Any]) -> Iterator[str]:
             f"read as {one['name']} {number(one['computed'], 10)}, {one['verdict']}, "
             f"proven range {proven(one['enclosure'])}"
         )
+        if one["witness"]:
+            yield f"so read, for instance (SI) {witness(one['witness'])}"
     if claim["rests_on"]:
         yield f"inputs {', '.join(_inputs(claim, claims))}"
     if claim["witness"]:

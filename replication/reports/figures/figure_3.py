@@ -1,14 +1,17 @@
 """Figure 3 of the report: penetration depth against time, the sheet's rows and the exact motion."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from reference.ledger import load
 from replication import closed_form
 from replication.impact import CASES, Impact
 from replication.midpoint import run
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "figure-3"
 TITLE = "Penetration depth against time, as in Figure 3 of the report"
@@ -29,9 +32,9 @@ def describe(_: dict[str, Any]) -> str:
     return f"Depth rises ever more slowly to rest: {told}. At this scale the two coincide."
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: "Figure", _: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
-    printed = {one["id"]: one["printed"] for one in record["claims"]}
+    claims = load().claims
     axes = figure.subplots()
     looks = ((VERMILION, "o", (0, 8), "right"), (BLUE, "s", (8, -12), "left"))
     for (name, case), (color, marker, offset, side) in zip(CASES.items(), looks, strict=True):
@@ -41,7 +44,7 @@ def plot(figure: Figure, record: dict[str, Any]) -> None:
         axes.plot(rows["time"][::4] * 1e9, rows["depth"][::4] * 1e6, marker, color=color, ms=4)
         axes.annotate(
             f"β = {case.beta:g}: sheet {rows['depth'][-1] * 1e6:.2f},\n"
-            f"report {printed[f'depth-{name}']} µm",
+            f"report {claims[f'depth-{name}'].text} µm",
             (times[-1] * 1e9, depths[-1] * 1e6),
             xytext=offset,
             textcoords="offset points",
