@@ -42,7 +42,10 @@ def _numbers(claim: dict[str, Any], claims: dict[str, Any]) -> tuple[str, str]:
     else:
         printed = with_unit(plain(text), unit)
     digits = digits_of(text)
-    others = (f"; {one['name']}: {_rounded(one['computed'], digits)}" for one in claim["readings"])
+    others = (
+        f"; {one['name']}: {_rounded(one['computed'], digits)}, {one['verdict']}"
+        for one in claim["readings"]
+    )
     return printed, with_unit(_rounded(claim["computed"], digits), unit) + "".join(others)
 
 
