@@ -3,7 +3,7 @@
 import io
 import math
 from collections.abc import Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import Any
 
 from replication.bench.arrays import ARRAYS, SHEET_ARRAYS
@@ -65,7 +65,7 @@ def _draw(panel: Any, points: Sequence[Point], front: Sequence[Point]) -> None:
     for method, ladder in groupby(points, key=lambda point: point.method):
         if method in drawn:
             _draw_line(panel, method, list(ladder))
-    panel.set(xlim=_wide(panel.get_xlim(), 3, 20), ylim=_wide(panel.get_ylim(), 30, 1))
+    panel.set(xlim=_wide(panel.get_xlim(), 10, 20), ylim=_wide(panel.get_ylim(), 300, 10))
     _label(panel, shown)
     _draw_front(panel, front)
     _note(panel, [point for point in points if point.method not in drawn])
@@ -85,52 +85,65 @@ def _note(panel: Any, gaps: Sequence[Point]) -> None:
     panel.text(0.01, 0.01, "\n".join(lines), transform=panel.transAxes, fontsize=7, va="bottom")
 
 
-def _wide(limits: tuple[float, float], left: float, right: float) -> tuple[float, float]:
-    """Limits with room for the labels at their left, right and lower end."""
-    return limits[0] / left, limits[1] * right
+def _wide(limits: tuple[float, float], below: float, above: float) -> tuple[float, float]:
+    """Limits of an axis with room for labels and notes, as factors."""
+    return limits[0] / below, limits[1] * above
 
 
 def _label(panel: Any, points: Sequence[Point]) -> None:
-    """Every method's name at its last point, where it covers no marker and no other name."""
+    """Every method's name beside one of its points, where it covers no line and no other name."""
+    from matplotlib.textpath import TextPath
+
     to_panel = panel.transScale + panel.transLimits
-    at = [tuple(to_panel.transform((point.seconds, point.met))) for point in points]
-    taken = [(x, y, _MARKER, _MARKER) for x, y in at]
-    ends = {point.method: place for point, place in zip(points, at, strict=True)}
-    for method, (x, y) in ends.items():
-        size = _LETTER * len(method), _HEIGHT
-        box = _free(x, y, size, taken)
+    ladders = {
+        method: [tuple(to_panel.transform((point.seconds, point.met))) for point in group]
+        for method, group in groupby(points, key=lambda point: point.method)
+    }
+    taken = [box for ladder in ladders.values() for box in _along(ladder)]
+    for method, ladder in ladders.items():
+        width = TextPath((0, 0), method, size=_SETTINGS["font.size"]).get_extents().width / _WIDTH
+        box = _free(ladder[::-1], width, taken)
         taken.append(box)
-        color = _STYLES[method][0]
-        panel.text(
-            *box[:2], method, transform=panel.transAxes, color=color, va="center", ha="center"
-        )
+        style = {"color": _STYLES[method][0], "ha": "center", "va": "center"}
+        panel.text(*box[:2], method, transform=panel.transAxes, **style)
 
 
-_MARKER, _LETTER, _HEIGHT = 0.015, 0.0165, 0.042
-"""Of a marker, of a letter's width, of a line's height: in widths and heights of the panel."""
+_WIDTH = 320.0
+"""Of a panel, in points; a little less, so that names come out a little wide."""
+
+_MARKER, _HEIGHT = 0.018, 0.042
+"""Of a marker and of a name: in widths and heights of the panel."""
 
 _Box = tuple[float, float, float, float]
 """Center, width and height."""
 
 
-def _free(x: float, y: float, size: tuple[float, float], taken: Sequence[_Box]) -> _Box:
-    """The box beside, below or above a point that covers the least, nearer ones preferred."""
-    width, height = size
-    beside, above = (width + 2 * _MARKER) / 2, (height + 2 * _MARKER) / 2
-    boxes = [
-        (x + sign * right * beside, y + sign_up * up * above, width, height)
-        for up in (0.0, 1.0, 2.0, 3.0)
-        for right in (1.0, 0.0)
-        for sign_up in (-1, 1)
-        for sign in (1, -1)
-        if up or right
+def _along(ladder: Sequence[tuple[float, float]]) -> list[_Box]:
+    """Boxes that cover the line through these places."""
+    steps = [k / 8 for k in range(8)]
+    between = [
+        (x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairwise(ladder) for t in steps
     ]
-    return min(boxes, key=lambda box: sum(_overlap(box, other) for other in taken))
+    return [(x, y, _MARKER, _MARKER) for x, y in (*between, ladder[-1])]
 
 
-def _overlap(one: _Box, other: _Box) -> bool:
-    apart_x, apart_y = abs(one[0] - other[0]), abs(one[1] - other[1])
-    return apart_x < (one[2] + other[2]) / 2 and apart_y < (one[3] + other[3]) / 2
+def _free(places: Sequence[tuple[float, float]], width: float, taken: Sequence[_Box]) -> _Box:
+    """The first of the boxes beside, below or above these places that covers the least."""
+    beside, above = width / 2 + _MARKER, _HEIGHT + _MARKER / 2
+    sides = ((beside, 0.0), (-beside, 0.0), (0.0, -above), (0.0, above))
+    boxes = [(x + dx, y + dy, width, _HEIGHT) for x, y in places for dx, dy in sides]
+    return min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*taken, *_EDGES)))
+
+
+_EDGES: tuple[_Box, ...] = ((-1.0, 0.5, 2.0, 2.0), (2.0, 0.5, 2.0, 2.0), (0.5, 1.5, 2.0, 1.0))
+"""What lies to the left of the panel, to its right, and above."""
+
+
+def _overlap(one: _Box, other: _Box) -> float:
+    """The area that two boxes share."""
+    width = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
+    height = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
+    return max(0.0, min(width, one[2], other[2])) * max(0.0, min(height, one[3], other[3]))
 
 
 def _draw_front(panel: Any, front: Sequence[Point]) -> None:
@@ -140,14 +153,6 @@ def _draw_front(panel: Any, front: Sequence[Point]) -> None:
     (_, right), (_, top) = panel.get_xlim(), panel.get_ylim()
     times = [front[0].seconds, *(point.seconds for point in front), right]
     errors = [top, *(point.met for point in front), front[-1].met]
-    panel.step(times, errors, where="post", color="#D55E00", linewidth=6, alpha=0.2)
-    panel.annotate(
-        "Pareto front, one case at a time",
-        (times[0], top),
-        xytext=(-4, -4),
-        textcoords="offset points",
-        rotation=90,
-        color="#D55E00",
-        ha="right",
-        va="top",
-    )
+    style = {"color": "#D55E00", "linewidth": 6, "alpha": 0.2}
+    panel.step(times, errors, where="post", label="Pareto front, one case at a time", **style)
+    panel.legend(loc="upper right", frameon=False)
