@@ -247,7 +247,7 @@ def least_beta(ar: Arithmetic, hardness_ratio: Number, **inputs: Number) -> Numb
 def greatest_beta(ar: Arithmetic, hardness_ratio: Number, **inputs: Number) -> Number:
     """the greatest of the three estimates of beta"""
     one, other = _two_betas(ar, **inputs)
-    return -ar.least(-hardness_ratio, ar.least(-one, -other))
+    return ar.greatest(hardness_ratio, ar.greatest(one, other))
 
 
 def _two_betas(

@@ -5,7 +5,7 @@ or `reference.intervals.Intervals` (between Arb's balls), so that a formula stan
 serves both. Neither leaves a global precision changed. Quantities are in SI units.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any, NamedTuple, Protocol
 
@@ -34,9 +34,12 @@ Number = Any
 class Arithmetic(Protocol):
     """What the formulas need of numbers, beyond the operators and functions of `context`."""
 
+    def __hash__(self) -> int:
+        """As of any object: what was computed in an arithmetic is kept by it."""
+
     @property
     def context(self) -> Any:
-        """Functions of numbers: log, sqrt, exp; and pi."""
+        """Functions of numbers: log, sqrt, exp; and pi, zero and one."""
 
     def number(self, value: Fraction | int) -> Number:
         """The rational in this arithmetic."""
@@ -44,8 +47,11 @@ class Arithmetic(Protocol):
     def least(self, x: Number, bound: Number) -> Number:
         """min(x, bound)."""
 
-    def positive_part(self, x: Number) -> Number:
-        """max(x, 0)."""
+    def greatest(self, x: Number, bound: Number) -> Number:
+        """max(x, bound)."""
+
+    def increasing(self, function: Callable[[Any], Any], x: Number) -> Number:
+        """The value of a function that is nowhere decreasing."""
 
     def cap_root(self, c: Number) -> Number:
         """The y in [0, 1] with y^2 - y^3/3 = c; c in [0, 2/3]."""
@@ -58,9 +64,6 @@ class Arithmetic(Protocol):
 
     def hull(self, numbers: list[Number]) -> Number:
         """A number that stands for all of them."""
-
-    def meet(self, x: Number, y: Number) -> Number:
-        """What is known of one number that is both x and y."""
 
 
 class Reals:
@@ -80,8 +83,11 @@ class Reals:
     def least(self, x: Number, bound: Number) -> Number:
         return min(x, bound)
 
-    def positive_part(self, x: Number) -> Number:
-        return max(x, self.context.zero)
+    def greatest(self, x: Number, bound: Number) -> Number:
+        return max(x, bound)
+
+    def increasing(self, function: Callable[[Any], Any], x: Number) -> Number:
+        return function(x)
 
     def cap_root(self, c: Number) -> Number:
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
@@ -97,18 +103,14 @@ class Reals:
         (only,) = numbers
         return only
 
-    def meet(self, x: Number, y: Number) -> Number:  # noqa: ARG002  (equal but for rounding)
-        return x
-
 
 def contact_share(ar: Arithmetic, y: Number) -> Number:
-    """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond.
+    """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond."""
+    return ar.increasing(_share_up_to_one, ar.least(y, ar.context.one))
 
-    In two forms of the one polynomial, y (2 - y) = 1 - (1 - y)^2: in interval arithmetic the first
-    is narrow for a small y, the second for an uncertain one, and the truth is in both.
-    """
-    pressed, clear = ar.least(y, ar.number(1)), ar.positive_part(1 - y)
-    return ar.meet(pressed * (2 - pressed), 1 - clear * clear)
+
+def _share_up_to_one(y: Any) -> Any:
+    return y * (2 - y)
 
 
 def cap_volume(depth: Fraction, radius: Fraction) -> Fraction:
@@ -154,7 +156,8 @@ def final_depth(
     pressure = target_density * velocity * velocity / 2
     c = 4 * particle_density / (3 * target_density) * ar.context.log(1 + pressure / resistance)
     limit = ar.number(Fraction(2, 3))
-    return radius * (ar.cap_root(ar.least(c, limit)) + ar.positive_part(c - limit))
+    beyond = ar.greatest(c - limit, ar.context.zero)
+    return radius * (ar.cap_root(ar.least(c, limit)) + beyond)
 
 
 class Row(NamedTuple):
@@ -192,24 +195,26 @@ def midpoint(
     else:
         area_over_mass = ar.context.pi * radius * radius / mass
 
-    def deceleration(x: Number, v: Number) -> Number:
-        stress = target_density * v**2 / 2 + resistance
-        return stress * contact_share(ar, x / radius) * area_over_mass
+    drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
+    half_step, per_radius = step / 2, 1 / radius
 
-    time, x, v = ar.number(0), velocity * step / 2, velocity
+    def deceleration(x: Number, v: Number) -> Number:
+        return (drag * v**2 + push) * contact_share(ar, x * per_radius)
+
+    time, x, v = ar.context.zero, velocity * half_step, velocity
     while True:
         time = time + step
         a = deceleration(x, v)
         if centered:
-            a = deceleration(x, v - a * step / 2)
+            a = deceleration(x, v - a * half_step)
         v_final = v - a * step
         yield Row(time, v, x, a, v_final)
         v = v_final
-        if stop_velocity is not None:
+        if stop_velocity is not None and ar.may_be_below(v, stop_velocity):
             if ar.is_below(v, stop_velocity):
                 return
             # Where a box of inputs is run, only those that have not stopped go on.
-            v = -ar.least(-v, -stop_velocity)
+            v = ar.greatest(v, stop_velocity)
         x = x + v * step
 
 

@@ -8,8 +8,6 @@ keeps the rounding errors of either end. A point is a span whose ends are one an
 
 from collections.abc import Callable
 from fractions import Fraction
-from math import prod
-from operator import add, mul, sub, truediv
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -34,29 +32,37 @@ class Span:
         return 0 - self
 
     def __add__(self, other: Number) -> "Span":
-        low, high = _sides(other)
-        return _between(add, self.low, low, self.high, high)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        least = self.low + low
+        point = self.low is self.high and low is high
+        return Span(least, least if point else self.high + high)
 
     __radd__ = __add__
 
     def __sub__(self, other: Number) -> "Span":
-        low, high = _sides(other)
-        return _between(sub, self.low, high, self.high, low)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        least = self.low - high
+        point = self.low is self.high and low is high
+        return Span(least, least if point else self.high - low)
 
     def __rsub__(self, other: int) -> "Span":
-        return _between(sub, other, self.high, other, self.low)
+        least = other - self.high
+        return Span(least, least if self.low is self.high else other - self.low)
 
     def __mul__(self, other: Number) -> "Span":
-        low, high = _sides(other)
-        if self.low >= 0 and low >= 0:
-            return _between(mul, self.low, low, self.high, high)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        if self.low >= _ZERO and low >= _ZERO:
+            least = self.low * low
+            point = self.low is self.high and low is high
+            return Span(least, least if point else self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> "Span":
-        return self * _inverse(*_sides(other))
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        return self * _inverse(low, high)
 
     def __rtruediv__(self, other: int) -> "Span":
         return _inverse(self.low, self.high) * other
@@ -65,32 +71,29 @@ class Span:
         """A power with a natural exponent, as the equations have them."""
         if power < 0:
             raise ValueError(f"the power {power} of an interval is negative")
-        if power % 2 or self.low >= 0:
-            return _between(_power, self.low, power, self.high, power)
-        nearest, farthest = _greatest(self.low, -self.high, arb(0)), _greatest(-self.low, self.high)
-        return _between(_power, nearest, power, farthest, power)
+        low, high = self.low, self.high
+        if power % 2 == 0 and not low >= _ZERO:
+            low, high = _greatest(low, -high, _ZERO), _greatest(-low, high)
+        least = _power(low, power)
+        return Span(least, least if low is high else _power(high, power))
 
 
-def _sides(x: Span | int) -> tuple[Any, Any]:
-    return (x.low, x.high) if isinstance(x, Span) else (x, x)
-
-
-def _between(operation: Callable[[Any, Any], arb], a: Any, b: Any, c: Any, d: Any) -> Span:
-    """From one result to another; a point, if both are of the same numbers."""
-    low = operation(a, b)
-    return Span(low, low if a is c and b is d else operation(c, d))
+_ZERO, _ONE = arb(0), arb(1)
 
 
 def _inverse(low: Any, high: Any) -> Span:
     if not (low > 0 or high < 0):
         raise ZeroDivisionError(f"division by [{low}, {high}], which may be zero")
-    one = arb(1)
-    return _between(truediv, one, high, one, low)
+    least = _ONE / high
+    return Span(least, least if low is high else _ONE / low)
 
 
 def _power(x: arb, power: int) -> arb:
     """By products, as Arb's own real power knows nothing of a ball about 0."""
-    return prod([x] * power, start=arb(1))
+    result = _ONE
+    for _ in range(power):
+        result = result * x
+    return result
 
 
 def _least(first: arb, *others: arb) -> arb:
@@ -108,29 +111,32 @@ def _greatest(first: arb, *others: arb) -> arb:
     return first
 
 
+def _point(ball: arb) -> Span:
+    return Span(ball, ball)
+
+
 class _Functions:
-    """Increasing functions of spans, and pi, at flint's precision of the moment."""
+    """Increasing functions of spans, pi, zero and one, at flint's precision of the moment."""
+
+    zero, one = _point(_ZERO), _point(_ONE)
 
     @property
     def pi(self) -> Span:
         return _point(arb.pi())
 
     def log(self, x: Span) -> Span:
-        return self._increasing(arb.log, x)
+        return _increasing(arb.log, x)
 
     def exp(self, x: Span) -> Span:
-        return self._increasing(arb.exp, x)
+        return _increasing(arb.exp, x)
 
     def sqrt(self, x: Span) -> Span:
-        return self._increasing(arb.sqrt, x)
-
-    def _increasing(self, function: Callable[[arb], arb], x: Span) -> Span:
-        low = function(x.low)
-        return Span(low, low if x.low is x.high else function(x.high))
+        return _increasing(arb.sqrt, x)
 
 
-def _point(ball: arb) -> Span:
-    return Span(ball, ball)
+def _increasing(function: Callable[[arb], arb], x: Span) -> Span:
+    low = function(x.low)
+    return Span(low, low if x.low is x.high else function(x.high))
 
 
 class Intervals:
@@ -164,7 +170,7 @@ class Intervals:
 
     def interval(self, lower: Fraction, upper: Fraction) -> Span:
         """An interval that contains both rationals and all between."""
-        if lower == upper:
+        if lower is upper or lower == upper:  # in this order, as rationals compare slowly
             return self.number(lower)
         with self.working():
             return Span(_ball(lower).lower(), _ball(upper).upper())
@@ -177,12 +183,17 @@ class Intervals:
         return Fraction(int(least.p), int(least.q)), Fraction(int(greatest.p), int(greatest.q))
 
     def least(self, x: Span, bound: Span) -> Span:
+        if x.high <= bound.low:
+            return x
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
         return Span(_least(low, other_low), _least(high, other_high))
 
-    def positive_part(self, x: Span) -> Span:
-        (low, high), zero = _bounded(x), arb(0)
-        return Span(_greatest(low, zero), _greatest(high, zero))
+    def greatest(self, x: Span, bound: Span) -> Span:
+        (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
+        return Span(_greatest(low, other_low), _greatest(high, other_high))
+
+    def increasing(self, function: Callable[[arb], arb], x: Span) -> Span:
+        return _increasing(function, x)
 
     def cap_root(self, c: Span) -> Span:
         """The roots for both ends, moved outwards and then verified by the residual's sign."""
@@ -195,7 +206,10 @@ class Intervals:
         return Span(low, high)
 
     def may_be_below(self, x: Span, bound: Span) -> bool:
-        return not _bounded(x)[0] >= _bounded(bound)[1]
+        if x.low >= bound.high:
+            return False
+        _bounded(x), _bounded(bound)
+        return True
 
     def is_below(self, x: Span, bound: Span) -> bool:
         return bool(_bounded(x)[1] < _bounded(bound)[0])
@@ -203,14 +217,6 @@ class Intervals:
     def hull(self, numbers: list[Span]) -> Span:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return Span(_least(*lows), _greatest(*highs))
-
-    def meet(self, x: Span, y: Span) -> Span:
-        (low, high), (other_low, other_high) = _bounded(x), _bounded(y)
-        if high < other_low or other_high < low:
-            raise ArithmeticError("one number was enclosed in two intervals that do not meet")
-        if low is high and other_low is other_high:
-            return x if low.rad() <= other_low.rad() else y
-        return Span(_greatest(low, other_low), _least(high, other_high))
 
 
 def _ball(value: Fraction | int) -> arb:

@@ -65,7 +65,8 @@ class Claim:
 
     `interval` holds the values, in `unit`, that agree with the claim (None for a blank cell);
     `inputs` names for each input of the computation the entries whose product it is; `given` is
-    the reason why nothing in the report decides the number.
+    the reason why nothing in the report decides the number; `assumes` what its computation takes
+    for granted; `like` the claim that it must print like.
     """
 
     id: str
@@ -85,6 +86,8 @@ class Claim:
     chosen: bool
     relation: str | None
     as_printed_inputs: bool
+    assumes: str | None = None
+    like: str | None = None
 
     @property
     def functions(self) -> dict[str, Function]:
@@ -266,6 +269,7 @@ _KEYS = {
     "row",
     "readings",
     "as_printed_inputs",
+    "assumes",
     "equation",
     "cell",
     "cells",
@@ -319,6 +323,7 @@ class _Reader:
             chosen=entry.get("given") == "choice",
             relation=entry.get("relation"),
             as_printed_inputs=entry.get("as_printed_inputs", False),
+            assumes=entry.get("assumes"),
         )
 
     def place(self) -> tuple[Place, str]:
@@ -426,7 +431,7 @@ def _against(claim: Claim, entry: Mapping[str, Any], claims: Mapping[str, Claim]
         return replace(
             claim, interval=reader.related(entry.get("relation", ""), other.printed.value)
         )
-    return replace(claim, interval=other.interval)
+    return replace(claim, interval=other.interval, like=name)
 
 
 def _check_inputs(claims: Mapping[str, Claim], inferred: Mapping[str, Inferred]) -> None:

@@ -65,7 +65,7 @@ class Trajectory(_Motion):
 
     def _buried(self, c: Number) -> Number:
         limit = self.reals.number(Fraction(2, 3))
-        past = self.reals.positive_part(c - limit)
+        past = self.reals.greatest(c - limit, self.context.zero)
         return self.reals.cap_root(self.reals.least(c, limit)) + past
 
     @property
@@ -75,7 +75,7 @@ class Trajectory(_Motion):
 
     def _work_left(self, short: Number) -> Number:
         """The work from y = Y - short to rest at Y, without cancellation."""
-        deep = self.reals.positive_part(self._final - 1)
+        deep = self.reals.greatest(self._final - 1, self.context.zero)
         if short <= deep:
             return short
         y, short = min(self._final, self.context.one), short - deep
@@ -95,7 +95,7 @@ class Trajectory(_Motion):
         left = 1 - self.context.convert(depth) / self.final_depth
         if not -8 * self.context.eps <= left <= 1:
             raise ValueError(f"the particle never gets to a depth of {depth} m")
-        return self.reals.positive_part(left)
+        return self.reals.greatest(left, self.context.zero)
 
     def depth_at_velocity(self, velocity: Number) -> Number:
         """Depth [m] at which the velocity has fallen to a value [m/s]; only its square counts."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from itertools import islice
 
 from reference import exact
@@ -33,9 +34,14 @@ class Budget:
     stop_rule: float | None
 
 
-def exact_motion(impact: Impact) -> Trajectory:
+def exact_motion(impact: Impact, digits: int = 50) -> Trajectory:
     """The exact motion for a case, its inputs taken as the doubles that they are."""
-    return Trajectory(*map(Fraction, impact.motion.values()))
+    return _motion(tuple(impact.motion.values()), digits)
+
+
+@lru_cache(maxsize=8)  # the steps of a ladder share one motion
+def _motion(inputs: tuple[float, ...], digits: int) -> Trajectory:
+    return Trajectory(*map(Fraction, inputs), digits=digits)
 
 
 def split(sheet: Sheet) -> Budget:

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import cache, reduce
 from math import prod
+from operator import mul
 
 from reference.computations import Computation
 from reference.enclosure import Function
@@ -11,9 +13,10 @@ from reference.ledger import Claim, Ledger
 from reference.units import to_si
 from replication.audit.replica import REPLICA
 
-__all__ = ["function_of", "replica_of", "rounding", "title", "value"]
+__all__ = ["entries_of", "function_of", "replica_of", "rounding", "title", "value"]
 
 
+@cache
 def value(ledger: Ledger, name: str) -> Fraction:
     """An entry's value as printed, or the nominal one of an inferred input, in SI."""
     _, _, inferred = name.partition("inferred:")
@@ -25,12 +28,21 @@ def value(ledger: Ledger, name: str) -> Fraction:
     return claim.printed.value * claim.si
 
 
+def entries_of(ledger: Ledger, claim: Claim) -> list[str]:
+    """The entries that the claim rests on, of a comparison those that the other one does not."""
+    shared = {} if claim.like is None else ledger.claims[claim.like].inputs
+    known = {name for names in shared.values() for name in names}
+    entries = dict.fromkeys(name for names in claim.inputs.values() for name in names)
+    return [name for name in entries if name not in known]
+
+
 def title(ledger: Ledger, name: str) -> str:
     """What an entry is, in words."""
     _, _, inferred = name.partition("inferred:")
     return ledger.inferred[inferred].title if inferred else ledger.claims[name].title
 
 
+@cache
 def rounding(ledger: Ledger, name: str, loose: bool = False) -> tuple[Fraction, Fraction]:
     """The least and greatest value, in SI, that prints like an entry."""
     ends = ledger.claims[name].as_input(loose)
@@ -50,13 +62,19 @@ def function_of(
     used = {name for names in claim.inputs.values() for name in names}
     printed = {name: value(ledger, name) for name in used - free}
 
-    def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-        def number(name: str) -> Number:
-            return entries[name] if name in free else ar.number(printed[name])
+    @cache
+    def known(ar: Arithmetic) -> tuple[dict[str, Number], dict[str, Number]]:
+        entries, inputs = (
+            {name: ar.number(number) for name, number in numbers.items()}
+            for numbers in (printed, fixed)
+        )
+        return entries, inputs
 
-        inputs = {key: prod(map(number, names)) for key, names in claim.inputs.items()}
-        inputs |= {key: ar.number(number) for key, number in fixed.items()}
-        return function(ar, **inputs)
+    def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
+        others, inputs = known(ar)
+        number = {**others, **entries}
+        own = {k: reduce(mul, map(number.get, names)) for k, names in claim.inputs.items()}
+        return function(ar, **own, **inputs)
 
     return of_entries
 

@@ -72,7 +72,7 @@ def _not_reproduced(claim: Claim, reading: Reading) -> list[str]:
     assert claim.interval is not None
     inputs = "all inputs that print like the report's and every possible target density"
     if claim.as_printed_inputs:
-        inputs = "every admitted target density"
+        inputs = "every admitted target density, the other inputs exactly as printed"
     side = _side(claim.interval, reading.enclosure)
     proof = f"Proven for {inputs}: it lies in {outward(low, high)}, {side}."
     if reading.loose:
@@ -81,7 +81,8 @@ def _not_reproduced(claim: Claim, reading: Reading) -> list[str]:
 
 
 _LOOSE = (
-    "It could agree only if inputs such as 500 m/s were themselves rounded to their first digits."
+    "It could agree only if what the author chose, such as 500 m/s, were itself rounded to its "
+    "first digits."
 )
 
 
@@ -96,10 +97,15 @@ def _side(interval: Interval, enclosure: tuple[Fraction, Fraction]) -> str:
 
 def _other(claim: Claim, other: Reading) -> str:
     shown = with_unit(number(other.computed), claim.unit)
-    text = f"Read as {other.name}: {shown}, {other.verdict.value}"
-    if other.verdict is not Verdict.REPRODUCED and other.enclosure[0] != other.enclosure[1]:
-        text += f" (for inputs that print like the report's {outward(*other.enclosure)})"
-    return f"{text}. {_LOOSE}" if other.loose else f"{text}."
+    sentences = [f"Read as {other.name}: {shown}, {other.verdict.value}."]
+    if other.verdict is Verdict.WITHIN_ROUNDING:
+        sentences += _within(other)
+    elif other.verdict is not Verdict.REPRODUCED and other.enclosure[0] != other.enclosure[1]:
+        within = outward(*other.enclosure)
+        sentences.append(f"For all inputs that print like the report's it lies within {within}.")
+    if other.loose:
+        sentences.append(_LOOSE)
+    return " ".join(sentences)
 
 
 def _capital(text: str) -> str:
@@ -118,7 +124,8 @@ def _evidence(ledger: Ledger) -> set[str]:
 def assumptions(ledger: Ledger, assessment: Assessment) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     claim = assessment.claim
-    assumed = [_density(infer(ledger, name)) for name in _inferred(claim)]
+    assumed = [] if claim.assumes is None else [claim.assumes]
+    assumed += [_density(infer(ledger, name)) for name in _inferred(claim)]
     if claim.as_printed_inputs:
         assumed.append("the inputs exactly as printed, as the same sheet is run twice")
         assumed.append("significant is what changes a printed digit; the report gives no criterion")

@@ -72,9 +72,9 @@ class Inference:
         return {name: (v, self._verdict(v.interval())) for name, v in self.entry.handbook.items()}
 
     def holds_at(self, point: Mapping[str, Fraction]) -> bool:
-        """Whether the evidence holds at a point; inputs that it leaves out are as printed."""
-        names = {**{name: (low + high) / 2 for name, (low, high) in self._box.items()}, **point}
-        return satisfiable(self._joint, {n: (names[n], names[n]) for n in self._box}) is True
+        """Whether the evidence can hold at a point; other inputs are within their rounding."""
+        fixed = {name: (x, x) for name, x in point.items() if name in self._box}
+        return satisfiable(self._joint, {**self._box, **fixed}) is True
 
     def _verdict(self, handbook: Interval) -> str:
         assert handbook.lower is not None
@@ -82,6 +82,8 @@ class Inference:
         if not self.inner.excludes(handbook.lower, handbook.upper):
             return "admitted"
         ends = (handbook.lower, handbook.upper)
+        if self.possible.excludes(*ends):
+            return "excluded"
         words = {
             True: "admitted only if the other inputs are rounded",
             False: "excluded",

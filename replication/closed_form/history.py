@@ -41,10 +41,19 @@ def history(
 
 
 def _history(**inputs: Any) -> tuple[Any, Any]:
-    """Cases first, their times last: a table is made once for a case, not for each of its times."""
     arrays = checked(inputs)
     time, *given = arrays.values()
-    cases = _stacked(given)
+    with np.errstate(all="ignore"):
+        depth, velocity = _broadcast(time, _stacked(given))
+    require_finite(arrays, depth + velocity)
+    return depth, velocity
+
+
+def _broadcast(time: Any, cases: Any) -> Any:
+    """Cases first, their times last: a table is made once for a case, not for each of its times."""
+    if cases.ndim == 1:
+        results = _in_blocks(time.reshape(1, -1), cases[:, None])
+        return (result.reshape(time.shape)[()] for result in results)
     shape = np.broadcast_shapes(time.shape, cases.shape[1:])
     sizes = (1,) * (len(shape) + 1 - cases.ndim) + cases.shape[1:]
     order = sorted(range(len(shape)), key=lambda axis: sizes[axis] == 1)
@@ -52,12 +61,9 @@ def _history(**inputs: Any) -> tuple[Any, Any]:
     moved = times.shape
     count = prod(sizes)
     times = times.reshape(count, prod(moved) // max(count, 1))
-    with np.errstate(all="ignore"):
-        results = _in_blocks(times, cases.reshape(len(cases), count))
+    results = _in_blocks(times, cases.reshape(len(cases), count))
     back = np.argsort(order)
-    depth, velocity = (result.reshape(moved).transpose(back)[()] for result in results)
-    require_finite(arrays, depth + velocity)
-    return depth, velocity
+    return (result.reshape(moved).transpose(back)[()] for result in results)
 
 
 def _stacked(inputs: Sequence[Any]) -> Any:
@@ -88,67 +94,88 @@ def _in_blocks(times: Any, cases: Any) -> tuple[Any, Any]:
 class _Table:
     """Depth and velocity within the radius as polynomials of the fifth degree in time.
 
-    Cases are arrays of shape (n, 1). At both ends of a panel a polynomial has the value and the
-    first two derivatives that the motion has; Eq. 13 gives them.
+    Cases are arrays of shape (n, 1), each with panels enough for itself; the last of those that
+    need fewer than others have no width. At both ends of a panel a polynomial has the value and
+    the first two derivatives that the motion has; Eq. 13 gives them.
     """
 
     def __init__(self, velocity: Any, radius: Any, *materials: Any) -> None:
         self.motion = motion = Motion(velocity, radius, *materials)
+        self.slowest = velocity * _REST
         panels = _panels(motion)
-        e = motion.crossing * (np.arange(panels + 1.0) / panels)[None]
-        self.time = _times(motion, e)
-        y, v = motion.final * e * (2 - e), motion.velocity_within(1 - e)
-        v[:, :1] = velocity
-        area, stress = y * (2 - y), v * v + motion.rest_velocity**2
+        lines = np.minimum(np.arange(np.max(panels) + 1.0)[None], panels)
+        width = motion.crossing / panels
+        e = (lines + _WITHIN) * width
+        v = motion.velocity_within(1 - e)
+        time = _times(motion.slowness(e[1:], v[1:]), (lines[:, 1:] - lines[:, :-1]) * width)
+        self.end = time[:, -1:]
+        self.lines = _key(np.fmin(time / self.end, 1.0)).ravel()
+        self.time = time.ravel()
+        self.width = self.time[1:] - self.time[:-1]
+        v[0, :, :1] = velocity
+        derivatives = self._derivatives(radius, motion.final * e[0] * (2 - e[0]), v[0])
+        self.polynomials = _quintics(derivatives.reshape(4, -1), self.width)
+
+    def _derivatives(self, radius: Any, y: Any, v: Any) -> Any:
+        """Depth [m], its first, second and third derivative by time (Eq. 13)."""
+        motion = self.motion
         per_radius = motion.drag / radius
+        area, stress = y * (2 - y), v * v + motion.rest_velocity**2
         a = -per_radius * stress * area
         jerk = -2 * per_radius * v * (a * area + stress * (1 - y) / radius)
-        self.width = self.time[:, 1:] - self.time[:, :-1]
-        self.polynomials = _quintics(((radius * y, v, a), (v, a, jerk)), self.width)
+        return np.array((radius * y, v, a, jerk))
 
     def at(self, time: Any) -> tuple[Any, Any]:
         """Depth and velocity at times of shape (n, m)."""
-        motion, end = self.motion, self.time[:, -1:]
-        panel, share = self._place(np.minimum(time, end))
-        depth, velocity = _horner(self.polynomials.take(panel, axis=-1), share)
-        if np.any(motion.beyond):
-            y, v = motion.deep(time - end)
-        else:
-            y, v = motion.final, 0.0
-        past = time >= end
-        return np.where(past, motion.radius * y, depth), np.where(past, v, np.maximum(velocity, 0))
-
-    def _place(self, time: Any) -> tuple[Any, Any]:
-        """Which panel, counted through all cases, and how far in it."""
-        case = np.arange(len(time))[:, None]
-        end, lines = self.time[:, -1:], self.time.shape[1]
-        # Case number and share of its time increase together: one search for all cases.
-        line = np.searchsorted((self.time / end + case).ravel(), time / end + case, "right") - 1
-        panel = np.minimum(line - case * lines, lines - 2) + case * (lines - 1)
-        before = self.time[:, :-1].ravel()[panel]
-        return panel, (time - before) / self.width.ravel()[panel]
+        motion = self.motion
+        key = _key(np.fmin(time / self.end, _BEFORE_1))
+        panel = self.lines.searchsorted(key, "right") - 1
+        share = np.minimum((time - self.time[panel]) / self.width[panel], 1.0)
+        depth, v = _horner(self.polynomials.take(panel, axis=-1), share)
+        if np.count_nonzero(motion.beyond):
+            past, (y, slower) = time >= self.end, motion.deep(time - self.end)
+            depth, v = np.where(past, motion.radius * y, depth), np.where(past, slower, v)
+        rests = v <= self.slowest
+        return np.where(rests, motion.radius * motion.final, depth), np.where(rests, 0.0, v)
 
 
-def _panels(motion: Motion) -> int:
+_REST = 2.0**-46
+"""Of the impact velocity: what rounding leaves of it at rest."""
+
+_BEFORE_1 = 1 - 2.0**-53
+_OFFSETS = (np.arange(_CASES) << 57)[:, None]
+
+
+def _key(share: Any) -> Any:
+    """Integers that put shares (0 to 1) of one case in order, and after them those of the next.
+
+    Doubles have the order of their bits, of which six are dropped to number the cases: to 2^-46 of
+    itself, whatever cases stand before it, each share keeps its place.
+    """
+    return (share.view(np.int64) >> 6) + _OFFSETS[: len(share)]
+
+
+def _panels(motion: Motion) -> Any:
     """So many that the polynomials' error stays below 1e-14 of the whole.
 
     It goes as the sixth power of what a panel turns a velocity by; where drag rules, that is the
     logarithm of the velocity, whose steepest fall goes with the root of all of it.
     """
-    return 64 + int(160 * np.sqrt(motion.steepest))
+    return 64 + np.floor(160 * np.sqrt(motion.steepest))
 
 
-def _times(motion: Motion, e: Any) -> Any:
-    """Times of shape (n, panels + 1) at the ends of the panels."""
-    nodes, weights = gauss(3)
-    width = e[:, 1:] - e[:, :-1]
-    slowness = motion.slowness(e[:, :-1] + np.multiply.outer(nodes, width))
-    times = np.zeros_like(e)
-    np.cumsum(
-        (weights @ slowness.reshape(len(nodes), -1)).reshape(width.shape) * width,
-        1,
-        out=times[:, 1:],
-    )
+_NODES, _WEIGHTS = gauss(3)
+_WITHIN = np.array([0.0, *_NODES])[:, None, None]
+"""Where in a panel: at its first line, and at Gauss points."""
+
+
+def _times(slowness: Any, width: Any) -> Any:
+    """Times of shape (n, panels + 1) at the lines, for slowness at the Gauss points after each."""
+    first, middle, last = slowness[..., :-1]
+    times = np.zeros(slowness.shape[1:])
+    taken = _WEIGHTS[0] * (first + last) + _WEIGHTS[1] * middle
+    taken *= width
+    taken.cumsum(1, out=times[:, 1:])
     return times
 
 
@@ -165,20 +192,26 @@ _QUINTIC = np.array(
 )
 
 
-def _quintics(curves: Any, width: Any) -> Any:
-    """Coefficients, in the share of the panel, of curves given by value, slope and curvature."""
-    ends = np.empty((6, len(curves), *width.shape))
+def _quintics(derivatives: Any, width: Any) -> Any:
+    """Coefficients, in the share of the panel, of the depth and of the velocity.
+
+    Both by value, slope and curvature at the lines, of which `derivatives` has shape (4, lines).
+    """
+    ends = np.empty((6, 2, len(width)))
+    value, slope, curvature = derivatives[:2], derivatives[1:3], derivatives[2:]
     half_square = width * width / 2
-    for k, (value, slope, curvature) in enumerate(curves):
-        before, after = value[:, :-1], value[:, 1:]
-        ends[:2, k] = before, after - before
-        ends[2:4, k] = slope[:, :-1] * width, slope[:, 1:] * width
-        ends[4:, k] = curvature[:, :-1] * half_square, curvature[:, 1:] * half_square
-    return (_QUINTIC @ ends.reshape(6, -1)).reshape(6, len(curves), -1)
+    ends[0] = value[:, :-1]
+    np.subtract(value[:, 1:], value[:, :-1], out=ends[1])
+    np.multiply(slope[:, :-1], width, out=ends[2])
+    np.multiply(slope[:, 1:], width, out=ends[3])
+    np.multiply(curvature[:, :-1], half_square, out=ends[4])
+    np.multiply(curvature[:, 1:], half_square, out=ends[5])
+    return (_QUINTIC @ ends.reshape(6, -1)).reshape(ends.shape)
 
 
 def _horner(coefficients: Any, share: Any) -> Any:
     value = coefficients[-1]
     for coefficient in coefficients[-2::-1]:
-        value = value * share + coefficient
+        value *= share
+        value += coefficient
     return value

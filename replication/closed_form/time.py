@@ -1,6 +1,7 @@
 """Times: the integral of dx/v along the energy integral of Eq. 13."""
 
 from functools import cache
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -89,12 +90,15 @@ def _stop_time(
 def _time(motion: "Motion", y: Any, left: Any) -> Any:
     """Time [s] to the depth y, where `left` is left."""
     end = np.minimum(motion.fraction(y, left), motion.crossing)
-    panels = 1 + int(motion.steepest)
-    within = 0.0
+    panels = 1 + np.floor(motion.steepest)
+    within: Any = 0.0
     nodes, weights = gauss(16)
-    for panel in range(panels):
+    for panel in range(int(np.max(panels, initial=0.0))):
         e = np.multiply.outer(panel + nodes, end / panels)
-        within = within + weights @ motion.slowness(e)
+        slowness = motion.slowness(e, motion.velocity_within(1 - e))
+        # One after the other: a matrix product's order would depend on the number of cases.
+        total = sum(map(mul, weights, slowness))
+        within = within + np.where(panel < panels, total, 0.0)
     return within * end / panels + motion.time_beyond(np.minimum(left, motion.beyond))
 
 
@@ -131,11 +135,11 @@ class Motion:
         self.crossing_velocity = self._velocity(self.beyond)
 
     @property
-    def steepest(self) -> float:
-        """The greatest fall of ln(v^2 + 2 R_t / rho_t) within the radius, of all cases."""
+    def steepest(self) -> Any:
+        """The fall of ln(v^2 + 2 R_t / rho_t) within the radius."""
         fall = 2 * self.drag * work_within(self.edge, self.edge)
         # Cases beyond the range of doubles have none; of all others the logarithm is below 710.
-        return float(min(np.fmax.reduce(np.ravel(fall), initial=0.0), 710.0))
+        return np.minimum(np.fmax(fall, 0.0), 710.0)
 
     def _velocity(self, work: Any) -> Any:
         """Velocity [m/s] where so much work is left."""
@@ -150,10 +154,9 @@ class Motion:
         short = self.final * s * s - self.beyond
         return self._velocity(self.beyond + work_within(self.edge, short))
 
-    def slowness(self, e: Any) -> Any:
-        """dt/de [s] within the radius."""
-        s = 1 - e
-        return 2 * self.radius * self.final * s / self.velocity_within(s)
+    def slowness(self, e: Any, velocity: Any) -> Any:
+        """dt/de [s] within the radius, where the velocity [m/s] is that."""
+        return 2 * self.radius * self.final * (1 - e) / velocity
 
     def time_beyond(self, left: Any) -> Any:
         """Time [s] from the crossing of the radius to where `left` is left; 0 if there is none."""
@@ -168,4 +171,4 @@ class Motion:
         fallen = np.tan(np.minimum(angle, np.pi / 2))
         v = np.maximum((crossing - rest * fallen) / (1 + crossing / rest * fallen), 0.0)
         lost = (crossing - v) * (crossing + v) / (v * v + rest * rest)
-        return np.where(v > 0, 1 + np.log1p(lost) / (2 * self.drag), self.final), v
+        return 1 + np.log1p(lost) / (2 * self.drag), v

@@ -23,16 +23,13 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Audit, write, summarize."""
-    from replication.audit import Verdict, audit
+    from replication.audit import Verdict
     from replication.reports.files import FILES, write_audit
-    from replication.reports.records import audit_record
     from replication.reports.terminal import audit_summary
     from spreadsheets.safely import check_folder
 
     check_folder(options.out, FILES)
-    done = audit()
-    record = audit_record(done)
-    write_audit(done, record, options.out)
+    done = write_audit(options.out)
     if options.json:
         print((options.out / "audit.json").read_text("utf-8"), end="")
     elif not options.quiet:

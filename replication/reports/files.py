@@ -1,15 +1,19 @@
 """The audit's files, written all or none."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from replication import workbook
-from replication.audit import Audit
-from replication.reports.figures import FIGURES, draw
+from replication.audit import Audit, audit
+from replication.processes import second_process
+from replication.reports.figures import FIGURES, Drawing, draw
 from replication.reports.html import page
 from replication.reports.markdown import markdown
+from replication.reports.numerics import numerics_record
 from replication.reports.plain import json_text, rows_csv
 from replication.reports.provenance import sealed
+from replication.reports.records import audit_record, shown_record
 from spreadsheets.safely import write_folder
 
 __all__ = ["FILES", "write_audit"]
@@ -21,20 +25,27 @@ FILES = (
 )  # fmt: skip
 
 
-def write_audit(audit: Audit, record: dict[str, Any], folder: Path) -> None:
-    """Write the audit's `FILES` into a folder, made if needed: all or none.
+def write_audit(folder: Path) -> Audit:
+    """Audit the report and write the audit's `FILES` into a folder, made if needed: all or none.
 
-    `record` is the audit as `reports.records.audit_record` gives it; the hash of the workbook is
-    added to its provenance. Raises OSError when it cannot be done.
+    What does not rest on the proofs is made beside them, by a second process. Raises OSError when
+    the files cannot be written, or that process is killed.
     """
-    book = workbook.to_bytes()
-    files = _contents(audit, sealed(record, {"workbook.xlsx": book}))
-    write_folder(folder, {"workbook.xlsx": book, **files})
+    with second_process() as start:
+        numerics, workbook_bytes = start(numerics_record), start(workbook.to_bytes)
+        done = audit()
+        shown = shown_record(done, numerics())
+        drawings = start(draw, shown)
+        record, book = audit_record(done, shown), {"workbook.xlsx": workbook_bytes()}
+        files = _contents(done, sealed(record, book), drawings())
+    write_folder(folder, {**book, **files})
+    return done
 
 
-def _contents(audit: Audit, record: dict[str, Any]) -> dict[str, bytes]:
+def _contents(
+    audit: Audit, record: dict[str, Any], drawings: Sequence[Drawing]
+) -> dict[str, bytes]:
     """Every file but the workbook."""
-    drawings = draw(record)
     texts = {
         "audit.html": page(record, drawings),
         "audit.md": markdown(audit, record),

@@ -13,7 +13,7 @@ from replication.analysis.convergence import (
     converge,
     ladder,
 )
-from replication.analysis.stability import Outcome, Worst
+from replication.analysis.stability import HARD_CASES, Outcome, Worst, outcome, worst_of
 from replication.case import inputs_of
 from replication.impact import BETA_5, CASES
 from replication.midpoint import SCHEMES, Sheet, run
@@ -25,6 +25,7 @@ __all__ = [
     "budget_sheets",
     "convergence_record",
     "convergence_text",
+    "numerics_record",
     "report_ladders",
     "stability_record",
     "stability_text",
@@ -170,3 +171,18 @@ def budget_record(sheet: Sheet) -> dict[str, Any]:
     """Where a sheet's error comes from."""
     head = {"beta": sheet.impact.beta, "step": sheet.impact.step, "steps": sheet.steps}
     return {**head, "depth": sheet.final_depth, **asdict(split(sheet))}
+
+
+RANDOM_CASES = 10_000
+"""For the audit's files; `coldspray stability` runs ten times as many."""
+
+
+def numerics_record() -> dict[str, Any]:
+    """What `audit.json` holds of the sheet's and the closed form's errors; it rests on no claim."""
+    return {
+        "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
+        "stability": stability_record(
+            [outcome(case) for case in HARD_CASES], worst_of(RANDOM_CASES, seed=1)
+        ),
+        "convergence": report_ladders(),
+    }

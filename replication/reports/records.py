@@ -7,7 +7,6 @@ from typing import Any
 from reference.ledger import Claim, Inferred, Ledger
 from reference.printed import Interval
 from replication.analysis.approaches import approaches
-from replication.analysis.stability import HARD_CASES, outcome, worst_of
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
 from replication.audit.findings import Finding
@@ -16,24 +15,37 @@ from replication.audit.verdict import Assessment, Reading
 from replication.reports.cells import workbook_cell
 from replication.reports.comparison import approach_record, scatter_record, sensitivity_record
 from replication.reports.explanations import explanation_record, joint_record
-from replication.reports.numerics import (
-    budget_record,
-    budget_sheets,
-    report_ladders,
-    stability_record,
-)
+from replication.reports.numerics import numerics_record
 from replication.reports.provenance import provenance
 
-__all__ = ["SCHEMA", "audit_record", "claim_record", "finding_record", "ledger_record"]
+__all__ = [
+    "SCHEMA",
+    "audit_record",
+    "claim_record",
+    "finding_record",
+    "ledger_record",
+    "shown_record",
+]
 
 SCHEMA = "coldspray-audit-1"
 
-RANDOM_CASES = 10_000
-"""For the audit's files; `coldspray stability` runs ten times as many."""
+
+def shown_record(audit: Audit, numerics: dict[str, Any]) -> dict[str, Any]:
+    """The part of `audit.json` that figures show: `numerics_record` and comparisons."""
+    ledger = audit.ledger
+    return {
+        **numerics,
+        "approaches": [approach_record(one) for one in approaches(ledger, audit.assessments)],
+        "sensitivity": sensitivity_record(ledger),
+        "scatter": scatter_record(ledger, _observed(audit)),
+    }
 
 
-def audit_record(audit: Audit) -> dict[str, Any]:
-    """The document of `audit.json`, keys as promised in the README, but for its workbook's hash."""
+def audit_record(audit: Audit, shown: dict[str, Any] | None = None) -> dict[str, Any]:
+    """The document of `audit.json`, keys as promised in the README, but for its workbook's hash.
+
+    `shown`: its part that `shown_record` gives, if it is there already.
+    """
     ledger = audit.ledger
     return {
         "schema": SCHEMA,
@@ -44,14 +56,7 @@ def audit_record(audit: Audit) -> dict[str, Any]:
         "findings": [finding_record(finding) for finding in audit.findings],
         "joint": [joint_record(answer) for answer in audit.joint],
         "inferred": [_inference_record(infer(ledger, name)) for name in ledger.inferred],
-        "error_budget": [budget_record(sheet) for sheet in budget_sheets()],
-        "stability": stability_record(
-            [outcome(case) for case in HARD_CASES], worst_of(RANDOM_CASES, seed=1)
-        ),
-        "convergence": report_ladders(),
-        "approaches": [approach_record(one) for one in approaches(ledger, audit.assessments)],
-        "sensitivity": sensitivity_record(ledger),
-        "scatter": scatter_record(ledger, _observed(audit)),
+        **(shown or shown_record(audit, numerics_record())),
         "provenance": provenance(),
     }
 

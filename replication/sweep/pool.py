@@ -1,14 +1,12 @@
 """Blocks computed in several processes, handed on in their order, few at a time."""
 
 import os
-import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterable
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context, parent_process
+from concurrent.futures import Future
 from typing import TypeVar
+
+from replication.processes import spawned
 
 __all__ = ["in_order", "worthwhile_processes"]
 
@@ -33,9 +31,7 @@ def in_order(
     if processes == 1:
         yield from map(work, numbers)
         return
-    # Spawned, not forked: a fork of a process with threads, such as pyarrow's, may hang.
-    pool = ProcessPoolExecutor(processes, get_context("spawn"), _prepare)
-    try:
+    with spawned(processes) as pool:
         waiting: deque[Future[Piece]] = deque()
         for number in numbers:
             waiting.append(pool.submit(work, number))
@@ -43,21 +39,3 @@ def in_order(
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
-    except BrokenProcessPool as error:
-        raise ChildProcessError("a process of the sweep was killed from outside") from error
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _prepare() -> None:
-    """Ctrl-C is the parent's to answer; and without a parent there is nothing left to do."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    # A killed parent cannot stop its pool (CPython issue 111873): the workers would wait for ever.
-    parent = parent_process()
-    assert parent is not None
-    parent.join()
-    os._exit(1)

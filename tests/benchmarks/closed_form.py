@@ -39,13 +39,16 @@ def depth(count: int) -> None:
     print(f"  over log1p, sqrt, arcsin and one tan:  {ours / tangent:.2f}")
 
 
-def history() -> None:
-    """Against the sheet's rows in plain Python, one case."""
-    motion = BETA_5.motion
+def history(count: int, number: int) -> None:
+    """Against the sheet's rows in plain Python, a case."""
+    motion: dict[str, Any] = BETA_5.motion
     times = np.linspace(0, closed_form.stop_time(**motion), midpoint.run(BETA_5).steps)
-    ours = best(lambda: closed_form.history(times, **motion), 100)
+    if count > 1:
+        motion = {**motion, "velocity": np.linspace(400, 600, count)[:, None]}
+    ours = best(lambda: closed_form.history(times, **motion), number) / count
     sheet = best(lambda: midpoint.run(BETA_5), 100)
-    print(f"history at {len(times)} times: {ours * 1e6:.0f} us; over the sheet: {ours / sheet:.2f}")
+    print(f"history of {count} cases at {len(times)} times: {ours * 1e6:.0f} us each")
+    print(f"  over the sheet's rows: {ours / sheet:.2f}")
 
 
 def sheets(count: int) -> None:
@@ -61,5 +64,6 @@ def sheets(count: int) -> None:
 if __name__ == "__main__":
     for count in (8192, 1_000_000):
         depth(count)
-    history()
+    history(1, number=100)
+    history(1000, number=1)
     sheets(20_000)

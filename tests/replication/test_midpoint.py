@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference import exact
-from replication import midpoint
+from replication import closed_form, midpoint
 from replication.impact import BETA_3, BETA_5, Impact
 
 IMPACTS = st.builds(
@@ -34,6 +34,19 @@ def test_the_report_needs_131_and_178_steps() -> None:
 def test_row_0_is_the_impact_itself() -> None:
     first = midpoint.run(BETA_5).rows[0]
     assert first == (0.0, 500.0, 0.0, 0.0, None)
+
+
+@given(
+    IMPACTS, st.floats(-6, 3), st.floats(-1, 1).map(lambda power: 10.0**power * midpoint.MAX_STEPS)
+)
+@settings(max_examples=50, deadline=None)
+def test_few_steps_are_few_by_the_exact_time(impact: Impact, slowest: float, steps: float) -> None:
+    stop = min(10.0**slowest, 0.999 * impact.velocity)
+    time = float(closed_form.stop_time(**impact.motion, stop_velocity=stop))
+    impact = replace(impact, stop_velocity=stop, step=time / steps)
+    if midpoint._few_steps(impact):
+        assert steps <= midpoint.MAX_STEPS
+    assert midpoint._few_steps(replace(impact, step=1e6 * impact.step)) or stop < 1e-3
 
 
 def test_the_first_depth_is_half_a_step_and_later_ones_a_whole() -> None:

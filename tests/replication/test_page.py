@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.audit import Audit, audit
+from replication.audit import audit
 from replication.reports.figures import FIGURES, draw
 from replication.reports.figures.svg import tidy
 from replication.reports.files import write_audit
@@ -26,21 +26,15 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 @pytest.fixture(scope="module")
-def audited() -> tuple[Audit, dict]:
-    done = audit()
-    return done, audit_record(done)
-
-
-@pytest.fixture(scope="module")
-def folder(audited: tuple[Audit, dict], tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("page")
-    write_audit(*audited, path)
+    write_audit(path)
     return path
 
 
 @pytest.fixture(scope="module")
-def record(audited: tuple[Audit, dict]) -> dict:
-    return audited[1]
+def record() -> dict:
+    return audit_record(audit())
 
 
 @pytest.fixture(scope="module")

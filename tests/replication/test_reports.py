@@ -12,9 +12,7 @@ from pathlib import Path
 import pytest
 
 from reference.ledger import load
-from replication.audit import audit
 from replication.reports.files import FILES, write_audit
-from replication.reports.records import audit_record
 
 CLAIM_KEYS = {
     "id", "where", "printed", "unit", "interval", "computed", "enclosure", "verdict", "assumes",
@@ -25,8 +23,7 @@ CLAIM_KEYS = {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("audit")
-    done = audit()
-    write_audit(done, audit_record(done), path)
+    write_audit(path)
     return path
 
 

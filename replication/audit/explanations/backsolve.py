@@ -9,13 +9,13 @@ from reference.enclosure import Solutions, solutions
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval
 from reference.units import same_dimension
-from replication.audit.entries import function_of, replica_of, title, value
+from replication.audit.entries import entries_of, function_of, replica_of, title, value
 from replication.audit.verdict import Reading
 
 __all__ = ["BackSolved", "Mark", "back_solve"]
 
-_PARTS = 10**4
-"""The proof goes down to this share of an entry's own value."""
+_PARTS = 1000
+"""The proof goes down to such a part of the least value that is searched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +67,7 @@ def back_solve(
     ledger: Ledger, conjectures: Conjectures, claim: Claim, reading: Reading
 ) -> list[BackSolved]:
     """Each entry that the claim rests on, alone, solved for the printed interval."""
-    entries = dict.fromkeys(name for names in claim.inputs.values() for name in names)
+    entries = entries_of(ledger, claim)
     return [_solved(ledger, conjectures, claim, reading, name) for name in entries]
 
 
@@ -77,7 +77,7 @@ def _solved(
     quantity, target = conjectures.quantity(name), _target(claim)
     search = _cuts(*(end * quantity.si for end in quantity.search))
     function = function_of(ledger, claim, claim.functions[reading.name], frozenset({name}))
-    resolution = value(ledger, name) / _PARTS
+    resolution = search[0] / _PARTS
     found = solutions([(function, target)], name, search, resolution, quantity.budget)
     replica = replica_of(ledger, claim, reading.computation)
     return BackSolved(

@@ -9,7 +9,7 @@ from reference.enclosure import evaluate
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval, parse
 from replication.audit.assessed import assess_claim
-from replication.audit.entries import function_of, replica_of
+from replication.audit.entries import entries_of, function_of, replica_of
 from replication.audit.explanations.edits import KINDS, Edit, edits
 from replication.audit.verdict import Reading, Verdict
 
@@ -33,9 +33,9 @@ class Misprint:
     breaks: tuple[str, ...]
 
     @property
-    def rank(self) -> tuple[int, Fraction]:
-        """By kind of edit, then by how far the number moves, relative to the greater of the two."""
-        return KINDS.index(self.edit.kind), self.distance
+    def rank(self) -> tuple[int, int, Fraction]:
+        """By how many other claims it breaks, then by kind of edit, then by how far it moves."""
+        return len(self.breaks), KINDS.index(self.edit.kind), self.distance
 
     @property
     def distance(self) -> Fraction:
@@ -52,7 +52,7 @@ def misprints(
 ) -> list[Misprint]:
     """Every one-edit misprint of the claim or of one of its inputs that would make it agree."""
     found = [*_of_result(ledger, claim, reading)]
-    for name in dict.fromkeys(name for names in claim.inputs.values() for name in names):
+    for name in entries_of(ledger, claim):
         if not name.startswith("inferred:"):
             found += _of_input(ledger, conjectures, claim, reading, name)
     return sorted(found, key=lambda misprint: (misprint.rank, misprint.what, misprint.edit.text))

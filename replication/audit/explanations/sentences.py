@@ -26,13 +26,16 @@ def _inputs(explanation: Explanation) -> str:
         return ""
     if not solved:
         return "No single input within its physical range would give it."
-    rounded = [b.title for b in solved if b.rounding]
-    tail = f"; only {', '.join(rounded)} could be so by rounding" if rounded else ""
+    rounded = ", ".join(b.title for b in solved if b.rounding)
+    tail = f"; only {rounded} could be so by rounding" if rounded else ", none within its rounding"
     near = min(solved, key=lambda b: abs(b.change or 0))
+    inputs = len({b.entry for b in explanation.back_solved})
+    trials = len(explanation.back_solved)
+    tried = f"{inputs} input{'s' * (inputs > 1)}, each changed alone"
+    tried += f" under {trials // inputs} readings ({trials} trials)" * (trials > inputs)
     return (
-        f"Of {len(explanation.back_solved)} single inputs tried, under each reading that fails, "
-        f"{len(solved)} could give it, the least changed being {near.title} at {_value(near)} "
-        f"({100 * (near.change or 0):+.2g} %){tail or ', and none within its rounding'}."
+        f"Of {tried}, {len(solved)} could give it, the least changed being {near.title} at "
+        f"{_value(near)} ({100 * (near.change or 0):+.2g} %){tail}."
     )
 
 

@@ -12,6 +12,7 @@ from replication.audit.entries import rounding
 from replication.audit.explanations import Explanation, explain_claim
 from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
 from replication.audit.inference import infer
+from replication.audit.verdict import Verdict
 from replication.impact import BETA_3, BETA_5
 
 __all__ = ["EVIDENCE"]
@@ -73,6 +74,7 @@ def _pair(known: Known) -> Computed:
         "least": found.lower,
         "velocity": fastest if excluded else 0.0,
         "z": z,
+        "nominal": math.log1p(z / stainless) / math.log1p(z / armor),
         "hand": (armor + z) / (stainless + z),
         "times": _drag_for(float(greatest / low), armor, stainless) / z,
     }
@@ -113,6 +115,11 @@ def _values(known: Known) -> Computed:
         **_back_solved("rha", rha),
         **_back_solved("stainless", stainless),
         "rounding": any(solved.rounding for of in (rha, stainless) for solved in of.back_solved),
+        "together": known.reading("frank-zook-stainless", _DERIVED).verdict is _WITHIN,
+        "never": all(
+            known.reading("frank-zook-rha", form).verdict is Verdict.NOT_REPRODUCED
+            for form in ("", _DERIVED)
+        ),
         "misprints_rha": Fraction(len(rha.misprints)),
         "misprints": Fraction(len(stainless.misprints)),
         "both": Fraction(len(edits[0] & edits[1])),
@@ -122,6 +129,8 @@ def _values(known: Known) -> Computed:
         "logarithm": logarithm,
     }
 
+
+_WITHIN = Verdict.WITHIN_ROUNDING
 
 _SYMBOLS = {
     "a1-initial-velocity": "velocity",

@@ -42,6 +42,12 @@ class Known:
         """What a reading makes of a claim, in SI."""
         return self.reading(claim, other).computed * float(self.ledger.claims[claim].si)
 
+    def prints(self, claim: str, computed: float) -> bool:
+        """Whether a number, in SI, agrees with what a claim prints."""
+        interval, si = self.ledger.claims[claim].interval, self.ledger.claims[claim].si
+        assert interval is not None
+        return interval.contains(Fraction(computed) / si)
+
 
 def known_interval(interval: Interval | None) -> tuple[Fraction, Fraction]:
     """Both ends of an interval that has them."""

@@ -1,7 +1,7 @@
 """The audit's figures, one module each: NAME, TITLE, SIZE, `describe` and `plot`, of the record.
 
-`describe` says in words what a reader of the figure sees, with its numbers. Only `draw` and the
-modules' own imports load matplotlib, so import this package where figures are drawn.
+`describe` says in words what a reader of the figure sees, with its numbers. matplotlib is loaded
+where one is drawn.
 """
 
 from types import ModuleType
@@ -17,5 +17,5 @@ FIGURES: tuple[ModuleType, ...] = (comparison, figure_3, figure_5, sensitivity, 
 
 
 def draw(record: dict[str, Any]) -> list[Drawing]:
-    """Every figure of an audit's record (`reports.records.audit_record`)."""
+    """Every figure, of what `reports.records.shown_record` gives of an audit."""
     return [drawing(module, record) for module in FIGURES]

@@ -1,10 +1,11 @@
 """All approaches to the normalized depth on one axis: computed, printed, quoted."""
 
-from typing import Any
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from replication.reports.figures.drawing import BLUE, GREEN, INK, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "comparison"
 TITLE = "Normalized depth by every approach of the report"
@@ -26,7 +27,7 @@ def _told(one: dict[str, Any]) -> str:
     return f"{head}: {one['computed']:.3f}{printed}"
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: "Figure", record: dict[str, Any]) -> None:
     """One row an approach: a filled dot is ours, a hollow diamond is the report's."""
     axes = figure.subplots()
     rows = record["approaches"]

@@ -1,11 +1,11 @@
 """Time-step error of the final depth against the step: the published and the centered scheme."""
 
-from typing import Any
-
-from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from typing import TYPE_CHECKING, Any
 
 from replication.reports.figures.drawing import BLUE, INK, VERMILION, power_of_ten
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "convergence"
 TITLE = "Error of the sheet's final depth against its time step, beta = 5"
@@ -31,8 +31,10 @@ def describe(record: dict[str, Any]) -> str:
     return f"On logarithmic axes {'; '.join(told)}. Hollow: the whole error, with the stop rule."
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: "Figure", record: dict[str, Any]) -> None:
     """The time-step part as filled points on a line, the whole error hollow."""
+    from matplotlib.ticker import NullFormatter
+
     axes = figure.subplots()
     for ladder in record["convergence"]:
         color, marker, order, level, offset, side = _LOOKS[ladder["scheme"]]

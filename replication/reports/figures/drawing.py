@@ -10,9 +10,6 @@ from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
 
-import matplotlib as mpl
-from matplotlib.figure import Figure
-
 from replication.reports.figures.svg import tidy
 
 __all__ = ["BLUE", "GREEN", "INK", "VERMILION", "Drawing", "drawing", "power_of_ten"]
@@ -54,6 +51,9 @@ class Drawing:
 
 def drawing(module: ModuleType, record: dict[str, Any]) -> Drawing:
     """Draw one figure once and save it in both formats."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
     description = module.describe(record)
     with mpl.rc_context(_LOOKS):
         figure = Figure(figsize=module.SIZE)

@@ -1,14 +1,16 @@
 """Figure 3 of the report: penetration depth against time, the sheet's rows and the exact motion."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from replication import closed_form
 from replication.impact import CASES, Impact
 from replication.midpoint import run
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "figure-3"
 TITLE = "Penetration depth against time, as in Figure 3 of the report"
@@ -29,7 +31,7 @@ def describe(_: dict[str, Any]) -> str:
     return f"Depth rises ever more slowly to rest: {told}. At this scale the two coincide."
 
 
-def plot(figure: Figure, _: dict[str, Any]) -> None:
+def plot(figure: "Figure", _: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
     axes = figure.subplots()
     looks = ((VERMILION, "o", (0, 9), "right"), (BLUE, "s", (8, -4), "left"))

@@ -1,10 +1,9 @@
 """Figure 5 of the report: normalized depth against impact velocity, by the sheet and exact."""
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from reference.ledger import load
 from replication import closed_form
@@ -12,6 +11,9 @@ from replication.audit.entries import value
 from replication.impact import BETA_5
 from replication.midpoint import run
 from replication.reports.figures.drawing import BLUE, INK
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "figure-5"
 TITLE = "Normalized depth against impact velocity, as in Figure 5 of the report"
@@ -28,7 +30,7 @@ def describe(record: dict[str, Any]) -> str:
     )
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: "Figure", record: dict[str, Any]) -> None:
     """The exact line, the sheet every 10 m/s, and the observed level."""
     low, high = _ends()
     axes = figure.subplots()

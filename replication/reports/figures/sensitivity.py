@@ -1,11 +1,11 @@
 """Tornado: what each input does to the exact normalized depth and the exact depth, beta = 5."""
 
-from typing import Any
-
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch
+from typing import TYPE_CHECKING, Any
 
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "sensitivity"
 TITLE = "What each input does to the exact penetration depth, beta = 5"
@@ -28,8 +28,10 @@ def describe(record: dict[str, Any]) -> str:
     )
 
 
-def plot(figure: Figure, record: dict[str, Any]) -> None:
+def plot(figure: "Figure", record: dict[str, Any]) -> None:
     """Two panels of bars about the nominal depth, the longest on top."""
+    from matplotlib.patches import Patch
+
     nominal = float(record["sensitivity"][_CASE]["depth"]) * 1e6
     panels = figure.subplots(1, 2, sharex=True)
     for axes, (which, words) in zip(panels, _PANELS, strict=True):
