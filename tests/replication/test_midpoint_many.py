@@ -60,7 +60,7 @@ def test_cases_broadcast_and_a_single_one_is_a_scalar() -> None:
 
 
 def test_too_many_steps_are_refused_by_index() -> None:
-    with pytest.raises(ValueError, match=r"case \[1\] would take about 2\.6\d+e\+10 steps"):
+    with pytest.raises(ValueError, match=r"sheet\[1\] would take about 2\.6\d+e\+10 steps"):
         run_many(**BETA_5.motion, step=[2e-10, 1e-18])
     with pytest.raises(ValueError, match=r"radius\[0, 1\] is nan: it must be a finite"):
         run_many(500.0, [[1e-6, np.nan]], 8900.0, 7850.0, 3.5e9)

@@ -300,12 +300,15 @@ REFUSED = {
     "[inputs]\nradius = []": "radius: the list is empty",
     "[inputs]\nradius = [1e-6, nan]": "radius: radius is nan: it must be a finite number",
     "[inputs]\nradius = [[1e-6]]": "radius: .* is no finite number",
+    "[inputs]\nradius = 2020-01-01": "radius: 2020-01-01 is no finite number, such as 1.1e-5 or '",
+    "[inputs]\nradius = {from = 1, to = 07:30:00, points = 2}": "to: 07:30:00 is no finite number",
+    "[inputs]\nradius = {from = 1, to = 2, points = 3.0}": "points is 3.0: .* without point or exp",
     "[inputs]\nradius = -1": "radius is -1.0: it must be a finite number greater than zero",
     "[inputs]\nradius = {points = 3}": "wants from, to, points; or distribution; or, by Eq. 1",
     "[inputs]\nradius = {from = 1, to = 2}": "radius: 'points' is missing",
     "[inputs]\nradius = {from = 1, to = 2, points = 2, step = 1}": "there is no 'step' here",
     "[inputs]\nradius = {from = 1, to = 2, points = 1}": "points is 1: it must be a whole number",
-    "[inputs]\nradius = {from = 1, to = 2, points = 2.5}": "points is '2.5': it must be a whole",
+    "[inputs]\nradius = {from = 1, to = 2, points = 2.5}": "points is 2.5: it must be a whole",
     "[inputs]\nradius = {from = 1, to = inf, points = 2}": "to: inf is not finite",
     "[inputs]\nradius = {from = 'x', to = 1, points = 2}": "radius: from: 'x' is no finite number",
     "[inputs]\nstop_velocity = {from = 0, to = 2, points = 2, scale = 'log'}": "log scale wants",
@@ -350,7 +353,7 @@ UNIFORM = "[inputs]\nradius = {distribution = 'uniform', lower = 1, upper = 2}"
 REFUSED |= {
     UNIFORM: r"\[sweep\]: samples is missing",
     f"[sweep]\nsamples = 0\n{UNIFORM}": "samples is 0: it must be a whole number, 1 or more",
-    f"[sweep]\nsamples = 1e6\n{UNIFORM}": "samples is '1e6': it must be a whole number",
+    f"[sweep]\nsamples = 1e6\n{UNIFORM}": "samples is 1e6: it must be a whole number",
     f"[sweep]\nsamples = true\n{UNIFORM}": "samples is True: it must be a whole number",
     f"[sweep]\nsamples = 9\nseed = -1\n{UNIFORM}": "seed is -1: it must be a whole number, 0 to",
     f"[sweep]\nsamples = 9_000_000_000_000\n{UNIFORM}": "9000000000000 cases are more than",
@@ -381,6 +384,7 @@ def test_a_bad_output_is_refused_before_the_work(
         (plan, "-o", "out.csv", "--processes", "0"): "--processes wants 1 or more",
         ("own.csv",): "own.csv is the plan itself",
         ("absent.toml",): "absent.toml: No such file",
+        (".",): r"\.: Is a directory",
     }.items():
         status, out, err = coldspray("sweep", *arguments)
         assert (status, out) == (2, "")
@@ -403,7 +407,11 @@ def test_a_case_that_the_sheet_refuses_ends_the_sweep(tmp_path: Path, coldspray:
     file.write_text('[sweep]\noutputs = ["sheet_depth"]\n[inputs]\nstep = [1e-9, 1e-10, 1e-15]')
     status, out, err = coldspray("sweep", file, "-o", tmp_path / "out.csv")
     assert (status, out) == (2, "")
-    assert re.search(r"cases from 0 on: .*case \[2\].*would take about 2\.6\d*e\+07 steps", err)
+    assert re.search(
+        r"plan\.toml: the sheet of case 2 \(velocity 500\.0, .*, step 1e-15, stop_velocity 1\.0\) "
+        r"would take about 2\.6\d*e\+07 steps",
+        err,
+    )
     assert names(tmp_path) == ["plan.toml"]
 
 
