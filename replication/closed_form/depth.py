@@ -1,5 +1,6 @@
 """Depth and velocity from the energy integral of Eq. 13."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -158,20 +159,32 @@ def _root(r: Any, r_low: Any) -> Any:
     The first by the triple angle, in the form that does not cancel for shallow craters: with
     h = asin(sqrt(r)) / 3, y = 4 sin(h) sin(h + pi/3), here half of it by the one tangent of h.
     """
+    if type(r) is float:
+        if r > 0.5:
+            return _deep_root(r, r_low)
+        return _shallow_root(r, r_low, math.tan(math.asin(math.sqrt(r)) / 3))
     capped = np.minimum(r, 0.5)
-    t = np.tan(np.arcsin(np.sqrt(capped)) / 3)
+    shallow = _shallow_root(capped, r_low, np.tan(np.arcsin(np.sqrt(capped)) / 3))
+    return np.where(r <= 0.5, shallow, _deep_root(r, r_low))
+
+
+def _shallow_root(r: Any, r_low: Any, t: Any) -> Any:
+    """The first root, from the tangent of h."""
     half = t + _SQRT_3
     half *= t
     t *= t
     t += 1
     half /= t
-    half -= _newton_step(half, capped, r_low)
+    half -= _newton_step(half, r, r_low)
     half *= 2
+    return half
+
+
+def _deep_root(r: Any, r_low: Any) -> Any:
     deep = 4 * r_low + 1
     deep += 4 * r
     deep /= 3
-    # [()] makes a number of an array without axes: its arithmetic costs a fifth.
-    return np.where(r <= 0.5, half, deep)[()]
+    return deep
 
 
 _SQRT_3 = float(np.sqrt(3.0))
@@ -203,7 +216,7 @@ def _volume_ratio(V: Any, rho_p: Any, rho_t: Any, twice_R_t: Any) -> tuple[Any, 
     p = V * V
     p *= rho_t
     p /= twice_R_t
-    log = np.log1p(p)
+    log = math.log1p(p) if type(p) is float else np.log1p(p)
     r = rho_p * log
     r /= rho_t
     low = left_of_pressure(V, rho_t, twice_R_t, p)

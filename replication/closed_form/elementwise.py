@@ -1,11 +1,13 @@
 """A formula for blocks of numbers, applied to whatever holds them."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from replication.closed_form.checked import checked, require_finite
+from replication.closed_form.checked import checked, require_finite, safe
 from replication.closed_form.containers import Formula, lifted
 
 __all__ = ["elementwise"]
@@ -25,12 +27,18 @@ def elementwise(
         arrays = checked(inputs)
         if all(array.ndim == 0 for array in arrays.values()):
             with np.errstate(all="ignore"):
-                result = np.float64(formula(*(float(array) for array in arrays.values())))
+                result = formula(*(np.float64(array) for array in arrays.values()))
         else:
             result = _in_blocks(formula, list(arrays.values()), block)
         require_finite(arrays, result, never)
         return result
 
+    if all(type(x) is float and safe(name, x) for name, x in inputs.items()):
+        # One case: to make arrays of its numbers would take longer than the formula.
+        with suppress(ZeroDivisionError, OverflowError):  # which `numeric` explains
+            result = float(formula(*inputs.values()))
+            if isfinite(result):
+                return result
     return lifted(numeric, inputs)
 
 

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from textwrap import fill, shorten
 
+from reference import findings
+from reference.findings import FindingText
 from reference.ledger import Claim, Ledger
 from replication.audit import Audit
 from replication.audit.explain import assumptions, explanation
@@ -14,6 +16,7 @@ from replication.audit.explanations.sentences import (
 )
 from replication.audit.findings import Finding
 from replication.audit.verdict import Assessment, Verdict
+from replication.reports.cells import workbook_cell
 from replication.text import aligned, number, with_unit
 
 __all__ = ["audit_summary", "claim_proof", "ledger_table"]
@@ -97,9 +100,16 @@ def claim_proof(ledger: Ledger, assessment: Assessment) -> str:
         ("verdict", assessment.verdict.value),
         ("because", explanation(ledger, assessment)),
         ("assumes", "; ".join(assumptions(ledger, assessment))),
+        ("workbook", workbook_cell({"id": claim.id, "cell": claim.place.cell}) or ""),
     ]
+    rows += [("finding", f"{f.id}: {f.filled(f.title)}") for f in _touching(claim)]
     rows += _tried(ledger, claim)
     return "\n".join(_labeled(label, text) for label, text in rows if text)
+
+
+def _touching(claim: Claim) -> list[FindingText]:
+    """The findings that touch a claim; `coldspray audit` computes their evidence."""
+    return [finding for finding in findings.load().values() if claim.id in finding.claims]
 
 
 def _tried(ledger: Ledger, claim: Claim) -> list[tuple[str, str]]:

@@ -202,3 +202,10 @@ def test_a_closed_pipe_is_no_error() -> None:
 def test_version_and_help(coldspray: Command) -> None:
     assert re.fullmatch(r"coldspray \d+\.\d+\.\d+\n", coldspray("--version")[1])
     assert "COMMAND" in coldspray("--help")[1]
+
+
+def test_a_proof_names_its_cell_and_its_findings(coldspray: Callable[..., tuple]) -> None:
+    status, out, _ = coldspray("claims", "depth-beta-5")
+    assert status == 0
+    assert "workbook   Sheet beta 5!K22" in out
+    assert "finding    coarse-step: At 0.5 ns one of the two final depths prints differently" in out

@@ -46,7 +46,10 @@ def test_few_steps_are_few_by_the_exact_time(impact: Impact, slowest: float, ste
     impact = replace(impact, stop_velocity=stop, step=time / steps)
     if midpoint._few_steps(impact):
         assert steps <= midpoint.MAX_STEPS
-    assert midpoint._few_steps(replace(impact, step=1e6 * impact.step)) or stop < 1e-3
+
+
+def test_the_report_s_steps_are_seen_to_be_few() -> None:
+    assert midpoint._few_steps(BETA_5)
 
 
 def test_the_first_depth_is_half_a_step_and_later_ones_a_whole() -> None:

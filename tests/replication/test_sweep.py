@@ -30,6 +30,7 @@ from replication.sweep.draws import LEAST_SHARE, Random, uniform
 from replication.sweep.plan import BLOCK
 from replication.sweep.pool import in_order
 from replication.sweep.sources import Spaced
+from spreadsheets.safely import draft_of, write_bytes
 
 Command = Callable[..., tuple[int, str, str]]
 EXAMPLES = Path(__file__).parents[2] / "docs" / "sweeps"
@@ -114,6 +115,12 @@ def test_velocity_by_mass_is_equation_1(tmp_path: Path) -> None:
     # Mass as the cube of the radius: velocities in the ratio 8^(1/2). Each is rounded thrice.
     expected = [500 * math.sqrt(8), 500.0, 500 / math.sqrt(8)]
     assert cases["velocity"].tolist() == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_byte_order_mark_is_no_part_of_a_plan(tmp_path: Path) -> None:
+    file = tmp_path / "plan.toml"
+    file.write_bytes(b"\xef\xbb\xbf[inputs]\nradius = 5e-6")
+    assert block(read_plan(file), 0)["radius"].tolist() == [5e-6]
 
 
 # Random numbers
@@ -509,10 +516,13 @@ def test_the_command_writes_beside_and_reports(
     assert coldspray("sweep", plan) == (0, "Written: figure-5.csv (101 cases)\n", "")
     assert len(rows_of(Path("figure-5.csv"))) == 101
     assert coldspray("sweep", plan, "--quiet") == (0, "", "")
-    record = json.loads(coldspray("sweep", plan, "--json", "-o", "five.parquet")[1])
-    assert (record["file"], record["cases"]) == ("five.parquet", 101)
+    record = json.loads(coldspray("sweep", plan, "--json", "-o", "five.PARQUET")[1])
+    assert pyarrow.parquet.read_table("five.PARQUET").num_rows == 101
+    assert (record["file"], record["cases"]) == ("five.PARQUET", 101)
     assert record["columns"]["depth"] == "m"
     assert record["sweep_sha256"] == read_plan(plan).digest
+    documented = (EXAMPLES / "README.md").read_text("utf-8")
+    assert all(f"`{key}`" in documented for key in record)
 
 
 def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
@@ -528,12 +538,40 @@ def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
     assert subprocess.run(command, capture_output=True, check=True).stderr == b""
 
 
-def test_an_interrupted_sweep_leaves_nothing(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("send", "number"),
+    [(os.killpg, signal.SIGINT), (os.killpg, signal.SIGHUP), (os.kill, signal.SIGTERM)],
+)
+def test_an_interrupted_sweep_leaves_nothing(
+    send: Callable[[int, int], None], number: int, tmp_path: Path
+) -> None:
     sweep = started(tmp_path)
-    os.killpg(sweep.pid, signal.SIGINT)
+    send(sweep.pid, number)
     _, err = sweep.communicate(timeout=60)
-    assert (sweep.returncode, err) == (130, b"coldspray sweep: interrupted, nothing written\n")
+    assert err == b"coldspray sweep: interrupted, nothing written\n"
+    assert sweep.returncode == 128 + number
     assert names(tmp_path) == ["plan.toml"]
+
+
+def test_of_two_runs_to_one_file_the_one_that_lost_its_draft_says_so(tmp_path: Path) -> None:
+    target = tmp_path / "out.csv"
+    with pytest.raises(OSError, match="another run is writing this file") as lost:  # noqa: SIM117
+        with draft_of(target) as draft:
+            draft.write_text("slow")
+            draft.unlink()  # as the other run does when it begins
+            target.write_text("fast")
+    assert lost.value.filename == str(target)
+    assert (target.read_text(), names(tmp_path)) == ("fast", ["out.csv"])
+
+
+def test_a_draft_is_on_the_disk_before_it_has_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    synced: list[list[str]] = []
+    monkeypatch.setattr("os.fsync", lambda _: synced.append(names(tmp_path)))
+    write_bytes(tmp_path / "out.csv", b"whole")
+    assert synced == [[f".out.csv.{os.getpid()}.part"]]
+    assert names(tmp_path) == ["out.csv"]
 
 
 def test_a_killed_sweep_is_started_again(tmp_path: Path) -> None:
