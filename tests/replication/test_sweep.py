@@ -210,14 +210,16 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
         given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
         impact = Impact(**{name: float(cases[name][k]) for name in given})
         assert cases["resistance"][k] == impact.target_resistance
-        assert cases["depth"][k] == final_depth(**impact.motion)
+        # One case alone is computed in plain floats, whose functions may differ by an ulp.
+        alone = pytest.approx(final_depth(**impact.motion), rel=4 * 2.0**-52)
+        assert cases["depth"][k] == alone
         ratio = normalized_depth(
             impact.velocity,
             impact.particle_density,
             impact.target_density,
             impact.target_resistance,
         )
-        assert cases["normalized_depth"][k] == ratio
+        assert cases["normalized_depth"][k] == pytest.approx(ratio, rel=4 * 2.0**-52)
         assert cases["beyond_radius"][k] == (ratio > 1)
     assert 0 < cases["beyond_radius"].sum() < plan.count
 
@@ -540,7 +542,7 @@ def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("send", "number"),
-    [(os.killpg, signal.SIGINT), (os.killpg, signal.SIGHUP), (os.kill, signal.SIGTERM)],
+    [(os.killpg, signal.SIGINT), (os.kill, signal.SIGHUP), (os.kill, signal.SIGTERM)],
 )
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path
@@ -555,11 +557,15 @@ def test_an_interrupted_sweep_leaves_nothing(
 
 def test_of_two_runs_to_one_file_the_one_that_lost_its_draft_says_so(tmp_path: Path) -> None:
     target = tmp_path / "out.csv"
-    with pytest.raises(OSError, match="another run is writing this file") as lost:  # noqa: SIM117
+
+    def slow() -> None:
         with draft_of(target) as draft:
             draft.write_text("slow")
             draft.unlink()  # as the other run does when it begins
             target.write_text("fast")
+
+    with pytest.raises(OSError, match="another run is writing this file") as lost:
+        slow()
     assert lost.value.filename == str(target)
     assert (target.read_text(), names(tmp_path)) == ("fast", ["out.csv"])
 
