@@ -81,7 +81,9 @@ def _pandas(numeric: Formula, inputs: Mapping[str, Any], types: Sequence[type]) 
     try:
         results = numeric(**{**inputs, **columns})
     except ElementError as error:
-        raise ValueError(error.at(f"[{index[error.index[0]]}]")) from error
+        # That of a number beside the Series has no index.
+        label = "".join(f"[{index[place]}]" for place in error.index)
+        raise ValueError(error.at(label)) from error
     if len(types) == 1:
         return pd.Series(results, index)
     return tuple(pd.Series(result, index) for result in results)

@@ -249,6 +249,7 @@ def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
             TypeError,
             r"^radius is a DataFrame of shape \(2, 1\): beside",
         ),
+        (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
         (velocity.to_frame(), 1e-5, TypeError, "a Series is wanted for each input: take columns"),
     ]
     for first, second, kind, message in refusals:
