@@ -78,10 +78,18 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(f"{text!r} is beyond the range of doubles") from error
 
 
+class _Float(str):
+    """A float as it is written; unlike a text it is shown without quotes."""
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
 def parse_toml(content: bytes) -> dict[str, Any]:
     """A TOML document, its floats as they are written. Raises ValueError if it is none."""
     try:
-        return tomllib.loads(content.decode("utf-8"), parse_float=str)
+        # Notepad and others put a byte order mark before it.
+        return tomllib.loads(content.decode("utf-8-sig"), parse_float=_Float)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"is no TOML file: {error}") from error
 

@@ -3,8 +3,10 @@
 import argparse
 import io
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from types import FrameType
 from typing import Any, NoReturn
 
 from replication.commands import COMMANDS
@@ -19,6 +21,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
             stream.reconfigure(errors="backslashreplace")
     options = _parser().parse_args(arguments)
+    if arguments is None:
+        _end_as_interrupted()
     try:
         status = options.run(options)
         if sys.stdout is not None:
@@ -27,14 +31,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of a pipe has seen enough; nothing more can be said to it.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         print(f"coldspray {options.command}: interrupted, nothing written", file=sys.stderr)
-        return 130
+        return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except (ValueError, OSError) as error:
         print(f"coldspray {options.command}: {_one_line(error)}", file=sys.stderr)
         return 2
     assert isinstance(status, int)
     return status
+
+
+def _end_as_interrupted() -> None:
+    """Have the program end as by Ctrl-C, drafts removed, when it is told to or loses its terminal.
+
+    A signal that is ignored, as after `nohup`, remains so.
+    """
+    for name in ("SIGTERM", "SIGHUP"):  # Windows has no hangup
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _interrupt)
+
+
+def _interrupt(number: int, _: FrameType | None) -> NoReturn:
+    raise KeyboardInterrupt(number)
 
 
 def _one_line(error: Exception) -> str:

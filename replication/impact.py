@@ -2,8 +2,12 @@
 
 import math
 from dataclasses import dataclass, fields
+from typing import Any
 
-__all__ = ["BETA_3", "BETA_5", "CASES", "Impact", "checked"]
+__all__ = ["BETA_3", "BETA_5", "BEYOND", "CASES", "Impact", "checked", "derived", "within"]
+
+BEYOND = "doubles carry 1e-250 to 1e250 safely"
+"""Why what is not `within` is refused."""
 
 _MAY_BE_ZERO = {"stop_velocity", "resistance"}
 
@@ -44,26 +48,10 @@ class Impact:
                 object.__setattr__(self, field.name, checked(field.name, value))
         if self.target_resistance == 0:
             raise ValueError("target resistance is 0.0: nothing would bring the particle to rest")
-        for name, value in self._derived().items():
+        for name, value in derived(**self.motion).items():
             checked(name, value)
-            if not 1e-250 <= value <= 1e250 and name != "particle mass":
-                raise ValueError(f"{name} is {value!r}: doubles carry 1e-250 to 1e250 safely")
-
-    def _derived(self) -> dict[str, float]:
-        """What the formulas form out of the inputs."""
-        pressure = 0.5 * self.target_density * self.velocity * self.velocity
-        return {
-            "target resistance": self.target_resistance,
-            "particle mass": self.mass,
-            "radius squared": self.radius * self.radius,
-            "velocity squared": self.velocity * self.velocity,
-            "particle density": self.particle_density,
-            "target density": self.target_density,
-            "dynamic pressure": pressure,
-            "dynamic pressure over target resistance": pressure / self.target_resistance,
-            "ratio of the densities": self.particle_density / self.target_density,
-            "work": pressure / self.target_resistance * self.particle_density / self.target_density,
-        }
+            if not within(name, value):
+                raise ValueError(f"{name} is {value!r}: {BEYOND}")
 
     def _require_one_resistance(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)
@@ -104,8 +92,41 @@ class Impact:
         >>> f"{BETA_5.mass:.2E}"
         '4.96E-11'
         """
-        r = self.radius
-        return self.particle_density * 4 / 3 * math.pi * r * r * r
+        return float(_mass(self.radius, self.particle_density))
+
+
+def _mass(r: Any, particle_density: Any) -> Any:
+    return particle_density * 4 / 3 * math.pi * r * r * r
+
+
+def derived(
+    velocity: Any, particle_density: Any, target_density: Any, resistance: Any, radius: Any = 1.0
+) -> dict[str, Any]:
+    """What the formulas form out of the inputs, by name; of numbers or of arrays. SI units.
+
+    >>> f"{derived(500.0, 8900.0, 7850.0, 3.5e9)['dynamic pressure']:.3e}"
+    '9.812e+08'
+    """
+    pressure = 0.5 * target_density * velocity * velocity
+    return {
+        "target resistance": resistance,
+        "particle mass": _mass(radius, particle_density),
+        "radius squared": radius * radius,
+        "velocity squared": velocity * velocity,
+        "particle density": particle_density,
+        "target density": target_density,
+        "dynamic pressure": pressure,
+        "dynamic pressure over target resistance": pressure / resistance,
+        "ratio of the densities": particle_density / target_density,
+        "work": pressure / resistance * particle_density / target_density,
+    }
+
+
+def within(name: str, value: Any) -> Any:
+    """Whether what is `derived` under a name is in range: a number, or each of an array."""
+    if name == "particle mass":  # a factor of nothing else; it need only be a number
+        return (value > 0) & (value < math.inf)
+    return (value >= 1e-250) & (value <= 1e250)
 
 
 def checked(name: str, value: float) -> float:

@@ -4,18 +4,23 @@ Every operation is that of `midpoint`, in its order, so that each case gives the
 """
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from replication import closed_form
-from replication.closed_form.elementwise import checked
+from replication.closed_form.checked import ElementError, checked, first_true
+from replication.closed_form.containers import lifted
 from replication.midpoint import MAX_STEPS, SCHEMES
 
 __all__ = ["run_many"]
 
 _BLOCK = 4096
 """Cases that walk together; some ten arrays of it fit the cache."""
+
+_AT_ONCE = 100_000
+"""Cases among which to look for those that walk together: what bounds the memory."""
 
 
 def run_many(
@@ -37,43 +42,54 @@ def run_many(
     >>> [f"{x * 1e6:.2f}" for x in depth], steps.tolist()
     (['10.03', '7.67'], [178, 131])
     """
+    inputs = locals()
+    del inputs["scheme"]
     if scheme not in SCHEMES:
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
-    inputs = {
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-        "step": step,
-        "stop_velocity": stop_velocity,
-    }
+    depth, steps = lifted(partial(_sheets, scheme == "centered"), inputs, (float, int))
+    return depth, steps
+
+
+def _sheets(centered: bool, **inputs: Any) -> tuple[Any, Any]:
     arrays = np.broadcast_arrays(*checked(inputs).values())
-    expected = _expected_steps(*arrays)
-    cases = np.array([array.ravel() for array in arrays])
-    depth, steps = np.zeros(expected.size), np.zeros(expected.size, dtype=np.int64)
+    shape, count = arrays[0].shape, arrays[0].size
+    depth, steps = np.zeros(count), np.zeros(count, dtype=np.int64)
+    for first in range(0, count, _AT_ONCE):
+        part = slice(first, first + _AT_ONCE)
+        cases = np.array([array.flat[part] for array in arrays])
+        try:
+            _fill(cases, depth[part], steps[part], centered)
+        except ElementError as error:
+            place = np.unravel_index(first + error.index[0], shape)
+            raise ElementError(error.text, tuple(map(int, place))) from None
+    return depth.reshape(shape)[()], steps.reshape(shape)[()]
+
+
+def _fill(cases: Any, depth: Any, steps: Any, centered: bool) -> None:
+    """Fill in depth and steps of cases of shape (7, n)."""
     # Cases that stop at about the same row walk together.
-    order = np.argsort(expected, axis=None, kind="stable")
+    order = np.argsort(_expected_steps(*cases), kind="stable")
     with np.errstate(all="ignore"):
         for first in range(0, len(order), _BLOCK):
             block = order[first : first + _BLOCK]
-            _walk(cases[:, block], block, depth, steps, scheme == "centered")
-    return depth.reshape(expected.shape)[()], steps.reshape(expected.shape)[()]
+            _walk(cases[:, block], block, depth, steps, centered)
 
 
-def _expected_steps(*arrays: Any) -> Any:
-    velocity, radius, particle, target, resistance, step, stop = arrays
+def _expected_steps(*cases: Any) -> Any:
+    velocity, radius, particle, target, resistance, step, stop = cases
     slowest = np.minimum(stop, velocity)
     motion = velocity, radius, particle, target, resistance
     steps = closed_form.stop_time(*motion, stop_velocity=slowest) / step
-    if np.any(~(steps <= MAX_STEPS)):
-        index = tuple(int(i) for i in np.argwhere(~(steps <= MAX_STEPS))[0])
-        raise ValueError(
-            f"the sheet of case {list(index)} would take about {steps[index]:.4g} steps of "
-            f"{float(step[index])!r} s down to {float(stop[index])!r} m/s, more than "
-            f"{MAX_STEPS:,}: take a larger step"
+    bad = ~(steps <= MAX_STEPS)
+    if bad.any():
+        (k,) = first_true(bad)
+        raise ElementError(
+            f"the sheet{{place}} would take about {steps[k]:.4g} steps of "
+            f"{float(step[k])!r} s down to {float(stop[k])!r} m/s, more than "
+            f"{MAX_STEPS:,}: take a larger step",
+            (k,),
         )
-    return np.asarray(steps)
+    return steps
 
 
 def _walk(cases: Any, places: Any, depth: Any, steps: Any, centered: bool) -> None:

@@ -50,8 +50,10 @@ def second_process() -> Iterator[Start]:
 
 
 def _prepare() -> None:
-    """Ctrl-C is the parent's to answer; and without a parent there is nothing left to do."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Ctrl-C and a hangup are the parent's to answer; without a parent nothing is left to do."""
+    for name in ("SIGINT", "SIGHUP"):
+        if hasattr(signal, name):  # Windows has no hangup
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

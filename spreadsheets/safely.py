@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from errno import EACCES, EINVAL, EISDIR, ENOTDIR
+from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
 from pathlib import Path
 
 __all__ = ["check_folder", "check_target", "draft_of", "write_bytes", "write_folder"]
@@ -29,8 +29,8 @@ def check_target(path: Path) -> Path:
 def draft_of(path: Path) -> Iterator[Path]:
     """A file beside `path` to write to; it takes that name if the block ends well, or goes.
 
-    A draft that an earlier run left, because it was killed, goes first; were that run still at it,
-    it would end with an error, not with a file of two runs. Raises OSError, naming the path.
+    A draft that an earlier run left, because it was killed, goes first; if that run is still at it,
+    it ends with an error, not with a file of two runs. Raises OSError, naming the path.
     """
     target = check_target(path)
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
@@ -38,13 +38,27 @@ def draft_of(path: Path) -> Iterator[Path]:
         for left in _drafts_of(target):
             left.unlink(missing_ok=True)
         yield draft
-        draft.replace(target)
+        _publish(draft, target)
     except OSError as error:
         if error.errno is None:
             raise
         raise type(error)(error.errno, error.strerror, str(path)) from error
     finally:
         draft.unlink(missing_ok=True)
+
+
+def _publish(draft: Path, target: Path) -> None:
+    """Give a draft its name once it is on the disk: a crash must not leave the name without it."""
+    try:
+        _to_disk(draft)
+        draft.replace(target)
+    except FileNotFoundError as error:
+        raise OSError(EBUSY, "another run is writing this file") from error
+
+
+def _to_disk(file: Path) -> None:
+    with file.open("r+b") as written:
+        os.fsync(written.fileno())
 
 
 def _drafts_of(target: Path) -> list[Path]:
@@ -93,6 +107,7 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
             draft = Path(temporary, name)
             draft.parent.mkdir(parents=True, exist_ok=True)
             draft.write_bytes(content)
+            _to_disk(draft)
         for name in files:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             Path(temporary, name).replace(folder / name)

@@ -1,5 +1,6 @@
 """The cases that are timed, each with its exact depths and an exact history."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -45,11 +46,12 @@ class Case:
         """Relative error of a depth [m], against the exact one at a velocity [m/s], 0 for rest."""
         return relative_error(depth, self.motion.depth_at_velocity(at_velocity))
 
-    def history_error(self, depths: Sequence[float]) -> float:
-        """The worst error of depths [m] at `times`, relative to the depth at rest."""
+    def history_error(self, depths: Sequence[float], until: float = math.inf) -> float:
+        """The worst error of depths [m] at `times` up to one [s], relative to the depth at rest."""
         mpf, whole = self.motion.context.mpf, self.motion.final_depth
-        pairs = zip(depths, self.depths, strict=True)
-        return float(np.max([float(abs(mpf(float(x)) - exact) / whole) for x, exact in pairs]))
+        triples = zip(self.times, depths, self.depths, strict=True)
+        errors = [abs(mpf(float(x)) - exact) / whole for time, x, exact in triples if time <= until]
+        return float(np.max([float(error) for error in errors]))
 
 
 def build(name: str) -> Case:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from types import FrameType
 from typing import Any
 
-__all__ = ["Timing", "measure", "time_limit"]
+__all__ = ["Stopwatch", "Timing", "time_limit"]
 
 BATCH = 5e-3
 """A call is repeated without a look at the clock for about so many seconds: ten thousand times what
@@ -32,27 +32,43 @@ class Timing:
         return replace(self, best=self.best / cases, median=self.median / cases)
 
 
-def measure(call: Callable[[], Any], repeat: int, limit: float) -> tuple[Any, Timing]:
-    """What a call returns, and how long it takes once everything is warm.
+class Stopwatch:
+    """A call, warmed up, to be timed batch by batch, so that several can take turns.
 
-    Raises TimeoutError where two calls are not done within the limit [s], and whatever the call
-    raises. Fewer batches than `repeat` are timed where so many would take longer than the limit.
+    `answer` is what the call returned. Raises TimeoutError where two calls are not done within the
+    limit [s], and whatever the call raises. Fewer batches than `repeat` are timed where so many
+    would take longer than the limit.
 
-    >>> answer, timing = measure(lambda: sum(range(100)), repeat=3, limit=5.0)
-    >>> answer, timing.repeats, 0 < timing.best <= timing.median
+    >>> watch = Stopwatch(lambda: sum(range(100)), repeat=3, limit=5.0)
+    >>> for _ in range(5):
+    ...     watch.batch()
+    >>> watch.answer, watch.timing.repeats, 0 < watch.timing.best <= watch.timing.median
     (4950, 3, True)
     """
-    answers: list[Any] = []
-    with time_limit(limit):
-        # The first call pays for imports and caches. Both go through timeit because it turns the
-        # garbage collector off, in whose callbacks the end of the time would be lost.
-        timeit.timeit(lambda: answers.append(call()), number=1)
-        once = timeit.timeit(call, number=1)
-    calls = max(1, round(BATCH / once))
-    repeats = max(1, min(repeat, int(limit / (once * calls))))
-    batches = timeit.repeat(call, repeat=repeats, number=calls)
-    best, median = min(batches) / calls, statistics.median(batches) / calls
-    return answers[0], Timing(best, median, repeats, calls)
+
+    def __init__(self, call: Callable[[], Any], repeat: int, limit: float) -> None:
+        answers: list[Any] = []
+        with time_limit(limit):
+            # The first call pays for imports and caches. Both go through timeit because it turns
+            # the garbage collector off, in whose callbacks the end of the time would be lost.
+            timeit.timeit(lambda: answers.append(call()), number=1)
+            once = timeit.timeit(call, number=1)
+        self.answer, self._call = answers[0], call
+        self._calls = max(1, round(BATCH / once))
+        self._repeats = max(1, min(repeat, int(limit / (once * self._calls))))
+        self._batches: list[float] = []
+
+    def batch(self) -> None:
+        """Time a batch, if all are not yet done."""
+        if len(self._batches) < self._repeats:
+            seconds = timeit.timeit(self._call, number=self._calls)
+            self._batches.append(seconds / self._calls)
+
+    @property
+    def timing(self) -> Timing:
+        """Of the batches so far."""
+        best, median = min(self._batches), statistics.median(self._batches)
+        return Timing(best, median, len(self._batches), self._calls)
 
 
 @contextmanager

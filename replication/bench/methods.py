@@ -1,4 +1,4 @@
-"""What this project has: the sheet in both schemes, and the closed form."""
+"""What this project has for one case: the sheet in both schemes, and the closed form."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,47 +9,45 @@ import numpy as np
 import numpy.typing as npt
 
 from replication import closed_form
-from replication.analysis.budget import exact_motion
-from replication.bench.cases import Case, relative_error
+from replication.bench.cases import Case
 from replication.bench.task import Task
+from replication.impact import Impact
 from replication.midpoint import Sheet, run
 
-__all__ = ["ARRAYS", "CLOSED_FORM", "SHEETS", "closed_form_tasks", "sheet_tasks"]
+__all__ = ["CLOSED_FORM", "SHEETS", "STEPS", "closed_form_tasks", "sheet_tasks", "steps_of"]
 
 SHEETS = {"published": "sheet, published", "centered": "sheet, centered"}
 CLOSED_FORM = "closed form"
-ARRAYS = "closed form, arrays"
 
 STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64, 1 / 256)
 """Of the sheet, over that of the case."""
 
-COUNT = 100_000
-"""Cases in the arrays."""
 
-SAMPLE = range(0, COUNT, COUNT // 11)
+def steps_of(case: Case) -> list[Impact]:
+    """The case at every step of the ladder, the longest first."""
+    return [replace(case.impact, step=case.impact.step * factor) for factor in STEPS]
 
 
 def sheet_tasks(case: Case) -> list[Task]:
-    """Both schemes at every step. The sheet's depth aims at the one at the stop velocity."""
+    """Both schemes at every step, measured down to the stop velocity, where the sheet ends."""
+    stop = case.impact.stop_velocity
+    depth_error = partial(case.depth_error, at_velocity=stop)
+    until = float(case.motion.stop_time(stop))
+    history_error = partial(case.history_error, until=until)
     tasks = []
     for scheme, name in SHEETS.items():
-        for factor in STEPS:
-            impact = replace(case.impact, step=case.impact.step * factor)
+        for impact in steps_of(case):
             sheet = partial(run, impact, scheme)
             setting = f"{impact.step * 1e9:.5g} ns"
             tasks += [
-                Task(name, setting, "depth", _depth_of(sheet), _stop_error(case)),
-                Task(name, setting, "history", _history_of(sheet, case), case.history_error),
+                Task(name, setting, "depth", _depth_of(sheet), depth_error),
+                Task(name, setting, "history", _history_of(sheet, case), history_error),
             ]
     return tasks
 
 
 def _depth_of(sheet: Callable[[], Sheet]) -> Callable[[], float]:
     return lambda: sheet().final_depth
-
-
-def _stop_error(case: Case) -> Callable[[float], float]:
-    return partial(case.depth_error, at_velocity=case.impact.stop_velocity)
 
 
 def _history_of(sheet: Callable[[], Sheet], case: Case) -> Callable[[], Any]:
@@ -68,7 +66,7 @@ def _history_of(sheet: Callable[[], Sheet], case: Case) -> Callable[[], Any]:
 
 
 def closed_form_tasks(case: Case) -> list[Task]:
-    """One case; many at once; and a history."""
+    """The depth, and a history."""
     motion, setting = case.impact.motion, "no steps"
 
     def depth() -> Any:
@@ -79,25 +77,5 @@ def closed_form_tasks(case: Case) -> list[Task]:
 
     return [
         Task(CLOSED_FORM, setting, "depth", depth, case.depth_error),
-        _arrays(case),
         Task(CLOSED_FORM, setting, "history", history, case.history_error),
     ]
-
-
-def _arrays(case: Case) -> Task:
-    """Many cases, their velocities within 10 % of the case's; the error is the worst of a dozen."""
-    columns = {name: np.full(COUNT, value) for name, value in case.impact.motion.items()}
-    columns["velocity"] *= np.linspace(0.9, 1.1, COUNT)
-
-    def depth() -> Any:
-        return closed_form.final_depth(**columns)
-
-    def error(depths: npt.NDArray[np.float64]) -> float:
-        return max(_error_at(case, columns["velocity"][k], depths[k]) for k in SAMPLE)
-
-    return Task(ARRAYS, f"{COUNT} cases", "depth", depth, error, COUNT)
-
-
-def _error_at(case: Case, velocity: float, depth: float) -> float:
-    motion = exact_motion(replace(case.impact, velocity=float(velocity)))
-    return relative_error(depth, motion.final_depth)

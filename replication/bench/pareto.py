@@ -83,9 +83,17 @@ class Choice:
     @property
     def ratio(self) -> float | None:
         """How many times faster ours is than the peer, at equal or better error."""
-        if self.ours is None or self.peer is None:
+        return self._lead(self.ours)
+
+    @property
+    def best_ratio(self) -> float | None:
+        """How many times faster the best is than the peer, 1 where it is the peer."""
+        return self._lead(self.best)
+
+    def _lead(self, point: Point | None) -> float | None:
+        if point is None or self.peer is None:
             return None
-        return self.peer.seconds / self.ours.seconds
+        return self.peer.seconds / point.seconds
 
 
 def choices(points: Sequence[Point], ours: Iterable[str], peers: Iterable[str]) -> list[Choice]:

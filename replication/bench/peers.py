@@ -21,7 +21,7 @@ MPMATH = ("mpmath quad", "mpmath odefun")
 DIGITS = 15
 
 FOREVER = 1.0
-"""Seconds to integrate for if rest does not come: ten million times the report's impact."""
+"""Seconds to integrate for if rest does not come: 38 million times the report's impact."""
 
 
 def scipy_tasks(case: Case) -> list[Task]:

@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 
+from replication.bench.arrays import ARRAYS, array_tasks
 from replication.bench.cases import Case, build
 from replication.bench.machine import machine
-from replication.bench.measure import measure
-from replication.bench.methods import ARRAYS, CLOSED_FORM, closed_form_tasks, sheet_tasks
+from replication.bench.measure import Stopwatch
+from replication.bench.methods import CLOSED_FORM, closed_form_tasks, sheet_tasks
 from replication.bench.pareto import Choice, Point, choices, front
 from replication.bench.peers import SCIPY, mpmath_tasks, scipy_tasks
 from replication.bench.task import Measure, Task
 
-__all__ = ["Bench", "Result", "Watch", "bench", "point_of", "tasks"]
+__all__ = ["Bench", "Result", "Trial", "Watch", "bench", "tasks"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,9 +37,9 @@ class Result:
         """For every number of digits: the best, the closed form, SciPy; one case at a time."""
         return choices(_single(self.of(measure)), [CLOSED_FORM], SCIPY)
 
-    def array_choices(self) -> list[Choice]:
-        """The same for final depths, with the closed form over arrays, its time a case."""
-        return choices(self.of("depth"), [ARRAYS], SCIPY)
+    def array_choices(self, measure: Measure) -> list[Choice]:
+        """The same for many cases: the closed form is that over arrays, its time a case."""
+        return choices(self.of(measure), [ARRAYS], SCIPY)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,17 +56,55 @@ def _single(points: Iterable[Point]) -> list[Point]:
     return [point for point in points if point.cases == 1]
 
 
-Watch = Callable[[Sequence[Task], str], Iterable[Task]]
-"""What hands the tasks of the case of a name through, one by one."""
+class Trial:
+    """A task on its way to a point: the first visit warms it up, the others time a batch each."""
+
+    def __init__(self, task: Task, repeat: int, limit: float) -> None:
+        self._task, self._repeat, self._limit = task, repeat, limit
+        self._stopwatch: Stopwatch | None = None
+        self._error, self._gap = math.nan, ""
+
+    def visit(self) -> None:
+        """One turn. A task that fails, or is not done in time, is left alone from then on."""
+        if self._stopwatch is not None:
+            self._stopwatch.batch()
+        elif not self._gap:
+            self._begin()
+
+    def _begin(self) -> None:
+        try:
+            stopwatch = Stopwatch(self._task.run, self._repeat, self._limit)
+        except (ArithmeticError, ValueError, TimeoutError) as failure:
+            self._gap = str(failure)
+            return
+        self._error = self._task.error(stopwatch.answer)
+        if math.isfinite(self._error):
+            self._stopwatch = stopwatch
+        else:
+            self._gap = "the answer is not finite"
+
+    @property
+    def point(self) -> Point:
+        """What was measured, or the gap and its reason."""
+        task = self._task
+        point = partial(Point, task.method, task.setting, task.measure, task.cases)
+        if self._stopwatch is None:
+            return point(gap=self._gap)
+        return point(error=self._error, timing=self._stopwatch.timing.per(task.cases))
 
 
-def _unwatched(todo: Sequence[Task], _: str) -> Iterable[Task]:
-    return todo
+Watch = Callable[[Sequence[Trial], str], AbstractContextManager[Iterable[Trial]]]
+"""What hands the visits of the case of a name through, one by one, and is closed at the end."""
+
+
+def _unwatched(visits: Sequence[Trial], _: str) -> AbstractContextManager[Iterable[Trial]]:
+    return nullcontext(visits)
 
 
 def tasks(case: Case) -> list[Task]:
     """Every method at every setting, for both measures."""
-    return [*sheet_tasks(case), *closed_form_tasks(case), *scipy_tasks(case), *mpmath_tasks(case)]
+    groups = (sheet_tasks, closed_form_tasks, array_tasks, scipy_tasks, mpmath_tasks)
+    return [task for group in groups for task in group(case)]
 
 
 def bench(
@@ -72,30 +112,20 @@ def bench(
 ) -> Bench:
     """Measure everything on the named cases.
 
-    A task and its repeats get about `limit` seconds. `watch` hands the tasks of a case through, to
-    show how far it has come. Raises ValueError for a case that is not there, a `repeat` below one
-    and a limit that is not positive.
+    A task and its repeats get about `limit` seconds. The tasks of a case take turns, so that a busy
+    spell of the machine spoils one repeat of each and not all of one. `watch` hands their visits
+    through, to show how far it has come. Raises ValueError for a case that is not there, a `repeat`
+    below one and a limit that is not positive.
     """
     if repeat < 1:
         raise ValueError(f"{repeat} repeats: one or more are wanted")
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
-    cases = [build(name) for name in names]
     results = []
-    for case in cases:
-        points = [point_of(task, repeat, limit) for task in watch(tasks(case), case.name)]
-        results.append(Result(case, tuple(points)))
+    for case in [build(name) for name in names]:
+        trials = [Trial(task, repeat, limit) for task in tasks(case)]
+        with watch(trials * (1 + repeat), case.name) as visits:
+            for trial in visits:
+                trial.visit()
+        results.append(Result(case, tuple(trial.point for trial in trials)))
     return Bench(machine(), repeat, limit, tuple(results))
-
-
-def point_of(task: Task, repeat: int, limit: float) -> Point:
-    """A task measured. One that fails, or is not done in time, is a gap and its reason."""
-    point = partial(Point, task.method, task.setting, task.measure, task.cases)
-    try:
-        answer, timing = measure(task.run, repeat, limit)
-    except (ArithmeticError, ValueError, TimeoutError) as failure:
-        return point(gap=str(failure))
-    error = task.error(answer)
-    if not math.isfinite(error):
-        return point(gap="the answer is not finite")
-    return point(error=error, timing=timing.per(task.cases))

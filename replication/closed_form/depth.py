@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from replication.closed_form.compensated import left_of_pressure, left_of_product
 from replication.closed_form.elementwise import elementwise
 
 __all__ = [
@@ -31,12 +32,7 @@ def normalized_depth(
     >>> f"{normalized_depth(500.0, 8900.0, 7850.0, 3.5e9):.4f}"
     '0.6977'
     """
-    inputs = {
-        "velocity": velocity,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
+    inputs = locals()
     return elementwise(depth_ratio, inputs)
 
 
@@ -48,13 +44,7 @@ def final_depth(
     >>> f"{final_depth(500.0, 11e-6, 8900.0, 7850.0, 2.1e9) * 1e6:.2f}"
     '10.04'
     """
-    inputs = {
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
+    inputs = locals()
     return elementwise(_final_depth, inputs)
 
 
@@ -73,14 +63,7 @@ def depth_at_velocity(
     >>> f"{depth_at_velocity(250.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e6:.4f}"
     '6.3777'
     """
-    inputs = {
-        "at_velocity": at_velocity,
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
+    inputs = locals()
     return elementwise(
         _depth_at_velocity, inputs, never="at_velocity must not exceed the impact velocity"
     )
@@ -102,14 +85,7 @@ def velocity_at_depth(
     >>> f"{velocity_at_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9):.3f}"
     '353.533'
     """
-    inputs = {
-        "at_depth": at_depth,
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
+    inputs = locals()
     return elementwise(_velocity_at_depth, inputs, never="at_depth must not exceed the final depth")
 
 
@@ -243,49 +219,11 @@ def _volume_ratio(V: Any, rho_p: Any, rho_t: Any, twice_R_t: Any) -> tuple[Any, 
     log = math.log1p(p) if type(p) is float else np.log1p(p)
     r = rho_p * log
     r /= rho_t
-    low = _left_of_pressure(V, rho_t, twice_R_t, p)
+    low = left_of_pressure(V, rho_t, twice_R_t, p)
     p += 1
     p *= twice_R_t
     low /= p
     low *= rho_p
-    low += _left_of_product(rho_p, log, rho_t, r)
+    low += left_of_product(rho_p, log, rho_t, r)
     low /= rho_t
     return r, low
-
-
-def _left_of_pressure(V: Any, rho_t: Any, twice_R_t: Any, p: Any) -> Any:
-    """rho_t V^2 - 2 R_t p, of nearly equal products: the leading bits multiply exactly."""
-    V_high, rho_high = _high(V, 36), _high(rho_t, 36)
-    R_high, p_high = _high(twice_R_t), _high(p)
-    square = V_high * V_high
-    rest = V + V_high
-    rest *= V - V_high
-    rest *= rho_t
-    rest += square * (rho_t - rho_high)
-    rest -= twice_R_t * (p - p_high)
-    rest -= (twice_R_t - R_high) * p_high
-    square *= rho_high
-    square -= R_high * p_high
-    rest += square
-    return rest
-
-
-def _left_of_product(a: Any, b: Any, c: Any, d: Any) -> Any:
-    """a b - c d, of nearly equal products, in the same way."""
-    a_high, b_high, c_high, d_high = _high(a), _high(b), _high(c), _high(d)
-    rest = a * (b - b_high)
-    rest += (a - a_high) * b_high
-    rest -= c * (d - d_high)
-    rest -= (c - c_high) * d_high
-    a_high *= b_high
-    a_high -= c_high * d_high
-    rest += a_high
-    return rest
-
-
-def _high(a: Any, dropped: int = 27) -> Any:
-    """Doubles without their last bits, 27 or 36 of the 53."""
-    if isinstance(a, float):  # for one number, Veltkamp's product takes a tenth of the view's time
-        product = (2.0**dropped + 1) * a
-        return product - (product - a)
-    return (a.view(np.int64) & np.int64(-1 << dropped)).view(np.float64)

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from replication.closed_form.elementwise import checked, lifted, require_finite
+from replication.closed_form.checked import checked, require_finite
+from replication.closed_form.containers import lifted
 from replication.closed_form.time import Motion, gauss
 
 __all__ = ["history"]
@@ -29,15 +30,8 @@ def history(
     >>> [f"{x * 1e6:.4f}" for x in depth], [f"{v:.2f}" for v in speed]
     (['0.0000', '4.5634', '7.6749'], ['500.00', '378.56', '0.00'])
     """
-    inputs = {
-        "time": time,
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
-    return lifted(_history, inputs, outputs=2)
+    inputs = locals()
+    return lifted(_history, inputs, (float, float))
 
 
 def _history(**inputs: Any) -> tuple[Any, Any]:
@@ -45,7 +39,8 @@ def _history(**inputs: Any) -> tuple[Any, Any]:
     time, *given = arrays.values()
     with np.errstate(all="ignore"):
         depth, velocity = _broadcast(time, _stacked(given))
-    require_finite(arrays, depth + velocity)
+    for result in (depth, velocity):
+        require_finite(arrays, result)
     return depth, velocity
 
 

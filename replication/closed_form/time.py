@@ -28,14 +28,7 @@ def time_to_depth(
     >>> f"{time_to_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.6f}"
     '11.192312'
     """
-    inputs = {
-        "at_depth": at_depth,
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-    }
+    inputs = locals()
     return elementwise(
         _time_to_depth, inputs, _BLOCK, never="at_depth must not exceed the final depth"
     )
@@ -57,14 +50,7 @@ def stop_time(
     >>> f"{stop_time(500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.12f}"
     '26.079233782409'
     """
-    inputs = {
-        "velocity": velocity,
-        "radius": radius,
-        "particle_density": particle_density,
-        "target_density": target_density,
-        "resistance": resistance,
-        "stop_velocity": stop_velocity,
-    }
+    inputs = locals()
     return elementwise(
         _stop_time, inputs, _BLOCK, never="stop_velocity must not exceed the impact velocity"
     )

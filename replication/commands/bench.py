@@ -3,14 +3,14 @@
 import argparse
 import sys
 from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
 from replication.case import read_number
 from replication.commands import shared
 
 if TYPE_CHECKING:
-    from replication.bench.run import Watch
-    from replication.bench.task import Task
+    from replication.bench.run import Trial, Watch
 
 HELP = "speed against error: every method and its peers"
 
@@ -28,9 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--out", type=shared.path, metavar="DIR", help="also write JSON, CSV, text and figures"
     )
-    command.add_argument("--csv", action="store_true", help="print CSV")
-    command.add_argument("--json", action="store_true", help="print JSON")
-    command.add_argument("--quiet", action="store_true", help="no progress")
+    shared.output_options(command, csv=True, quiet="no progress")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -42,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.reports.bench_text import bench_text
     from replication.reports.plain import rows_csv
 
-    names = options.case or (["beta-5"] if options.quick else list(CASES))
+    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:
         check(options.out, names)
     done = bench(names, **_effort(options), watch=_watch(options))
@@ -72,8 +70,10 @@ def _watch(options: argparse.Namespace) -> "Watch":
 
     quiet = True if options.quiet else None  # None: tqdm looks whether it is a terminal
 
-    def watch(todo: "Sequence[Task]", name: str) -> "Iterable[Task]":
-        bar: Iterable[Task] = tqdm(todo, desc=name, disable=quiet, leave=False)
+    def watch(visits: "Sequence[Trial]", name: str) -> "AbstractContextManager[Iterable[Trial]]":
+        bar: AbstractContextManager[Iterable[Trial]] = tqdm(
+            visits, desc=name, disable=quiet, leave=False
+        )
         return bar
 
     return watch

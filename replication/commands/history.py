@@ -1,6 +1,7 @@
 """`coldspray history`: depth and velocity of a case against time, without small steps."""
 
 import argparse
+import math
 import sys
 from typing import Any
 
@@ -25,8 +26,7 @@ def options(command: argparse.ArgumentParser) -> None:
         help="so many times, equally spaced from touch to rest (default: 101)",
     )
     at.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
-    command.add_argument("--csv", action="store_true", help="print CSV")
-    shared.output_options(command)
+    shared.output_options(command, csv=True)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -61,11 +61,23 @@ def run(options: argparse.Namespace) -> int:
 
 def _times(options: argparse.Namespace, stop: float) -> list[float]:
     if options.times is not None:
-        return [read_number(text.strip(), "s") for text in options.times.split(",")]
+        return [_time(k, text) for k, text in enumerate(options.times.split(","), 1)]
     if not 2 <= options.points <= MAX_POINTS:
         raise ValueError(f"--points wants 2 to {MAX_POINTS:,}, not {options.points}")
     last = options.points - 1
     return [stop * (k / last) for k in range(options.points)]
+
+
+def _time(place: int, text: str) -> float:
+    """The time [s] that stands at a place, from 1 on, in --times."""
+    try:
+        time = read_number(text.strip(), "s")
+        if not 0 <= time < math.inf:
+            raise ValueError(f"{time!r} s is not finite and zero or more")
+    except ValueError as error:
+        wanted = 'times such as "0 ns,5 ns" are wanted'
+        raise ValueError(f"--times, value {place}, {text.strip()!r}: {error}: {wanted}") from error
+    return time
 
 
 def _table(*columns: Any) -> list[str]:

@@ -19,10 +19,15 @@ def path(text: str) -> Path:
     return Path(text)
 
 
-def output_options(command: argparse.ArgumentParser) -> None:
-    """--json and --quiet, for a command that prints numbers and warns."""
-    command.add_argument("--json", action="store_true", help="print JSON")
-    command.add_argument("--quiet", action="store_true", help="no warnings")
+def output_options(
+    command: argparse.ArgumentParser, csv: bool = False, quiet: str = "no warnings"
+) -> None:
+    """--json and --quiet; and --csv, of a command that prints a table."""
+    form = command.add_mutually_exclusive_group()
+    if csv:
+        form.add_argument("--csv", action="store_true", help="print CSV")
+    form.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument("--quiet", action="store_true", help=quiet)
 
 
 def input_options(command: argparse.ArgumentParser, default: str = "beta-5") -> None:

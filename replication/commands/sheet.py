@@ -13,8 +13,7 @@ def options(command: argparse.ArgumentParser) -> None:
     """What the command takes."""
     shared.input_options(command)
     scheme_option(command)
-    command.add_argument("--csv", action="store_true", help="print CSV")
-    shared.output_options(command)
+    shared.output_options(command, csv=True)
 
 
 def scheme_option(command: argparse.ArgumentParser) -> None:

@@ -39,19 +39,19 @@ def run(options: argparse.Namespace) -> int:
     from replication.sweep.output import check_output, write
     from replication.sweep.pool import worthwhile_processes
     from replication.sweep.read import read_plan
+    from replication.sweep.tables import place
 
+    plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")
     check_output(output)
     if output.resolve() == options.plan.resolve():
         raise ValueError(f"{output} is the plan itself: give another -o")
     if options.processes is not None and options.processes < 1:
         raise ValueError("--processes wants 1 or more")
-    plan = read_plan(options.plan)
     processes = options.processes or worthwhile_processes(plan.blocks)
     # Without a terminal (None) there is no bar.
-    with tqdm(
-        total=plan.count, unit=" cases", unit_scale=True, disable=options.quiet or None
-    ) as bar:
+    bar = tqdm(total=plan.count, unit=" cases", unit_scale=True, disable=options.quiet or None)
+    with bar, place(str(options.plan)):
         write(plan, output, processes=processes, done=bar.update)
     if options.json:
         shared.print_json(_record(output, plan))

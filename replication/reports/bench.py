@@ -56,7 +56,8 @@ def _choices(result: Result) -> Iterable[tuple[Measure, bool, Choice]]:
     """Measure, whether over arrays, choice."""
     for measure in MEASURES:
         yield from ((measure, False, choice) for choice in result.choices(measure))
-    yield from (("depth", True, choice) for choice in result.array_choices())
+    for measure in MEASURES:
+        yield from ((measure, True, choice) for choice in result.array_choices(measure))
 
 
 def _ratio(measure: Measure, arrays: bool, choice: Choice) -> dict[str, Any]:

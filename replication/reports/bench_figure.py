@@ -3,10 +3,11 @@
 import io
 import math
 from collections.abc import Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import Any
 
-from replication.bench.methods import ARRAYS, CLOSED_FORM, SHEETS
+from replication.bench.arrays import ARRAYS, SHEET_ARRAYS
+from replication.bench.methods import CLOSED_FORM, SHEETS
 from replication.bench.pareto import Point
 from replication.bench.peers import MPMATH, SCIPY
 from replication.bench.run import Result
@@ -22,6 +23,9 @@ _STYLES = {
     **{name: (color, "o") for name, color in zip(SCIPY, _SCIPY_COLORS, strict=True)},
     **{name: ("#B07800", marker) for name, marker in zip(MPMATH, "^v", strict=True)},
     CLOSED_FORM: ("#D55E00", "*"),
+    **{
+        name: (color, "D") for name, color in zip(SHEET_ARRAYS.values(), _SHEET_COLORS, strict=True)
+    },
     ARRAYS: ("#D55E00", "D"),
 }
 
@@ -53,44 +57,93 @@ def image(result: Result, kind: str) -> bytes:
 
 
 def _draw(panel: Any, points: Sequence[Point], front: Sequence[Point]) -> None:
-    shown = [point for point in points if not point.gap]
     panel.set(xscale="log", yscale="log", xlabel="time a case [s]", ylabel="relative error")
     panel.grid(color="#E5E5E5", linewidth=0.6)
     panel.set_axisbelow(True)
-    ends = []
-    for method, group in groupby(shown, key=lambda point: point.method):
-        ladder = list(group)
-        color, marker = _STYLES[method]
-        times, errors = [p.seconds for p in ladder], [p.met for p in ladder]
-        panel.plot(times, errors, color=color, marker=marker, markersize=5, linewidth=1.2)
-        ends.append((method, times[-1], errors[-1]))
-    panel.set(xlim=_wide(panel.get_xlim(), 3, 20), ylim=_wide(panel.get_ylim(), 30, 1))
-    _label(panel, ends)
+    shown = [point for point in points if not point.gap]
+    drawn = {point.method for point in shown}
+    for method, ladder in groupby(points, key=lambda point: point.method):
+        if method in drawn:
+            _draw_line(panel, method, list(ladder))
+    panel.set(xlim=_wide(panel.get_xlim(), 10, 20), ylim=_wide(panel.get_ylim(), 300, 10))
+    _label(panel, shown)
     _draw_front(panel, front)
+    _note(panel, [point for point in points if point.method not in drawn])
 
 
-def _wide(limits: tuple[float, float], left: float, right: float) -> tuple[float, float]:
-    """Limits with room for the labels, which stand to the right and may be moved down."""
-    return limits[0] / left, limits[1] * right
+def _draw_line(panel: Any, method: str, ladder: Sequence[Point]) -> None:
+    """A method's points, joined; a gap breaks the line."""
+    color, marker = _STYLES[method]
+    times = [math.nan if point.gap else point.seconds for point in ladder]
+    errors = [math.nan if point.gap else point.met for point in ladder]
+    panel.plot(times, errors, color=color, marker=marker, markersize=5, linewidth=1.2)
 
 
-def _label(panel: Any, ends: Sequence[tuple[str, float, float]]) -> None:
-    """Every method's name at its last point, moved down where it would cover another."""
-    low, high = panel.get_xlim()
-    decades = math.log10(high / low)
-    placed: list[tuple[float, float]] = []
-    for method, time, error in sorted(ends, key=lambda end: (-end[2], end[1])):
-        x, y = math.log10(time), math.log10(error)
-        while any(abs(x - u) < decades * _WIDTH and abs(y - v) < _HEIGHT for u, v in placed):
-            y -= _HEIGHT / 8
-        placed.append((x, y))
-        panel.text(
-            time * 10 ** (0.013 * decades), 10**y, method, color=_STYLES[method][0], va="center"
-        )
+def _note(panel: Any, gaps: Sequence[Point]) -> None:
+    """Which methods have no point at all, and why."""
+    lines = [f"not drawn: {gap.method}, {gap.setting} ({gap.gap})" for gap in gaps]
+    panel.text(0.01, 0.01, "\n".join(lines), transform=panel.transAxes, fontsize=7, va="bottom")
 
 
-_WIDTH, _HEIGHT = 0.2, 0.8
-"""Of a name: in widths of the panel, and in decades of the error."""
+def _wide(limits: tuple[float, float], below: float, above: float) -> tuple[float, float]:
+    """Limits of an axis with room for labels and notes, as factors."""
+    return limits[0] / below, limits[1] * above
+
+
+def _label(panel: Any, points: Sequence[Point]) -> None:
+    """Every method's name beside one of its points, where it covers no line and no other name."""
+    from matplotlib.textpath import TextPath
+
+    to_panel = panel.transScale + panel.transLimits
+    ladders = {
+        method: [tuple(to_panel.transform((point.seconds, point.met))) for point in group]
+        for method, group in groupby(points, key=lambda point: point.method)
+    }
+    taken = [box for ladder in ladders.values() for box in _along(ladder)]
+    for method, ladder in ladders.items():
+        width = TextPath((0, 0), method, size=_SETTINGS["font.size"]).get_extents().width / _WIDTH
+        box = _free(ladder[::-1], width, taken)
+        taken.append(box)
+        style = {"color": _STYLES[method][0], "ha": "center", "va": "center"}
+        panel.text(*box[:2], method, transform=panel.transAxes, **style)
+
+
+_WIDTH = 320.0
+"""Of a panel, in points; a little less, so that names come out a little wide."""
+
+_MARKER, _HEIGHT = 0.018, 0.042
+"""Of a marker and of a name: in widths and heights of the panel."""
+
+_Box = tuple[float, float, float, float]
+"""Center, width and height."""
+
+
+def _along(ladder: Sequence[tuple[float, float]]) -> list[_Box]:
+    """Boxes that cover the line through these places."""
+    steps = [k / 8 for k in range(8)]
+    between = [
+        (x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairwise(ladder) for t in steps
+    ]
+    return [(x, y, _MARKER, _MARKER) for x, y in (*between, ladder[-1])]
+
+
+def _free(places: Sequence[tuple[float, float]], width: float, taken: Sequence[_Box]) -> _Box:
+    """The first of the boxes beside, below or above these places that covers the least."""
+    beside, above = width / 2 + _MARKER, _HEIGHT + _MARKER / 2
+    sides = ((beside, 0.0), (-beside, 0.0), (0.0, -above), (0.0, above))
+    boxes = [(x + dx, y + dy, width, _HEIGHT) for x, y in places for dx, dy in sides]
+    return min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*taken, *_EDGES)))
+
+
+_EDGES: tuple[_Box, ...] = ((-1.0, 0.5, 2.0, 2.0), (2.0, 0.5, 2.0, 2.0), (0.5, 1.5, 2.0, 1.0))
+"""What lies to the left of the panel, to its right, and above."""
+
+
+def _overlap(one: _Box, other: _Box) -> float:
+    """The area that two boxes share."""
+    width = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
+    height = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
+    return max(0.0, min(width, one[2], other[2])) * max(0.0, min(height, one[3], other[3]))
 
 
 def _draw_front(panel: Any, front: Sequence[Point]) -> None:
@@ -100,14 +153,6 @@ def _draw_front(panel: Any, front: Sequence[Point]) -> None:
     (_, right), (_, top) = panel.get_xlim(), panel.get_ylim()
     times = [front[0].seconds, *(point.seconds for point in front), right]
     errors = [top, *(point.met for point in front), front[-1].met]
-    panel.step(times, errors, where="post", color="#D55E00", linewidth=6, alpha=0.2)
-    panel.annotate(
-        "Pareto front, one case at a time",
-        (times[0], top),
-        xytext=(-4, -4),
-        textcoords="offset points",
-        rotation=90,
-        color="#D55E00",
-        ha="right",
-        va="top",
-    )
+    style = {"color": "#D55E00", "linewidth": 6, "alpha": 0.2}
+    panel.step(times, errors, where="post", label="Pareto front, one case at a time", **style)
+    panel.legend(loc="upper right", frameon=False)

@@ -1,11 +1,12 @@
 """Work-precision as tables, and the plain answer."""
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import groupby
 
 from replication.bench.pareto import Choice, Point
 from replication.bench.run import Bench, Result
-from replication.bench.task import MEASURES, Measure
+from replication.bench.task import MEASURES
 from replication.text import aligned, number
 
 __all__ = ["TITLES", "bench_text"]
@@ -19,16 +20,22 @@ def bench_text(done: Bench) -> str:
     return "\n".join(
         [
             machine,
-            "The final depth of the sheet is measured against the exact one at the stop velocity, "
-            "all others at rest; a history's worst error is relative to the depth at rest.",
-            f"Times are a case's: best and median of {done.repeat} repeats, or of those that "
-            f"{done.limit:g} s allow. * marks the Pareto front of one case at a time.",
+            "The sheet is measured down to its stop velocity: its final depth against the exact "
+            "one there, its history until the exact time of it. All others are measured to rest. "
+            "A history's worst error is relative to the depth at rest.",
+            f"Times are a case's: best and median of {_repeats(done.repeat)} that take turns, or "
+            f"of those that {done.limit:g} s allow. "
+            "* marks the Pareto front of one case at a time.",
             *(line for result in done.results for line in ("", *_case_lines(result))),
             "",
             "What should I use for N digits?",
-            *(f"  {line}" for measure in MEASURES for line in _answer(done.results, measure)),
+            *(f"  {line}" for line in _answers(done.results)),
         ]
     )
+
+
+def _repeats(count: int) -> str:
+    return "1 repeat" if count == 1 else f"{count} repeats"
 
 
 def _case_lines(result: Result) -> Iterator[str]:
@@ -65,19 +72,17 @@ def _microseconds(seconds: float) -> str:
 
 
 _RATIO_HEADS = ("digits", "best of SciPy", "times our time: final depth", "over arrays",
-                "best of SciPy", "history")  # fmt: skip
+                "best of SciPy", "history", "over arrays")  # fmt: skip
 
 
 def _ratio_rows(result: Result) -> Iterator[tuple[str, ...]]:
-    columns = (result.choices("depth"), result.array_choices(), result.choices("history"))
-    for depth, arrays, history in zip(*columns, strict=True):
+    columns = (of(measure) for measure in MEASURES for of in (result.choices, result.array_choices))
+    for row in zip(*columns, strict=True):
+        depth, depths, history, histories = row
         yield (
             str(depth.digits),
-            _name(depth.peer),
-            _times(depth),
-            _times(arrays),
-            _name(history.peer),
-            _times(history),
+            *(_name(depth.peer), _times(depth), _times(depths)),
+            *(_name(history.peer), _times(history), _times(histories)),
         )
 
 
@@ -89,33 +94,55 @@ def _times(choice: Choice) -> str:
     return "-" if choice.ratio is None else number(choice.ratio, 3)
 
 
-def _answer(results: Sequence[Result], measure: Measure) -> Iterator[str]:
-    """The fastest for one case at a time, a line for all numbers of digits with the same answer."""
+def _answers(results: Sequence[Result]) -> Iterator[str]:
+    """For one case at a time, then for many: what is the fastest for how many digits."""
+    for measure in MEASURES:
+        yield from _answer(TITLES[measure], results, [r.choices(measure) for r in results])
+    for measure in MEASURES:
+        title = f"{TITLES[measure]} of many cases"
+        yield from _answer(title, results, [r.array_choices(measure) for r in results])
+
+
+def _answer(
+    title: str, results: Sequence[Result], found: Sequence[Sequence[Choice]]
+) -> Iterator[str]:
+    """A line for all numbers of digits with the same answer; `found` holds each case's choices."""
     names = [result.case.name for result in results]
-    rows = list(zip(*(result.choices(measure) for result in results), strict=True))
-    for advice, group in groupby(rows, key=lambda row: _advice(names, row)):
+    for answer, group in groupby(zip(*found, strict=True), key=partial(_advice, names)):
         choices = [choice for row in group for choice in row]
         first, last = choices[0].digits, choices[-1].digits
         digits = "1 digit" if last == 1 else f"{last} digits"
         digits = digits if first == last else f"{first} to {digits}"
-        yield f"{TITLES[measure]}, {digits}: {advice}{_lead(choices)}"
+        best, cannot = answer
+        yield f"{title}, {digits}: " + "; ".join(filter(None, (best, _lead(choices), cannot)))
 
 
-def _advice(names: Sequence[str], row: Sequence[Choice]) -> str:
-    """One method if it is the fastest in all cases, or each with its cases."""
+def _advice(names: Sequence[str], row: Sequence[Choice]) -> tuple[str, str]:
+    """One method if it is the fastest in all cases, or each with its cases; and where SciPy fails.
+
+    That is where SciPy reaches no such error and something else does.
+    """
     cases: dict[str, list[str]] = {}
     for name, choice in zip(names, row, strict=True):
         best = "none of these" if choice.best is None else choice.best.method
         cases.setdefault(best, []).append(name)
+    pairs = zip(names, row, strict=True)
+    unable = [name for name, choice in pairs if choice.best and choice.peer is None]
+    where = "" if len(unable) == len(names) else f" ({', '.join(unable)})"
+    return _listed(cases), f"SciPy cannot{where}" if unable else ""
+
+
+def _listed(cases: dict[str, list[str]]) -> str:
     if len(cases) == 1:
         return next(iter(cases))
     return ", ".join(f"{method} ({', '.join(where)})" for method, where in cases.items())
 
 
 def _lead(choices: Sequence[Choice]) -> str:
-    ratios = [choice.ratio for choice in choices if choice.ratio is not None]
+    """How much longer SciPy takes than what is recommended, unless that is SciPy itself."""
+    others = [choice for choice in choices if choice.best != choice.peer]
+    ratios = [choice.best_ratio for choice in others if choice.best_ratio is not None]
     if not ratios:
         return ""
     least, most = number(min(ratios), 3), number(max(ratios), 3)
-    times = least if least == most else f"{least} to {most}"
-    return f"; SciPy takes {times} times as long as the closed form"
+    return f"SciPy takes {least if least == most else f'{least} to {most}'} times as long"

@@ -14,9 +14,17 @@ def json_text(record: Any) -> str:
 
 
 def rows_csv(rows: list[dict[str, Any]]) -> str:
-    """Records as CSV; floats keep all digits, None is an empty field."""
+    r"""Records as CSV; floats keep all digits, None is an empty field, truth is true or false.
+
+    >>> rows_csv([{"depth": 1e-06, "beyond_radius": False, "gap": None}])
+    'depth,beyond_radius,gap\n1e-06,false,\n'
+    """
     buffer = io.StringIO()
     writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({name: _spelt(value) for name, value in row.items()} for row in rows)
     return buffer.getvalue()
+
+
+def _spelt(value: Any) -> Any:
+    return str(value).lower() if isinstance(value, bool) else value

@@ -6,6 +6,7 @@ import numpy.typing as npt
 
 from replication import closed_form
 from replication.case import INPUTS
+from replication.closed_form.checked import ElementError
 from replication.midpoint_many import run_many
 from replication.sweep.plan import BLOCK, Plan
 
@@ -64,6 +65,8 @@ def _sheets(inputs: Block, first: int) -> Block:
     cases: Any = {name: inputs[name] for name in (*MOTION, "step", "stop_velocity")}
     try:
         depth, steps = run_many(**cases)
-    except ValueError as error:
-        raise ValueError(f"of the cases from {first} on: {error}") from error
+    except ElementError as error:
+        number = error.index[0]
+        given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
+        raise ValueError(error.at(f" of case {first + number} ({given})")) from error
     return {"sheet_depth": depth, "sheet_steps": steps}

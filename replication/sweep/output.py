@@ -31,7 +31,7 @@ def write(
     Raises ValueError and OSError as `check_output` and `block` do, and leaves no file then.
     """
     check_output(path)
-    form = FORMATS[path.suffix]
+    form = FORMATS[path.suffix.lower()]
     numbers = range(plan.blocks) if numbers is None else numbers
     pieces = in_order(partial(_piece, form.piece, plan), numbers, processes)
     with closing(pieces), draft_of(path) as draft, form.open(draft, plan) as put:
@@ -50,8 +50,9 @@ def check_output(path: Path) -> None:
     Raises ValueError for another suffix and where Parquet's library is missing, OSError as
     `check_target` does.
     """
-    if path.suffix not in FORMATS:
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
         raise ValueError(f"{path}: the file's name must end in {' or '.join(FORMATS)}")
-    if path.suffix == ".parquet" and find_spec("pyarrow") is None:
+    if suffix == ".parquet" and find_spec("pyarrow") is None:
         raise ValueError("Parquet needs pyarrow: python -m pip install 'coldspray[parquet]'")
     check_target(path)

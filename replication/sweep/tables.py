@@ -38,7 +38,8 @@ def whole_number(key: str, value: Any, least: int, greatest: float = math.inf) -
     if type(value) is not int or not least <= value <= greatest:
         end = "" if greatest == math.inf else f" to {greatest}"
         raise ValueError(
-            f"{key} is {value!r}: it must be a whole number, {least}{end or ' or more'}"
+            f"{key} is {value!r}: it must be a whole number, {least}{end or ' or more'}, "
+            "without point or exponent"
         )
     return value
 
@@ -62,7 +63,14 @@ def _listed(name: str, value: Any) -> Listed:
     values = value if isinstance(value, list) else [value]
     if not values:
         raise ValueError("the list is empty: give one value or more")
-    return Listed(tuple(read_number(str(item), INPUTS[name]) for item in values))
+    return Listed(tuple(_read(item, INPUTS[name]) for item in values))
+
+
+def _read(value: Any, unit: str) -> float:
+    """A number of TOML, or one in a text with its unit, as SI."""
+    if not isinstance(value, str | int):
+        raise ValueError(f"{value} is no finite number, such as 1.1e-5 or '11 um'")
+    return read_number(str(value), unit)
 
 
 def _table_source(name: str, table: dict[str, Any]) -> Source:
@@ -79,7 +87,7 @@ def _table_source(name: str, table: dict[str, Any]) -> Source:
 
 def _number(table: dict[str, Any], key: str, unit: str) -> float:
     with place(key):
-        number = read_number(str(table[key]), unit)
+        number = _read(table[key], unit)
         if not math.isfinite(number):
             raise ValueError(f"{number!r} is not finite")
     return number

@@ -5,21 +5,24 @@ import json
 import math
 import time
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from replication.bench.arrays import ARRAYS, SHEET_ARRAYS
 from replication.bench.cases import CASES, Case, build
-from replication.bench.measure import Timing, measure, time_limit
+from replication.bench.measure import Stopwatch, Timing, time_limit
 from replication.bench.methods import SHEETS, STEPS
 from replication.bench.pareto import HALF_ULP, Point, choices, error_for, fastest, front
 from replication.bench.peers import MPMATH, SCIPY, TOLERANCES, mpmath_tasks, scipy_tasks
-from replication.bench.run import Bench, Result, point_of, tasks
+from replication.bench.run import Bench, Result, Trial, bench, tasks
 from replication.bench.task import Task
 from replication.reports.bench_figure import image
 from replication.reports.bench_text import bench_text
@@ -32,6 +35,8 @@ def point(error: float, seconds: float, method: str = "a") -> Point:
 
 
 GAP = Point("a", "setting", "depth", 1, gap="not done in 1 s")
+
+SVG = "{http://www.w3.org/2000/svg}"
 
 POINTS = st.lists(
     st.builds(point, st.floats(0, 1), st.floats(1e-9, 1e3), st.sampled_from("ab")) | st.just(GAP)
@@ -114,8 +119,36 @@ def test_the_exact_history_is_exact(beta_5: Case) -> None:
 def test_the_sheet_converges(beta_5: Case, method: str, measure: str) -> None:
     found = errors(beta_5, method, measure)
     assert len(found) == len(STEPS)
-    # To within its stopping rule: a step more or less; in the history the way from 1 m/s to rest.
+    # To within its stopping rule: a step more or less.
     assert found[-1] < 1e-5 < 1e-3 < found[0]
+
+
+def test_the_sheet_s_history_is_compared_down_to_where_the_sheet_ends(beta_5: Case) -> None:
+    held = np.minimum(beta_5.times, 2e-8)
+    depths = [float(depth) for depth in beta_5.depths]
+    late = np.interp(held, beta_5.times, depths)
+    assert beta_5.history_error(late) > 1e-2
+    # Until there only the straight lines between the exact depths are off.
+    assert beta_5.history_error(late, until=2e-8) < 1e-3
+    assert errors(beta_5, SHEETS["centered"], "history")[-1] < 1e-8
+
+
+@pytest.mark.parametrize("scheme", SHEETS)
+def test_many_sheets_converge_as_one_does(beta_5: Case, scheme: str) -> None:
+    todo = [task for task in tasks(beta_5) if task.method == SHEET_ARRAYS[scheme]]
+    one = [task for task in tasks(beta_5) if task.method == SHEETS[scheme]]
+    assert [task.setting for task in todo] == [t.setting for t in one if t.measure == "depth"]
+    found = [task.error(task.run()) for task in todo[:4]]
+    assert found == sorted(found, reverse=True)
+    # The fastest of the cases takes a tenth fewer steps, and its error is the greatest.
+    assert found[2] == pytest.approx(errors(beta_5, SHEETS[scheme], "depth")[2], abs=2e-4)
+
+
+def test_the_middle_of_the_arrays_is_the_case(beta_5: Case) -> None:
+    depths, histories = (t for t in tasks(beta_5) if t.method == ARRAYS)
+    middle = depths.run()[depths.cases // 2]
+    assert beta_5.depth_error(middle) < 4 * 2.0**-52
+    assert histories.run().shape == (histories.cases, len(beta_5.times))
 
 
 @pytest.mark.parametrize("measure", ["depth", "history"])
@@ -136,6 +169,7 @@ def test_the_closed_form_and_mpmath_need_no_ladder(beta_5: Case) -> None:
     assert max(errors(beta_5, "closed form", "depth")) < 4 * 2.0**-52
     assert max(errors(beta_5, "closed form, arrays", "depth")) < 4 * 2.0**-52
     assert max(errors(beta_5, "closed form", "history")) < 1e-13
+    assert max(errors(beta_5, "closed form, arrays", "history")) < 1e-13
     todo = {(task.method, task.measure): task for task in mpmath_tasks(beta_5)}
     for key in ((MPMATH[0], "depth"), (MPMATH[1], "depth"), (MPMATH[1], "history")):
         assert todo[key].error(todo[key].run()) < 1e-14
@@ -150,10 +184,17 @@ def test_scipy_follows_the_hard_cases(name: str, monkeypatch: pytest.MonkeyPatch
             assert task.error(task.run()) < 1e-8
 
 
+def point_of(task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
+    trial = Trial(task, repeat, limit)
+    for _ in range(1 + repeat):
+        trial.visit()
+    return trial.point
+
+
 def test_what_takes_too_long_is_a_gap(beta_5: Case) -> None:
     slowest = scipy_tasks(beta_5)[-2]
     assert (slowest.method, slowest.setting) == ("Radau", "rtol 3e-14")  # ten thousand evaluations
-    found = point_of(slowest, repeat=1, limit=0.001)
+    found = point_of(slowest, limit=0.001)
     assert (found.error, found.timing) == (None, None)
     assert found.gap == "not done in 0.001 s"
     assert found.seconds == found.met == math.inf
@@ -164,8 +205,45 @@ def test_what_fails_is_a_gap_with_its_reason() -> None:
         raise ArithmeticError("never at rest")
 
     broken = Task("a", "b", "depth", fail, abs)
-    assert point_of(broken, 1, 1.0).gap == "never at rest"
-    assert point_of(replace(broken, run=lambda: math.nan), 1, 1.0).gap == "the answer is not finite"
+    assert point_of(broken).gap == "never at rest"
+    assert point_of(replace(broken, run=lambda: math.nan)).gap == "the answer is not finite"
+
+
+def test_tasks_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    turns: list[str] = []
+
+    def task(name: str) -> Task:
+        def run() -> float:
+            turns.append(name)
+            time.sleep(0.01)  # longer than a batch: one call each
+            return 0.0
+
+        return Task(name, "", "depth", run, abs)
+
+    monkeypatch.setattr("replication.bench.run.tasks", lambda _: [task("a"), task("b")])
+    (result,) = bench(["beta-5"], repeat=3).results
+    assert "".join(turns) == "aabb" + "ab" * 3  # warmed up, then in turn
+    assert [point.timing and point.timing.repeats for point in result.points] == [3, 3]
+
+
+def test_an_interrupted_run_closes_its_progress(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt() -> float:
+        raise KeyboardInterrupt
+
+    closed: list[str] = []
+
+    @contextmanager
+    def watch(visits: Sequence[Trial], name: str) -> Iterator[Sequence[Trial]]:
+        try:
+            yield visits
+        finally:
+            closed.append(name)
+
+    broken = Task("a", "", "depth", interrupt, abs)
+    monkeypatch.setattr("replication.bench.run.tasks", lambda _: [broken])
+    with pytest.raises(KeyboardInterrupt):
+        bench(["beta-5"], watch=watch)
+    assert closed == ["beta-5"]
 
 
 def test_a_time_limit_ends_a_loop_and_leaves_interrupts_alone() -> None:
@@ -181,11 +259,13 @@ def test_a_time_limit_ends_a_loop_and_leaves_interrupts_alone() -> None:
         pass
 
 
-def test_a_measurement_repeats_and_divides_by_cases() -> None:
-    answer, timing = measure(lambda: 7, repeat=3, limit=5.0)
-    assert (answer, timing.repeats) == (7, 3)
-    assert 0 < timing.best <= timing.median
-    assert timing.per(4).best == timing.best / 4
+def test_a_stopwatch_repeats_and_divides_by_cases() -> None:
+    watch = Stopwatch(lambda: 7, repeat=3, limit=5.0)
+    for _ in range(5):
+        watch.batch()
+    assert (watch.answer, watch.timing.repeats) == (7, 3)
+    assert 0 < watch.timing.best <= watch.timing.median
+    assert watch.timing.per(4).best == watch.timing.best / 4
 
 
 @pytest.fixture
@@ -199,6 +279,8 @@ def run_of_fakes(beta_5: Case) -> Bench:
         fake("sheet, published", "0.2 ns", "history", 7e-4, 1.2e-4),
         fake("closed form", "no steps", "depth", 1e-16, 1e-5),
         fake("closed form", "no steps", "history", 1e-15, 2e-4),
+        replace(fake("closed form, arrays", "10 cases", "depth", 1e-16, 1e-7), cases=10),
+        fake("DOP853", "rtol 1e-08", "depth", 2e-9, 4e-3),
         fake("DOP853", "rtol 1e-06", "depth", 2e-7, 3e-3),
         Point("DOP853", "rtol 1e-06", "history", 1, gap="not done in 5 s"),
         fake("RK45", "rtol 1e-06", "history", 2e-6, 4e-3),
@@ -213,31 +295,54 @@ def test_the_table_says_it_all(run_of_fakes: Bench) -> None:
     assert rows["closed form"][4:] == ["1.0e-16", "10", "15", "*", "1.0e-15", "200", "300", "*"]
     assert rows["DOP853"][3:] == ["2.0e-07", "3000", "4500", "-"]
     assert "- DOP853, rtol 1e-06, history: not done in 5 s" in lines
-    assert rows["6"] == ["6", "DOP853,", "rtol", "1e-06", "300", "-", "-", "-"]
-    assert lines[-4:] == [
-        "  final depth, 1 to 15 digits: closed form; "
-        "SciPy takes 300 times as long as the closed form",
-        "  history, 1 to 2 digits: sheet, published; "
-        "SciPy takes 20 times as long as the closed form",
-        "  history, 3 to 14 digits: closed form; SciPy takes 20 times as long as the closed form",
+    assert rows["6"] == ["6", "DOP853,", "rtol", "1e-06", "300", "3e+04", "-", "-", "-"]
+    answers = lines.index("What should I use for N digits?") + 1
+    assert lines[answers:] == [
+        "  final depth, 1 to 8 digits: closed form; SciPy takes 300 to 400 times as long",
+        "  final depth, 10 to 15 digits: closed form; SciPy cannot",
+        "  history, 1 to 2 digits: sheet, published; SciPy takes 33.3 times as long",
+        "  history, 3 to 4 digits: closed form; SciPy takes 20 times as long",
+        "  history, 6 to 14 digits: closed form; SciPy cannot",
         "  history, 15 digits: none of these",
+        "  final depth of many cases, 1 to 8 digits: closed form, arrays; "
+        "SciPy takes 3e+04 to 4e+04 times as long",
+        "  final depth of many cases, 10 to 15 digits: closed form, arrays; SciPy cannot",
+        "  history of many cases, 1 to 2 digits: sheet, published; SciPy takes 33.3 times as long",
+        "  history of many cases, 3 to 4 digits: closed form; SciPy takes 20 times as long",
+        "  history of many cases, 6 to 14 digits: closed form; SciPy cannot",
+        "  history of many cases, 15 digits: none of these",
     ]
+    assert "best and median of 1 repeat that" in bench_text(replace(run_of_fakes, repeat=1))
 
 
 def test_figures_are_the_same_bytes_and_show_every_method(run_of_fakes: Bench) -> None:
     (result,) = run_of_fakes.results
     drawn = image(result, "svg")
     assert drawn == image(result, "svg")
-    texts = {
-        element.text for element in ET.fromstring(drawn).iter("{http://www.w3.org/2000/svg}text")
-    }
+    texts = {element.text for element in ET.fromstring(drawn).iter(f"{SVG}text")}
     assert {"sheet, published", "closed form", "DOP853", "RK45"} <= texts
     assert image(result, "png").startswith(b"\x89PNG")
+    # Of the two methods without a history, one has no point and says why; the other has no gap.
+    notes = [text for text in texts if text and text.startswith("not drawn")]
+    assert notes == ["not drawn: DOP853, rtol 1e-06 (not done in 5 s)"]
+
+
+def test_a_failed_setting_breaks_the_line(run_of_fakes: Bench) -> None:
+    def path(points: list[Point]) -> str:
+        drawn = ET.fromstring(image(Result(run_of_fakes.results[0].case, tuple(points)), "svg"))
+        blue = (e for e in drawn.iter(f"{SVG}path") if "stroke: #0072b2" in e.get("style", ""))
+        return next(d for d in (e.get("d", "") for e in blue) if "L" in d and "C" not in d)
+
+    ladder = [point(10.0**-k, 10.0**k, "DOP853") for k in range(4)]
+    assert path(ladder).count("M") == 1
+    ladder.insert(2, replace(GAP, method="DOP853"))
+    assert path(ladder).count("M") == 2
 
 
 def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray: Command) -> None:
     status, out, err = coldspray(
-        "bench", "--quick", "--limit", "0.05 s", "--json", "--out", tmp_path
+        *("bench", "--quick", "--limit", "0.05 s", "--json", "--out", tmp_path),
+        *("--case", "beta-5", "--case", "beta-5"),
     )
     assert (status, err) == (0, "")
     record = json.loads(out)
@@ -250,7 +355,9 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     assert any(point["gap"] for point in case["points"])
     assert json.loads((tmp_path / "bench.json").read_text("utf-8")) == record
     with (tmp_path / "bench.csv").open() as file:
-        assert len(list(csv.DictReader(file))) == len(case["points"])
+        rows = list(csv.DictReader(file))
+    assert [row["front"] == "true" for row in rows] == [p["front"] for p in case["points"]]
+    assert {row["front"] for row in rows} == {"true", "false"}
     assert {path.name for path in tmp_path.iterdir()} == {
         *("bench.txt", "bench.json", "bench.csv", "bench-beta-5.svg", "bench-beta-5.png")
     }
@@ -261,11 +368,12 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     [
         (["--case", "beta-4"], f"no case 'beta-4' to time: choose of {', '.join(CASES)}"),
         (["--repeat", "0"], "0 repeats: one or more are wanted"),
-        (["--limit", "-1 s"], "a limit of -1 s: it must be greater than zero"),
+        (["--limit=-1 s"], "a limit of -1 s: it must be greater than zero"),
         (["--limit", "3 m"], "m"),
+        (["--json", "--csv"], "argument --csv: not allowed with argument --json"),
     ],
 )
 def test_bad_options_get_one_line(arguments: list[str], message: str, coldspray: Command) -> None:
-    status, out, err = coldspray("bench", *[arguments[0] + "=" + arguments[1]])
+    status, out, err = coldspray("bench", *arguments)
     assert (status, out, len(err.splitlines())) == (2, "", 1)
     assert message in err

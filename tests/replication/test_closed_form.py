@@ -1,6 +1,7 @@
 """The closed form over arrays, against the exact motion in 30 digits."""
 
 import inspect
+import pickle
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 import dask.array
 import numpy as np
 import pandas as pd
+import pint
 import pytest
 import xarray
 from hypothesis import given, settings
@@ -15,8 +17,10 @@ from hypothesis import strategies as st
 
 from reference.trajectory import Trajectory
 from replication import closed_form
-from replication.impact import BETA_5
+from replication.closed_form.checked import ElementError, checked
+from replication.impact import BETA_5, Impact
 from replication.midpoint import run
+from replication.midpoint_many import run_many
 
 ULP = 2.0**-52
 CASE = (500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
@@ -196,6 +200,109 @@ def test_series_and_labeled_and_lazy_arrays(name: str) -> None:
         np.testing.assert_array_equal(np.asarray(result), expected)
 
 
+def test_labels_units_and_names_of_the_inputs_are_not_the_results() -> None:
+    velocity = xarray.DataArray([400.0, 500.0], {"case": ["a", "b"]}, name="velocity")
+    velocity.attrs["units"] = "m/s"
+    with xarray.set_options(keep_attrs=True):
+        found = (
+            closed_form.final_depth(velocity, *CASE[1:]),
+            *closed_form.history(1e-9, velocity, *CASE[1:]),
+        )
+    for result in found:
+        assert (result.name, result.attrs) == (None, {})
+        assert result.case.values.tolist() == ["a", "b"]
+
+
+def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
+    velocity = pd.Series([400.0, 500.0], ["a", "b"])
+    radius = pd.Series([2e-5, 1e-5], ["b", "a"])
+    matched = closed_form.final_depth(velocity, radius, *CASE[2:])
+    assert matched["b"] == closed_form.final_depth([500.0, 1.0], 2e-5, *CASE[2:])[0]
+    refusals: list[tuple[Any, Any, type[Exception], str]] = [
+        (
+            pd.Series([1.0, -1.0], ["a", "b"]),
+            radius,
+            ValueError,
+            r"^velocity\[b\] is -1\.0: it must",
+        ),
+        (
+            pd.Series([1.0, 1.0], ["a", "c"]),
+            radius,
+            ValueError,
+            "^velocity has nothing for the labe",
+        ),
+        (
+            velocity,
+            radius.iloc[:1],
+            ValueError,
+            "^radius has nothing for the label a, which others",
+        ),
+        (
+            velocity,
+            [1e-5],
+            TypeError,
+            r"^radius is a list of shape \(1,\): beside a Series give a S",
+        ),
+        (
+            velocity,
+            radius.to_frame(),
+            TypeError,
+            r"^radius is a DataFrame of shape \(2, 1\): beside",
+        ),
+        (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
+        (velocity.to_frame(), 1e-5, TypeError, "a Series is wanted for each input: take columns"),
+    ]
+    for first, second, kind, message in refusals:
+        with pytest.raises(kind, match=message):
+            closed_form.final_depth(first, second, *CASE[2:])
+    with pytest.raises(
+        ValueError, match=r"^velocity\[b\] is 1\.0.*at_velocity must not|^at_velocity\[b"
+    ):
+        closed_form.depth_at_velocity(2.0, pd.Series([3.0, 1.0], ["a", "b"]), *CASE[1:])
+
+
+def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
+    velocity, radius = np.linspace(300, 900, 30), np.linspace(1e-6, 1e-4, 30)
+    expected = closed_form.final_depth(velocity, radius, *CASE[2:])
+    lazy = dask.array.from_array(velocity, 7)
+    for other in (radius, dask.array.from_array(radius, 11), radius.tolist()):
+        np.testing.assert_array_equal(closed_form.final_depth(lazy, other, *CASE[2:]), expected)
+    table = closed_form.final_depth(lazy[:, None], dask.array.from_array(radius, 4), *CASE[2:])
+    assert table.shape == (30, 30)
+    np.testing.assert_array_equal(np.diag(table.compute()), expected)
+    labeled = closed_form.final_depth(
+        xarray.DataArray(lazy, dims="case"), xarray.DataArray(radius, dims="case"), *CASE[2:]
+    )
+    assert isinstance(labeled.data, dask.array.Array)
+    np.testing.assert_array_equal(labeled, expected)
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (
+            np.ma.masked_greater([400.0, 500.0], 450.0),
+            "^velocity is a masked array: give the cases",
+        ),
+        (np.array([400.0 + 1j]), "^velocity is complex: real numbers are wanted"),
+        (500 + 0j, "^velocity is complex: real numbers are wanted"),
+        (
+            pint.UnitRegistry().Quantity([400.0], "m/s"),
+            "^velocity has units: give its magnitude in",
+        ),
+    ],
+)
+def test_what_is_no_real_number_is_refused(value: Any, message: str) -> None:
+    for function in (closed_form.final_depth, run_many):
+        with pytest.raises(TypeError, match=message):
+            function(value, *CASE[1:])
+
+
+def test_a_refusal_can_be_sent_to_another_process() -> None:
+    error = pickle.loads(pickle.dumps(ElementError("radius{place} is 0", (3,))))
+    assert (str(error), error.index) == ("radius[3] is 0", (3,))
+
+
 def test_histories_of_series_and_lazy_arrays() -> None:
     times, velocities = np.linspace(0, 2e-8, 20), np.linspace(300, 900, 20)
     expected = closed_form.history(times, velocities, *CASE[1:])
@@ -236,15 +343,53 @@ def test_what_never_happens_is_refused(function: str, first: list[float], messag
         getattr(closed_form, function)(first, *CASE)
 
 
-def test_a_result_beyond_doubles_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"velocity\[1\] is 1e\+200.*beyond the range of doubles"):
-        closed_form.final_depth([1.0, 1e200], *CASE[1:])
+@pytest.mark.parametrize(
+    ("place", "bad", "formed"),
+    [
+        (0, 1e200, r"velocity squared\[1\] is inf"),
+        (0, 1e-170, r"velocity squared\[1\] is 0.0"),
+        (1, 1e130, r"particle mass\[1\] is inf"),
+        (1, 1e-126, r"particle mass\[1\] is 0.0"),
+        (2, 1e251, r"particle density\[1\] is 1e\+251"),
+        (4, 1e-260, r"target resistance\[1\] is 1e-260"),
+        (4, 1e260, r"target resistance\[1\] is 1e\+260"),
+    ],
+)
+def test_what_would_leave_the_range_of_doubles_is_refused(
+    place: int, bad: float, formed: str
+) -> None:
+    values: list[Any] = list(CASE)
+    values[place] = [CASE[place], bad]
+    with pytest.raises(ValueError, match=f"^{formed}: doubles carry 1e-250 to 1e250 safely .*is "):
+        closed_form.final_depth(*values)
+    with pytest.raises(ValueError, match="doubles carry 1e-250 to 1e250 safely"):
+        closed_form.history(1e-9, *values)
+    values[place] = bad
+    with pytest.raises(ValueError, match="doubles carry 1e-250 to 1e250 safely"):
+        closed_form.final_depth(*values)
 
 
-@pytest.mark.parametrize("velocity", [1e-200, 1e200])
-def test_a_history_beyond_doubles_is_refused(velocity: float) -> None:
-    with pytest.raises(ValueError, match=r"velocity\[1\] is 1e.200.*beyond the range of doubles"):
-        closed_form.history(1e-9, [1.0, velocity, 500.0], *CASE[1:])
+INPUT = st.one_of(spread(1e-40, 1e40), spread(1e-300, 1e300))
+
+
+@given(st.tuples(INPUT, INPUT, INPUT, INPUT, INPUT))
+@settings(max_examples=500, deadline=None)
+def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
+    names = ("velocity", "radius", "particle_density", "target_density", "resistance")
+    inputs = dict(zip(names, case, strict=True))
+
+    def refused(function: Callable[..., Any], **inputs: Any) -> str:
+        try:
+            function(**inputs)
+        except ValueError as error:
+            return str(error)
+        return ""
+
+    one = refused(Impact, **inputs, step=1.0)
+    assert bool(one) == bool(refused(closed_form.final_depth, **inputs))
+    assert bool(one) == bool(refused(checked, inputs=inputs))
+    if all(1e-40 <= value <= 1e40 for value in case):
+        assert not one
 
 
 def test_a_history_begins_before_a_tail_many_times_as_long() -> None:

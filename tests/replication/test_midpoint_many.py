@@ -2,8 +2,11 @@
 
 from dataclasses import replace
 
+import dask.array
 import numpy as np
+import pandas as pd
 import pytest
+import xarray
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -60,9 +63,43 @@ def test_cases_broadcast_and_a_single_one_is_a_scalar() -> None:
 
 
 def test_too_many_steps_are_refused_by_index() -> None:
-    with pytest.raises(ValueError, match=r"case \[1\] would take about 2\.6\d+e\+10 steps"):
+    with pytest.raises(ValueError, match=r"sheet\[1\] would take about 2\.6\d+e\+10 steps"):
         run_many(**BETA_5.motion, step=[2e-10, 1e-18])
     with pytest.raises(ValueError, match=r"radius\[0, 1\] is nan: it must be a finite"):
         run_many(500.0, [[1e-6, np.nan]], 8900.0, 7850.0, 3.5e9)
     with pytest.raises(ValueError, match="no scheme 'upwind': choose one of published"):
         run_many(**BETA_5.motion, scheme="upwind")
+
+
+def test_containers_give_their_like() -> None:
+    velocities, radii = np.linspace(300, 600, 12), np.linspace(5e-6, 2e-5, 12)
+    rest = (8900.0, 7850.0, 3.5e9)
+    depth, steps = run_many(velocities, radii, *rest, step=2e-9)
+    series = run_many(pd.Series(velocities), pd.Series(radii[::-1], range(11, -1, -1)), *rest, 2e-9)
+    lazy = run_many(dask.array.from_array(velocities, 5), radii, *rest, 2e-9)
+    table = run_many(
+        xarray.DataArray(velocities, dims="v"), xarray.DataArray(radii, dims="r"), *rest
+    )
+    for plain, one, other in zip((depth, steps), series, lazy, strict=True):
+        assert isinstance(one, pd.Series)
+        assert isinstance(other, dask.array.Array)
+        assert other.dtype == plain.dtype
+        np.testing.assert_array_equal(one, plain)
+        np.testing.assert_array_equal(other.compute(), plain)
+    assert table[0].dims == ("v", "r")
+    assert table[1].values[3, 4] == run_many(velocities[3], radii[4], *rest)[1]
+    with pytest.raises(ValueError, match=r"^the sheet\[b\] would take about"):
+        run_many(500.0, 1e-6, *rest, step=pd.Series([2e-9, 1e-18], ["a", "b"]))
+
+
+def test_parts_are_the_whole_and_refusals_keep_their_index(monkeypatch: pytest.MonkeyPatch) -> None:
+    velocities, resistances = np.linspace(1, 900, 30)[:, None], np.array([2.1e9, 3.5e9])
+    rest = (11e-6, 8900.0, 7850.0, resistances)
+    whole = run_many(velocities, *rest, step=2e-9)
+    monkeypatch.setattr("replication.midpoint_many._AT_ONCE", 7)
+    for part, one in zip(run_many(velocities, *rest, step=2e-9), whole, strict=True):
+        np.testing.assert_array_equal(part, one)
+    steps = np.full((30, 2), 2e-9)
+    steps[17, 1] = 1e-18
+    with pytest.raises(ValueError, match=r"^the sheet\[17, 1\] would take about"):
+        run_many(velocities, *rest, step=steps)
