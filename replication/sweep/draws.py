@@ -14,6 +14,8 @@ Floats = npt.NDArray[np.float64]
 LEAST_SHARE = 2.0**-53
 """The least of the uniform numbers; the greatest is 1 less it."""
 
+_MARGIN = 1e-14
+
 
 def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
     """Uniform numbers in (0, 1) of the cases from `first` on, shape (count,).
@@ -52,7 +54,10 @@ class Random:
     def bounds(self) -> tuple[float, float]:
         """The least and the greatest value that can be drawn."""
         least, greatest = self.quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE]))
-        return float(least), float(greatest)
+        # The inverse has 16 digits and need not rise in the last: a share beyond may fall short.
+        wide = (least - _MARGIN * abs(least), greatest + _MARGIN * abs(greatest))
+        low, high = np.clip(wide, self.lower, self.upper)
+        return float(low), float(high)
 
     @property
     def kept(self) -> float:
