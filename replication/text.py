@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
-__all__ = ["aligned", "inward", "number", "outward", "pipe_table", "with_unit"]
+__all__ = ["aligned", "inward", "number", "outward", "pipe_table", "rounded", "with_unit"]
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -35,7 +35,7 @@ def outward(low: Fraction, high: Fraction, digits: int = 6) -> str:
     """
     if float(low) == float(high):
         return number(low, digits)
-    return f"[{_rounded(low, digits, ROUND_FLOOR)}, {_rounded(high, digits, ROUND_CEILING)}]"
+    return f"[{rounded(low, digits, ROUND_FLOOR)}, {rounded(high, digits, ROUND_CEILING)}]"
 
 
 def inward(low: Fraction, high: Fraction, digits: int = 6) -> str:
@@ -44,10 +44,15 @@ def inward(low: Fraction, high: Fraction, digits: int = 6) -> str:
     >>> inward(Fraction(1, 3), Fraction(2, 3), 3)
     '[0.334, 0.666]'
     """
-    return f"[{_rounded(low, digits, ROUND_CEILING)}, {_rounded(high, digits, ROUND_FLOOR)}]"
+    return f"[{rounded(low, digits, ROUND_CEILING)}, {rounded(high, digits, ROUND_FLOOR)}]"
 
 
-def _rounded(value: Fraction, digits: int, rounding: str) -> str:
+def rounded(value: Fraction, digits: int, rounding: str) -> str:
+    """A number to some significant digits, rounded as one of the modes of `decimal` says.
+
+    >>> rounded(Fraction(2, 3), 3, ROUND_FLOOR)
+    '0.666'
+    """
     context = Context(prec=digits, rounding=rounding)
     shortened = context.divide(Decimal(value.numerator), Decimal(value.denominator))
     return f"{float(shortened):.{digits}g}"

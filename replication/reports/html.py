@@ -6,14 +6,20 @@ from collections.abc import Sequence
 from hashlib import sha256
 from importlib import resources
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from reference.findings import STATUSES
+from replication.reports import shown
 from replication.reports.comparison import shown_range
+from replication.reports.failing import failing
 from replication.reports.figures.drawing import Drawing
 from replication.reports.gauge import Gauge, gauge
+from replication.reports.glossary import CAPTIONS, KINDS, SYMBOLS, VERDICTS
 from replication.text import number
 from spreadsheets.sheets.audit import UNITS
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 __all__ = ["page"]
 
@@ -34,7 +40,9 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"number": number, "unit": _unit, "slug": _slug, "prose": _prose}
+    environment.filters |= {
+        "number": number, "plain": shown.plain, "prose": _prose, "slug": _slug, "unit": _unit,
+    }  # fmt: skip
     return environment.get_template("page.html.j2").render(
         record,
         style=Markup(style),  # noqa: S704  (our own file)
@@ -48,18 +56,20 @@ def page(record: dict[str, Any], drawings: Sequence[Drawing]) -> str:
         touched_by=_touched_by(record["findings"]),
         picture=_picture,
         quoted=_quoted,
-        statuses=STATUSES,
+        captions=CAPTIONS,
+        failing=failing(record),
+        kinds=KINDS,
+        shown=shown,
         shown_range=shown_range,
+        statuses=STATUSES,
+        symbols=SYMBOLS,
+        verdicts=VERDICTS,
     )
 
 
 def _sections(claims: list[dict[str, Any]]) -> list[tuple[str, list[dict[str, Any]]]]:
     """The claims by section of the report, in its order; those of the table by themselves."""
-
-    def section(claim: dict[str, Any]) -> str:
-        return "Table A-1" if claim["cell"] else claim["section"].capitalize()
-
-    return [(name, list(group)) for name, group in groupby(claims, section)]
+    return [(name, list(group)) for name, group in groupby(claims, shown.section)]
 
 
 def _touched_by(findings: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
@@ -92,13 +102,17 @@ def _unit(unit: str) -> str:
 _NAMES = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True) if name != "1")
 
 
-def _prose(text: str) -> str:
-    r"""Sentences with the units after numbers as they are written.
+def _prose(text: str) -> "Markup":
+    r"""Sentences with the units after numbers as they are written, and *emphasis*.
 
-    >>> _prose("2 um deep, at most 7863.3 kg/m^3")
-    '2\xa0µm deep, at most 7863.3\xa0kg/m³'
+    >>> print(_prose("2 um deep, *at most* 7863.3 kg/m^3").replace("\xa0", "~"))
+    2~µm deep, <em>at most</em> 7863.3~kg/m³
     """
-    return re.sub(rf"(?<=[\d\])]) ({_NAMES})(?!\w)", lambda found: _unit(found[1]), text)
+    from markupsafe import Markup, escape
+
+    units = re.sub(rf"(?<=[\d\])]) ({_NAMES})(?!\w)", lambda found: _unit(found[1]), text)
+    escaped = str(escape(shown.plain(units)))
+    return Markup(re.sub(r"\*(\w[\w ]*)\*", r"<em>\1</em>", escaped))  # noqa: S704  (escaped)
 
 
 def _slug(text: str) -> str:

@@ -52,7 +52,7 @@ _WEIGHTIEST = 8
 def _findings(findings: Sequence[Finding]) -> list[str]:
     shown = [f for k, f in enumerate(findings) if k < _WEIGHTIEST or not f.holds]
     more = len(findings) - len(shown)
-    return [*map(_finding_line, shown), *([f"  and {more} more in audit.md"] if more else [])]
+    return [*map(_finding_line, shown), *([f"  and {more} more in audit.html"] if more else [])]
 
 
 def _finding_line(finding: Finding) -> str:

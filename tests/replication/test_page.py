@@ -13,13 +13,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.audit import audit
+from replication.audit import Verdict, audit
+from replication.reports.failing import failing
 from replication.reports.figures import FIGURES, draw
 from replication.reports.figures.svg import tidy
 from replication.reports.files import write_audit
 from replication.reports.gauge import gauge
+from replication.reports.glossary import KINDS, VERDICTS
 from replication.reports.html import page
 from replication.reports.records import audit_record
+from replication.text import number
 
 HTML = "{http://www.w3.org/1999/xhtml}"
 SVG = "{http://www.w3.org/2000/svg}"
@@ -128,7 +131,7 @@ def test_every_computed_claim_has_its_picture_and_its_proof(root: ET.Element, re
         article = articles[f"claim-{claim['id']}"]
         words = "".join(article.itertext())
         assert claim["reference"] in words
-        assert repr(claim["computed"]) in words
+        assert number(claim["computed"], 10) in words
         details = next(article.iter(f"{HTML}details"))
         assert ("open" in details.attrib) == (claim["verdict"] != "reproduced")
         assert [e.get("class") for e in article.iter(f"{SVG}svg")] == ["gauge"]
@@ -226,3 +229,40 @@ def test_joint_questions_have_their_answers(root: ET.Element, record: dict) -> N
     for one in record["joint"]:
         assert one["outcome"].capitalize() in words
         assert one["id"].replace(".", "-") in "".join(ids(section))
+
+
+def test_the_summary_tells_what_fails_and_why(root: ET.Element, record: dict) -> None:
+    (section,) = (e for e in root.iter(f"{HTML}section") if e.get("id") == "summary")
+    table = next(section.iter(f"{HTML}table"))
+    rows = ["".join(row.itertext()) for row in table.iter(f"{HTML}tr")][1:]
+    targets = [a.get("href") for a in table.iter(f"{HTML}a")]
+    failed = [claim for claim in record["claims"] if claim["verdict"] == "not reproduced"]
+    assert targets[::2] == [f"#claim-{claim['id']}" for claim in failed]
+    assert all(target.startswith("#finding-") for target in targets[1::2])
+    (coarse,) = (row for row in rows if "at 0.5 ns as at 0.2 ns" in row)
+    assert "7.67\xa0µm at 0.5 ns as at 0.2 ns" in coarse
+    assert "7.66\xa0µm" in coarse
+
+
+def test_a_failing_comparison_is_told_with_the_numbers_it_compares(record: dict) -> None:
+    told = {one.claim["id"]: (one.printed, one.follows) for one in failing(record)}
+    assert told["coarse-step-beta-5"] == ("7.67 um at 0.5 ns as at 0.2 ns", "7.66 um")
+    assert told["frank-zook-stainless"][1].startswith("0.150; ")
+
+
+def test_every_verdict_is_defined(record: dict) -> None:
+    assert list(VERDICTS) == [verdict.value for verdict in Verdict]
+    assert list(KINDS) == list(record["reproduced"])
+
+
+def test_tex_stands_in_quotes_only(text: str) -> None:
+    root = html5lib.HTMLParser(strict=True).parse(text)
+    quotes = {"".join(quote.itertext()) for quote in root.iter(f"{HTML}q")}
+    assert any("\\" in quote for quote in quotes)
+    for element in root.iter():
+        if element.tag == f"{HTML}q":
+            element.clear()
+    (body,) = root.iter(f"{HTML}body")
+    words = "".join(body.itertext())
+    assert "\\" not in words
+    assert not re.search(r"\*\w[\w ]*\*", words)

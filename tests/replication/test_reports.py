@@ -13,6 +13,8 @@ import pytest
 
 from reference.ledger import load
 from replication.reports.files import FILES, write_audit
+from replication.reports.shown import NOTHING_OPEN, proven
+from replication.text import number
 
 CLAIM_KEYS = {
     "id", "where", "printed", "unit", "interval", "computed", "enclosure", "verdict", "assumes",
@@ -44,6 +46,32 @@ def test_every_claim_is_in_every_file(folder: Path, record: dict) -> None:
         assert [row["id"] for row in csv.DictReader(file)] == ids
     text = (folder / "audit.md").read_text("utf-8")
     assert all(f"`{name}`" in text for name in ids)
+
+
+def test_markdown_has_what_the_page_has(folder: Path, record: dict) -> None:
+    lines = (folder / "audit.md").read_text("utf-8").splitlines()
+    for claim in record["claims"]:
+        if claim["kind"] == "blank":
+            continue
+        (line,) = (line for line in lines if line.startswith(f"- `{claim['id']}` {claim['title']}"))
+        assert f"`{claim['quote']}`" in line
+        if "proof above" in line:
+            start = lines.index(f"### `{claim['id']}`: {claim['title']}")
+            line = "\n".join(lines[start : start + 20])
+        shown = [claim["interval_text"], claim["workbook"], *claim["assumes"]]
+        shown += [f"(`{name}`)" for names in claim["rests_on"].values() for name in names]
+        if claim["computed"] is not None:
+            shown += [number(claim["computed"], 10), proven(claim["enclosure"])]
+        for text in shown:
+            assert text is None or text.replace("(`inferred:target-density`)", "") in line
+
+
+def test_findings_do_not_say_that_nothing_is_open(folder: Path, record: dict) -> None:
+    assert NOTHING_OPEN in {finding["settle"] for finding in record["findings"]}
+    for name in ("audit.md", "audit.html"):
+        text = (folder / name).read_text("utf-8")
+        assert NOTHING_OPEN not in text
+        assert "What would settle it" in text
 
 
 def test_enclosures_hold_the_reference(record: dict) -> None:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 NAME = "comparison"
 TITLE = "Normalized depth by every approach of the report"
-SIZE = (7.2, 5.0)
+SIZE = (5.0, 6.4)
 
 _COLORS = {"observed": GREEN, "sheet": BLUE, "exact": BLUE, "Frank-Zook": VERMILION}
 
@@ -35,20 +35,23 @@ def plot(figure: "Figure", record: dict[str, Any]) -> None:
     axes.axvspan(min(observed), max(observed), color=GREEN, alpha=0.3, linewidth=0)
     for y, one in enumerate(rows):
         color = _COLORS.get(one["kind"], INK)
+        axes.annotate(_label(one), (0.01, y - 0.3), va="center")
         if one["computed"] is not None:
-            axes.plot(one["computed"], y, "o", color=color, ms=7)
+            axes.plot(one["computed"], y + 0.15, "o", color=color, ms=7)
         if one["printed"]:
-            axes.plot(float(one["printed"]), y, "D", mfc="none", mec=color, ms=10, mew=1.4)
+            axes.plot(float(one["printed"]), y + 0.15, "D", mfc="none", mec=color, ms=10, mew=1.4)
         shown = one["printed"] if one["computed"] is None else f"{one['computed']:.3f}"
-        axes.annotate(shown, (1.02, y), xycoords=("axes fraction", "data"), va="center")
+        axes.annotate(shown, (1.02, y + 0.15), xycoords=("axes fraction", "data"), va="center")
     axes.plot([], [], "o", color=INK, ms=7, label="computed")
     axes.plot([], [], "D", mfc="none", mec=INK, ms=10, mew=1.4, label="printed in the report")
-    axes.set_yticks(range(len(rows)), [f"{one['kind']}: {_short(one['name'])}" for one in rows])
-    axes.set(xlabel="Normalized depth X/R", xlim=(0, 1.02), ylim=(len(rows) - 0.5, -0.5))
+    axes.set_yticks([])
+    axes.set(xlabel="Normalized depth X/R", xlim=(0, 1.02), ylim=(len(rows) - 0.5, -0.6))
     axes.grid(visible=False, axis="y")
-    figure.legend(loc="outside upper right", ncols=2)
+    figure.legend(loc="outside upper center", ncols=2)
 
 
-def _short(name: str) -> str:
+def _label(one: dict[str, Any]) -> str:
     """Greek, and without what the page tells."""
-    return name.replace("beta", "β").replace(" from Eqs. 14 and 15", "").partition(", the line")[0]
+    name = one["name"].replace("beta", "β").replace(" from Eqs. 14 and 15", "")
+    quoted = "" if one["recomputable"] else " (quoted, not recomputable)"
+    return f"{one['kind']}: {name.partition(', the line')[0]}{quoted}"

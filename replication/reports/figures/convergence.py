@@ -9,13 +9,13 @@ if TYPE_CHECKING:
 
 NAME = "convergence"
 TITLE = "Error of the sheet's final depth against its time step, beta = 5"
-SIZE = (7.2, 4.6)
+SIZE = (5.0, 4.6)
 
 _LOOKS = {
-    "published": (VERMILION, "o", "first order", 2, (-8, 8), "right"),
-    "centered": (BLUE, "s", "second order", 3, (12, -22), "left"),
+    "published": (VERMILION, "o", "first order"),
+    "centered": (BLUE, "s", "second order"),
 }
-"""Color, marker, and the label with the level that it stands at, its offset and alignment."""
+"""Color, marker, order."""
 
 
 def describe(record: dict[str, Any]) -> str:
@@ -37,26 +37,23 @@ def plot(figure: "Figure", record: dict[str, Any]) -> None:
 
     axes = figure.subplots()
     for ladder in record["convergence"]:
-        color, marker, order, level, offset, side = _LOOKS[ladder["scheme"]]
+        color, marker, order = _LOOKS[ladder["scheme"]]
         steps = [one["step"] * 1e9 for one in ladder["levels"]]
         parts = [abs(one["budget"]["time_step"]) * 1e6 for one in ladder["levels"]]
         whole = [abs(one["error"]) * 1e6 for one in ladder["levels"]]
-        axes.loglog(steps, parts, marker=marker, color=color, ms=6)
+        name = f"{ladder['scheme']} ({order})"
+        axes.loglog(steps, parts, marker=marker, color=color, ms=6, label=name)
         axes.loglog(steps, whole, marker, mfc="none", mec=color, ms=9)
-        axes.annotate(
-            f"{ladder['scheme']}: {order}", (steps[level], parts[level]),
-            xytext=offset, textcoords="offset points", ha=side,
-        )  # fmt: skip
     axes.axvline(0.2, color=INK, linewidth=1.0, linestyle="--")
     axes.annotate(
         "0.2 ns, the report", (0.2, 0.04), xycoords=("data", "axes fraction"),
         xytext=(5, 0), textcoords="offset points",
     )  # fmt: skip
-    axes.loglog([], [], "o", color=INK, ms=6, label="time step alone")
-    axes.loglog([], [], "o", mfc="none", mec=INK, ms=9, label="whole, with the stop rule")
+    axes.loglog([], [], "o", color=INK, ms=6, label="filled: time step alone")
+    axes.loglog([], [], "o", mfc="none", mec=INK, ms=9, label="hollow: whole error")
     axes.xaxis.set_major_formatter("{x:g}")
     axes.yaxis.set_major_formatter(power_of_ten)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_formatter(NullFormatter())
-    axes.set(xlabel="Time step [ns]", ylabel="Error of the final depth [µm]")
-    axes.legend(loc="upper left")
+    axes.set(xlabel="Time step [ns]", ylabel="|error| of the final depth [µm]")
+    figure.legend(loc="outside upper center", ncols=2)

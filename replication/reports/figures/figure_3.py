@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.ledger import load
 from replication import closed_form
 from replication.impact import CASES, Impact
 from replication.midpoint import run
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 NAME = "figure-3"
 TITLE = "Penetration depth against time, as in Figure 3 of the report"
-SIZE = (7.2, 4.4)
+SIZE = (5.0, 4.2)
 
 
 def describe(_: dict[str, Any]) -> str:
@@ -33,15 +34,17 @@ def describe(_: dict[str, Any]) -> str:
 
 def plot(figure: "Figure", _: dict[str, Any]) -> None:
     """Every fourth row of each sheet as a point, the exact motion as a line."""
+    claims = load().claims
     axes = figure.subplots()
-    looks = ((VERMILION, "o", (0, 9), "right"), (BLUE, "s", (8, -4), "left"))
-    for case, (color, marker, offset, side) in zip(CASES.values(), looks, strict=True):
+    looks = ((VERMILION, "o", (0, 8), "right"), (BLUE, "s", (8, -12), "left"))
+    for (name, case), (color, marker, offset, side) in zip(CASES.items(), looks, strict=True):
         times, depths = _exact(case)
         axes.plot(times * 1e9, depths * 1e6, color=INK, linewidth=1.0)
         rows = run(case).arrays()
         axes.plot(rows["time"][::4] * 1e9, rows["depth"][::4] * 1e6, marker, color=color, ms=4)
         axes.annotate(
-            f"β = {case.beta:g}: {rows['depth'][-1] * 1e6:.2f} µm",
+            f"β = {case.beta:g}: sheet {rows['depth'][-1] * 1e6:.2f},\n"
+            f"report {claims[f'depth-{name}'].text} µm",
             (times[-1] * 1e9, depths[-1] * 1e6),
             xytext=offset,
             textcoords="offset points",
@@ -49,7 +52,7 @@ def plot(figure: "Figure", _: dict[str, Any]) -> None:
         )
     axes.plot([], [], "o", color=INK, ms=4, label="the sheet, every fourth row")
     axes.plot([], [], color=INK, linewidth=1.0, label="exact")
-    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, None), ylim=(0, 11.5))
+    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, None), ylim=(0, 12))
     axes.legend(loc="lower right")
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 NAME = "figure-5"
 TITLE = "Normalized depth against impact velocity, as in Figure 5 of the report"
-SIZE = (7.2, 4.0)
+SIZE = (5.0, 3.6)
 
 
 def describe(record: dict[str, Any]) -> str:

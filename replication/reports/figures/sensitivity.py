@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from replication.reports.comparison import shown_range
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
 
 if TYPE_CHECKING:
@@ -9,7 +10,7 @@ if TYPE_CHECKING:
 
 NAME = "sensitivity"
 TITLE = "What each input does to the exact penetration depth, beta = 5"
-SIZE = (7.2, 4.2)
+SIZE = (5.0, 6.4)
 
 _CASE = "beta-5"
 _PANELS = (("ten_percent", "each input ± 10 %"), ("stated", "its own stated range"))
@@ -33,16 +34,17 @@ def plot(figure: "Figure", record: dict[str, Any]) -> None:
     from matplotlib.patches import Patch
 
     nominal = float(record["sensitivity"][_CASE]["depth"]) * 1e6
-    panels = figure.subplots(1, 2, sharex=True)
-    for axes, (which, words) in zip(panels, _PANELS, strict=True):
+    for axes, (which, words) in zip(figure.subplots(2, 1, sharex=True), _PANELS, strict=True):
         effects = _ordered(record, which)
-        for end, color in enumerate((VERMILION, BLUE)):
-            lengths = [effect["depths"][end] * 1e6 - nominal for effect in effects]
-            axes.barh(range(len(effects)), lengths, left=nominal, color=color, height=0.7)
+        for y, effect in enumerate(effects):
+            changes = [depth * 1e6 - nominal for depth in effect["depths"]]
+            axes.barh([y, y], changes, left=nominal, color=[VERMILION, BLUE], height=0.7)
+            axes.annotate(_changes(changes), (1.02, y), xycoords=_AT_RIGHT, va="center")
         axes.axvline(nominal, color=INK, linewidth=1.0)
-        axes.set_yticks(range(len(effects)), [_name(effect) for effect in effects])
-        axes.set(title=words, xlabel="Depth X [µm]", ylim=(len(effects) - 0.5, -0.5))
+        axes.set_yticks(range(len(effects)), [_label(effect, which) for effect in effects])
+        axes.set(title=words, ylim=(len(effects) - 0.5, -0.5))
         axes.grid(visible=False, axis="y")
+    axes.set(xlabel="Depth X [µm]")
     figure.legend(
         handles=[
             Patch(color=VERMILION, label="input at its low end"),
@@ -51,6 +53,20 @@ def plot(figure: "Figure", record: dict[str, Any]) -> None:
         loc="outside lower center",
         ncols=2,
     )
+
+
+_AT_RIGHT = ("axes fraction", "data")
+
+
+def _changes(changes: list[float]) -> str:
+    """What the low and the high end change the depth by [µm]."""
+    return "\n".join(
+        f"{change:+.3f}".replace("-", "\N{MINUS SIGN}") for change in changes if change
+    )
+
+
+def _label(effect: dict[str, Any], which: str) -> str:
+    return f"{_name(effect)}\n{shown_range(effect)}" if which == "stated" else _name(effect)
 
 
 def _ordered(record: dict[str, Any], which: str) -> list[dict[str, Any]]:
