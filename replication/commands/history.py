@@ -73,10 +73,10 @@ def _time(place: int, text: str) -> float:
     try:
         time = read_number(text.strip(), "s")
         if not 0 <= time < math.inf:
-            raise ValueError(f"{time!r} s is not finite and zero or more")
+            raise ValueError(f"{text.strip()!r} is not finite and zero or more")
     except ValueError as error:
         wanted = 'times such as "0 ns,5 ns" are wanted'
-        raise ValueError(f"--times, value {place}, {text.strip()!r}: {error}: {wanted}") from error
+        raise ValueError(f"--times, value {place}: {error}: {wanted}") from error
     return time
 
 

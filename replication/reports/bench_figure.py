@@ -65,7 +65,7 @@ def _draw(panel: Any, points: Sequence[Point], front: Sequence[Point]) -> None:
     for method, ladder in groupby(points, key=lambda point: point.method):
         if method in drawn:
             _draw_line(panel, method, list(ladder))
-    panel.set(xlim=_wide(panel.get_xlim(), 10, 20), ylim=_wide(panel.get_ylim(), 300, 10))
+    panel.set(xlim=_wide(panel.get_xlim(), 10, 60), ylim=_wide(panel.get_ylim(), 300, 100))
     _label(panel, shown)
     _draw_front(panel, front)
     _note(panel, [point for point in points if point.method not in drawn])
@@ -135,8 +135,8 @@ def _free(places: Sequence[tuple[float, float]], width: float, taken: Sequence[_
     return min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*taken, *_EDGES)))
 
 
-_EDGES: tuple[_Box, ...] = ((-1.0, 0.5, 2.0, 2.0), (2.0, 0.5, 2.0, 2.0), (0.5, 1.5, 2.0, 1.0))
-"""What lies to the left of the panel, to its right, and above."""
+_EDGES: tuple[_Box, ...] = ((-1.0, 0.5, 2.0, 2.0), (2.0, 0.5, 2.0, 2.0), (0.5, 1.42, 2.0, 1.0))
+"""What lies to the left of the panel, to its right, and above, with the legend."""
 
 
 def _overlap(one: _Box, other: _Box) -> float:
