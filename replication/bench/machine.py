@@ -15,7 +15,7 @@ def machine() -> dict[str, str | int | None]:
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "system": platform.platform(),
+        "system": f"{platform.system()} {platform.machine()}",
         "python": f"{platform.python_implementation()} {platform.python_version()}",
         **{name: version(name) for name in LIBRARIES},
     }
