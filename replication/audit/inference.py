@@ -69,18 +69,23 @@ class Inference:
     @cached_property
     def handbook(self) -> Mapping[str, tuple[Printed, str]]:
         """Handbook values, and what the evidence says of each, a rounded number itself."""
-        return {name: (v, self._verdict(v.interval())) for name, v in self.entry.handbook.items()}
+        return {
+            name: (printed, self._verdict(printed.value, printed.interval()))
+            for name, printed in self.entry.handbook.items()
+        }
 
     def holds_at(self, point: Mapping[str, Fraction]) -> bool:
         """Whether the evidence can hold at a point; other inputs are within their rounding."""
         fixed = {name: (x, x) for name, x in point.items() if name in self._box}
         return satisfiable(self._joint, {**self._box, **fixed}) is True
 
-    def _verdict(self, handbook: Interval) -> str:
+    def _verdict(self, value: Fraction, handbook: Interval) -> str:
         assert handbook.lower is not None
         assert handbook.upper is not None
-        if not self.inner.excludes(handbook.lower, handbook.upper):
+        if self.inner.contains(value):
             return "admitted"
+        if not self.inner.excludes(handbook.lower, handbook.upper):
+            return "admitted only as a number that was rounded"
         ends = (handbook.lower, handbook.upper)
         if self.possible.excludes(*ends):
             return "excluded"

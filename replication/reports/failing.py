@@ -35,8 +35,8 @@ def failing(record: dict[str, Any]) -> list[Failing]:
 def _numbers(claim: dict[str, Any], claims: dict[str, Any]) -> tuple[str, str]:
     """The printed number, and the computed ones with as many digits."""
     text, unit = claim["printed"], claim["unit"]
-    if claim["kind"] == "comparison":
-        model = _model(claim, claims)
+    if claim["like"] is not None:
+        model = claims[claim["like"]]
         text = model["printed"]
         printed = f"{with_unit(text, unit)} {_changed(claim, model, claims)}"
     else:
@@ -51,17 +51,6 @@ def _numbers(claim: dict[str, Any], claims: dict[str, Any]) -> tuple[str, str]:
 
 def _rounded(value: float, digits: int) -> str:
     return f"{value:#.{digits}g}".rstrip(".")
-
-
-def _model(claim: dict[str, Any], claims: dict[str, Any]) -> dict[str, Any]:
-    """The claim that a comparison is to print like: the same calculation, the same interval."""
-    same: dict[str, Any] = next(
-        other
-        for other in claims.values()
-        if other["kind"] != "comparison"
-        and (other["computed_by"], other["interval"]) == (claim["computed_by"], claim["interval"])
-    )
-    return same
 
 
 def _changed(claim: dict[str, Any], model: dict[str, Any], claims: dict[str, Any]) -> str:

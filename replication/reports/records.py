@@ -84,6 +84,7 @@ def ledger_record(claim: Claim) -> dict[str, Any]:
         "printed": claim.text,
         "unit": claim.unit,
         "kind": claim.kind,
+        "like": claim.like,
     }
 
 
