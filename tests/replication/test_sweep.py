@@ -599,7 +599,13 @@ def started(folder: Path) -> "subprocess.Popen[bytes]":
     plan_of(folder, STREAM.format(samples=40 * BLOCK))
     command = [sys.executable, "-m", "replication", "sweep", folder / "plan.toml"]
     command += ["-o", folder / "out.csv", "--processes", "2"]
-    sweep = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    sweep = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        # A shell's background jobs ignore it, and what they start does, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     for _ in range(6000):
         if any(draft.stat().st_size > 100_000 for draft in drafts(folder)):
             return sweep
