@@ -103,6 +103,12 @@ class Claim:
         """The factor from the claim's unit to SI."""
         return to_si(self.unit)
 
+    @property
+    def target(self) -> Interval:
+        """The values, in SI, that agree with the claim, which is no blank cell."""
+        assert self.interval is not None
+        return self.interval.scaled(self.si)
+
     def as_input(self, loose: bool = False) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it.
 

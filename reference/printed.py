@@ -46,6 +46,17 @@ class Interval:
         """The one value."""
         return cls(value, value)
 
+    @property
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """The lower and the upper end. Raises ValueError where one is infinite.
+
+        >>> Interval(Fraction(1), Fraction(2)).ends
+        (Fraction(1, 1), Fraction(2, 1))
+        """
+        if self.lower is None or self.upper is None:
+            raise ValueError(f"{self} has no end on one side")
+        return self.lower, self.upper
+
     def contains(self, value: Fraction) -> bool:
         """Whether the value lies inside, ends counted as they are closed or open."""
         return not self._above(value) and not self._below(value)

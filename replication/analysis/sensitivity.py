@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 from reference.ledger import Ledger
 from replication import closed_form
-from replication.audit.entries import rounding, value
-from replication.audit.inference import infer
+from replication.audit.entries import value
+from replication.audit.inference import infer, possible
 from replication.impact import Impact
 
 __all__ = ["INPUTS", "Effect", "elasticities", "stated_effects", "ten_percent_effects"]
@@ -73,10 +73,9 @@ def stated_effects(impact: Impact, ledger: Ledger) -> list[Effect]:
     velocity, size = (
         float(value(ledger, name)) for name in ("velocity-deviation", "diameter-deviation")
     )
-    possible = infer(ledger, "target-density").possible
-    assert possible.lower is not None
-    assert possible.upper is not None
-    density = rounding(ledger, "a1-density")
+    (light, dense), (least, greatest) = (
+        map(float, possible(ledger, name)) for name in ("a1-density", "inferred:target-density")
+    )
     ranges: Mapping[str, tuple[tuple[float, float], str, tuple[str, ...]]] = {
         "velocity": (
             (impact.velocity - velocity, impact.velocity + velocity),
@@ -91,12 +90,12 @@ def stated_effects(impact: Impact, ledger: Ledger) -> list[Effect]:
         "beta": _between(ledger, "beta-range-least", "beta-range-greatest", "the report's range"),
         "flow_stress": _between(ledger, "strength-clear", "strength-feathery", "two hardnesses"),
         "particle_density": (
-            (float(density[0]), float(density[1])),
+            (light, dense),
             "rounding of the print",
             ("a1-density",),
         ),
         "target_density": (
-            (float(possible.lower), float(possible.upper)),
+            (least, greatest),
             "all that Table A-1 allows",
             infer(ledger, "target-density").entry.evidence,
         ),

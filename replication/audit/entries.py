@@ -45,10 +45,7 @@ def title(ledger: Ledger, name: str) -> str:
 @cache
 def rounding(ledger: Ledger, name: str, loose: bool = False) -> tuple[Fraction, Fraction]:
     """The least and greatest value, in SI, that prints like an entry."""
-    ends = ledger.claims[name].as_input(loose)
-    assert ends.lower is not None
-    assert ends.upper is not None
-    return ends.lower, ends.upper
+    return ledger.claims[name].as_input(loose).ends
 
 
 def function_of(

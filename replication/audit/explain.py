@@ -134,10 +134,8 @@ def assumptions(ledger: Ledger, assessment: Assessment) -> list[str]:
 
 def _density(inference: Inference) -> str:
     entry, inner = inference.entry, inference.inner
-    assert inner.lower is not None
-    assert inner.upper is not None
     nominal = with_unit(number(entry.nominal), entry.unit)
-    admitted = inward(inner.lower, inner.upper)
+    admitted = inward(*inner.ends)
     return f"{entry.title} {nominal}, inferred: Table A-1 as printed admits {admitted}"
 
 

@@ -10,7 +10,7 @@ from reference.ledger import Inferred, Ledger
 from reference.printed import Interval, Printed
 from replication.audit.entries import function_of, rounding, value
 
-__all__ = ["Inference", "infer"]
+__all__ = ["Inference", "infer", "possible"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,13 +80,11 @@ class Inference:
         return satisfiable(self._joint, {**self._box, **fixed}) is True
 
     def _verdict(self, value: Fraction, handbook: Interval) -> str:
-        assert handbook.lower is not None
-        assert handbook.upper is not None
+        ends = handbook.ends
         if self.inner.contains(value):
             return "admitted"
-        if not self.inner.excludes(handbook.lower, handbook.upper):
+        if not self.inner.excludes(*ends):
             return "admitted only as a number that was rounded"
-        ends = (handbook.lower, handbook.upper)
         if self.possible.excludes(*ends):
             return "excluded"
         words = {
@@ -110,6 +108,12 @@ def infer(ledger: Ledger, name: str) -> Inference:
     return Inference(ledger, entry, inner, outer)
 
 
+def possible(ledger: Ledger, name: str) -> tuple[Fraction, Fraction]:
+    """The least and greatest value, in SI, of an entry: that prints like it, or is possible."""
+    _, _, inferred = name.partition("inferred:")
+    return infer(ledger, inferred).possible.ends if inferred else rounding(ledger, name)
+
+
 def _single(
     ledger: Ledger, entry: Inferred, claims: tuple[str, ...], **fixed: Fraction
 ) -> tuple[Interval, Interval]:
@@ -122,12 +126,10 @@ def _single(
 def _constraints(
     ledger: Ledger, claims: tuple[str, ...], free: frozenset[str], **fixed: Fraction
 ) -> list[Constraint]:
-    found = []
-    for claim in (ledger.claims[claim] for claim in claims):
-        assert claim.interval is not None
-        function = function_of(ledger, claim, claim.functions[""], free, **fixed)
-        found.append((function, claim.interval.scaled(claim.si)))
-    return found
+    return [
+        (function_of(ledger, claim, claim.functions[""], free, **fixed), claim.target)
+        for claim in (ledger.claims[name] for name in claims)
+    ]
 
 
 def _rounded_inputs(ledger: Ledger, entry: Inferred) -> Box:

@@ -91,11 +91,10 @@ class _Question:
     """Does this computation give the printed number?"""
 
     def __init__(self, ledger: Ledger, claim: Claim, name: str, function: Function) -> None:
-        assert claim.interval is not None
         assert claim.computation is not None
         self.ledger, self.claim, self.name, self.function = ledger, claim, name, function
         self.computation = claim.readings.get(name, claim.computation)
-        self.target = claim.interval.scaled(claim.si)
+        self.target = claim.target
         self.entries = sorted({entry for names in claim.inputs.values() for entry in names})
         self.of_entries = function_of(ledger, claim, function, frozenset(self.entries))
 
@@ -152,10 +151,7 @@ class _Question:
         for name in self.entries:
             _, _, inferred = name.partition("inferred:")
             if inferred:
-                interval = which(infer(self.ledger, inferred))
-                assert interval.lower is not None
-                assert interval.upper is not None
-                ends[name] = (interval.lower, interval.upper)
+                ends[name] = which(infer(self.ledger, inferred)).ends
         return ends
 
     def reading(

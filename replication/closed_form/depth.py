@@ -211,7 +211,7 @@ def _volume_ratio(V: Any, rho_p: Any, rho_t: Any, twice_R_t: Any) -> tuple[Any, 
     the Newton step's residual (3 u), 1 of the step's sum, 0.5 of the product with R; a deep one 1.2
     of the logarithm, 1.3 of the sum 1 + 4r, 1 of the third, 0.5 of the product. Left in, the three
     roundings of p and the two of r would add 2.5 and up to 5. All holds where these products and
-    quotients stay between 1e-250 and 1e250, which `Impact` sees to.
+    quotients stay between 1e-250 and 1e250, which `checked` sees to.
     """
     p = V * V
     p *= rho_t

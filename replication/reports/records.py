@@ -62,7 +62,7 @@ def audit_record(audit: Audit, shown: dict[str, Any] | None = None) -> dict[str,
 
 
 def _in_workbook(claim: dict[str, Any]) -> dict[str, Any]:
-    return {**claim, "workbook": workbook_cell(claim)}
+    return {**claim, "workbook": workbook_cell(claim["id"], claim["cell"])}
 
 
 def _observed(audit: Audit) -> float:
@@ -157,15 +157,13 @@ def _interval(interval: Interval) -> list[float | None]:
 
 def _inside(interval: Interval) -> list[float]:
     """Ends as doubles, rounded inwards: what is proven of the interval is true of these."""
-    assert interval.lower is not None
-    assert interval.upper is not None
-    return [_up(interval.lower), _down(interval.upper)]
+    lower, upper = interval.ends
+    return [_up(lower), _down(upper)]
 
 
 def _outside(interval: Interval) -> list[float]:
-    assert interval.lower is not None
-    assert interval.upper is not None
-    return [_down(interval.lower), _up(interval.upper)]
+    lower, upper = interval.ends
+    return [_down(lower), _up(upper)]
 
 
 def _down(value: Fraction) -> float:

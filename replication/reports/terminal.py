@@ -100,7 +100,7 @@ def claim_proof(ledger: Ledger, assessment: Assessment) -> str:
         ("verdict", assessment.verdict.value),
         ("because", explanation(ledger, assessment)),
         ("assumes", "; ".join(assumptions(ledger, assessment))),
-        ("workbook", workbook_cell({"id": claim.id, "cell": claim.place.cell}) or ""),
+        ("workbook", workbook_cell(claim.id, claim.place.cell) or ""),
     ]
     rows += [("finding", f"{f.id}: {f.filled(f.title)}") for f in _touching(claim)]
     rows += _tried(ledger, claim)

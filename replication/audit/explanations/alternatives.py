@@ -10,10 +10,9 @@ from reference.conjectures import Conjectures, Family, Slip
 from reference.enclosure import Box, Constraint, Function, evaluate, explore, satisfiable
 from reference.exact import Arithmetic, Number
 from reference.ledger import Claim, Ledger
-from reference.printed import Interval
 from reference.slips import SLIPS
-from replication.audit.entries import rounding, value
-from replication.audit.inference import infer
+from replication.audit.entries import value
+from replication.audit.inference import possible
 from replication.audit.verdict import Verdict
 
 __all__ = ["Alternative", "Alternatives", "alternatives"]
@@ -114,7 +113,7 @@ def _alternative(ledger: Ledger, family: Family, slips: tuple[Slip, ...]) -> Alt
     values = {c.id: evaluate(functions[c.id], points[c.id]) for c in claims}
     verdicts = {c.id: _verdict(c, functions[c.id], values[c.id], boxes[c.id]) for c in claims}
     computed = {name: float(low) for name, (low, _) in values.items()}
-    constraints = [(functions[c.id], _target(c)) for c in claims]
+    constraints = [(functions[c.id], c.target) for c in claims]
     whole = {name: ends for box in boxes.values() for name, ends in box.items()}
     return Alternative(
         ", ".join(slip.name for slip in slips), len(slips) - 1, computed, verdicts,
@@ -146,19 +145,13 @@ def _ends(ledger: Ledger, name: str) -> tuple[Fraction, Fraction]:
     """The values that print like an entry, or that the evidence allows; a plain number is exact."""
     if name[0].isdigit():
         return Fraction(name), Fraction(name)
-    _, _, inferred = name.partition("inferred:")
-    if not inferred:
-        return rounding(ledger, name)
-    possible = infer(ledger, inferred).possible
-    assert possible.lower is not None
-    assert possible.upper is not None
-    return possible.lower, possible.upper
+    return possible(ledger, name)
 
 
 def _verdict(
     claim: Claim, function: Function, at_printed: tuple[Fraction, Fraction], box: Box
 ) -> Verdict:
-    target = _target(claim)
+    target = claim.target
     if target.encloses(*at_printed):
         return Verdict.REPRODUCED
     if target.excludes(*evaluate(function, box)):
@@ -174,8 +167,3 @@ def _all(constraints: list[Constraint], verdicts: list[Verdict], box: Box) -> bo
     if Verdict.NOT_REPRODUCED in verdicts:
         return False
     return satisfiable(constraints, box)
-
-
-def _target(claim: Claim) -> Interval:
-    assert claim.interval is not None
-    return claim.interval.scaled(claim.si)

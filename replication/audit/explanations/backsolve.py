@@ -74,7 +74,7 @@ def back_solve(
 def _solved(
     ledger: Ledger, conjectures: Conjectures, claim: Claim, reading: Reading, name: str
 ) -> BackSolved:
-    quantity, target = conjectures.quantity(name), _target(claim)
+    quantity, target = conjectures.quantity(name), claim.target
     search = _cuts(*(end * quantity.si for end in quantity.search))
     function = function_of(ledger, claim, claim.functions[reading.name], frozenset({name}))
     resolution = search[0] / _PARTS
@@ -94,11 +94,6 @@ def _cuts(low: Fraction, high: Fraction) -> list[Fraction]:
     while cuts[-1] * 5 / 4 < high:
         cuts.append(cuts[-1] * 5 / 4)
     return [*cuts, high]
-
-
-def _target(claim: Claim) -> Interval:
-    assert claim.interval is not None
-    return claim.interval.scaled(claim.si)
 
 
 def _middle(function: Callable[[float], float], found: Solutions, target: Interval) -> float | None:

@@ -11,7 +11,7 @@ from reference.ledger import Claim, Ledger
 from reference.printed import Interval
 from reference.slips import RATIOS
 from replication.audit.entries import function_of, rounding, value
-from replication.audit.inference import infer
+from replication.audit.inference import possible
 from replication.text import number, outward
 
 __all__ = ["JointAnswer", "consistency"]
@@ -59,21 +59,12 @@ def _replaced(claim: Claim, other: Mapping[str, str]) -> Claim:
 def _box(ledger: Ledger, claims: list[Claim], kept: frozenset[str]) -> Box:
     """The rounding of every input that may be other than printed."""
     names = sorted({n for claim in claims for names in claim.inputs.values() for n in names} - kept)
-    ends = {name: _ends(ledger, name) for name in names}
+    ends = {name: possible(ledger, name) for name in names}
     return {name: (low, high) for name, (low, high) in ends.items() if low != high}
 
 
-def _ends(ledger: Ledger, name: str) -> tuple[Fraction, Fraction]:
-    _, _, inferred = name.partition("inferred:")
-    if not inferred:
-        return rounding(ledger, name)
-    return _closed(infer(ledger, inferred).possible)
-
-
 def _constraint(ledger: Ledger, claim: Claim, free: frozenset[str]) -> Constraint:
-    assert claim.interval is not None
-    function = function_of(ledger, claim, claim.functions[""], free)
-    return function, claim.interval.scaled(claim.si)
+    return function_of(ledger, claim, claim.functions[""], free), claim.target
 
 
 def _bound(question: Joint, claims: list[Claim], constraints: list[Constraint], box: Box) -> str:
@@ -89,7 +80,7 @@ def _bound(question: Joint, claims: list[Claim], constraints: list[Constraint], 
 
 def _quotient(ledger: Ledger, question: Joint, ratio: Ratio) -> JointAnswer:
     one, other = (ledger.claims[name] for name in question.claims)
-    (low, high), (least, greatest) = _closed(one.interval), _closed(other.interval)
+    (low, high), (least, greatest) = one.target.ends, other.target.ends
     printed = Interval(least / high, greatest / low)
     strengths = {
         key: rounding(ledger, claim.inputs[ratio.differs][0], loose=True)
@@ -114,10 +105,3 @@ def _octaves(low: Fraction, high: Fraction) -> list[tuple[Fraction, Fraction]]:
         ends.append(ends[-1] * 2)
     ends.append(high)
     return list(pairwise(ends))
-
-
-def _closed(interval: Interval | None) -> tuple[Fraction, Fraction]:
-    assert interval is not None
-    assert interval.lower is not None
-    assert interval.upper is not None
-    return interval.lower, interval.upper

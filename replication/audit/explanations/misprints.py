@@ -7,7 +7,7 @@ from fractions import Fraction
 from reference.conjectures import Conjectures
 from reference.enclosure import evaluate
 from reference.ledger import Claim, Ledger
-from reference.printed import Interval, parse
+from reference.printed import parse
 from replication.audit.assessed import assess_claim
 from replication.audit.entries import entries_of, function_of, replica_of
 from replication.audit.explanations.edits import KINDS, Edit, edits
@@ -74,7 +74,7 @@ def _of_input(
     reading: Reading,
     name: str,
 ) -> Iterator[Misprint]:
-    entry, target = ledger.claims[name], _target(claim)
+    entry, target = ledger.claims[name], claim.target
     low, high = (end * conjectures.quantity(name).si for end in conjectures.quantity(name).search)
     replica = replica_of(ledger, claim, reading.computation)
     for edit in edits(entry.text):
@@ -104,9 +104,4 @@ def _broken(ledger: Ledger, claim: Claim, name: str, edit: Edit) -> tuple[str, .
 def _agrees(ledger: Ledger, claim: Claim, reading: str, name: str, number: Fraction) -> bool:
     """Whether the claim is proven to agree where one entry has another value."""
     function = function_of(ledger, claim, claim.functions[reading], frozenset({name}))
-    return _target(claim).encloses(*evaluate(function, {name: (number, number)}))
-
-
-def _target(claim: Claim) -> Interval:
-    assert claim.interval is not None
-    return claim.interval.scaled(claim.si)
+    return claim.target.encloses(*evaluate(function, {name: (number, number)}))

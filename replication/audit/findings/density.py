@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from replication.audit.findings.known import Computed, Known, known_interval
+from replication.audit.findings.known import Computed, Known
 from replication.audit.inference import infer
 
 __all__ = ["EVIDENCE"]
@@ -10,8 +10,8 @@ __all__ = ["EVIDENCE"]
 
 def _target_density(known: Known) -> Computed:
     inference = infer(known.ledger, "target-density")
-    least, greatest = known_interval(inference.inner)
-    possible_least, possible_greatest = known_interval(inference.possible)
+    least, greatest = inference.inner.ends
+    possible_least, possible_greatest = inference.possible.ends
     verdicts = {name: verdict for name, (_, verdict) in inference.handbook.items()}
     return {
         "least": least,
@@ -24,7 +24,7 @@ def _target_density(known: Known) -> Computed:
         "exact_79": not inference.outer.excludes(Fraction(7900), Fraction(7900)),
         "possible_least": possible_least,
         "possible_greatest": possible_greatest,
-        "mass_greatest": known_interval(inference.with_mass)[1],
+        "mass_greatest": inference.with_mass.ends[1],
     }
 
 

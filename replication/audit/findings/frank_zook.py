@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 
+from reference.conjectures import load
 from reference.enclosure import explore
 from reference.exact import cap_volume
 from reference.printed import Interval
@@ -10,8 +11,9 @@ from reference.slips import equation_16_ratio
 from replication import frank_zook
 from replication.audit.entries import rounding
 from replication.audit.explanations import Explanation, explain_claim
-from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
-from replication.audit.inference import infer
+from replication.audit.explanations.joint import consistency
+from replication.audit.findings.known import Computed, Known, model_ratio
+from replication.audit.inference import possible
 from replication.audit.verdict import Verdict
 from replication.impact import BETA_3, BETA_5
 
@@ -53,7 +55,7 @@ def _drag(known: Known) -> Fraction:
 
 def _pair(known: Known) -> Computed:
     lower, upper = (known.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
-    (low, high), (least, greatest) = known_interval(lower.interval), known_interval(upper.interval)
+    (low, high), (least, greatest) = lower.target.ends, upper.target.ends
     printed = Interval(least / high, greatest / low)
     strengths = {
         key: rounding(known.ledger, f"fz-resistance-{name}", loose=True)
@@ -61,18 +63,17 @@ def _pair(known: Known) -> Computed:
     }
     drag = _possible_drag(known)
     found = explore(equation_16_ratio, {"common": drag, **strengths}, printed)
-    # Octave by octave, as the ratio's two logarithms both vanish with the drag.
-    octaves = [(_BOUND / 2 ** (k + 1), _BOUND / 2**k) for k in range(_OCTAVES)]
-    excluded = all(
-        explore(equation_16_ratio, {"common": ends, **strengths}, printed).never for ends in octaves
-    )
+    question = next(q for q in load().joint if q.id == "frank-zook-pair")
+    assert question.ratio is not None
+    impossible = consistency(known.ledger, question).outcome == "impossible"
     z = float(_drag(known))
     armor, stainless = (known.number(f"fz-resistance-{name}") for name in ("rha", "stainless"))
-    fastest = known.number("a1-initial-velocity") * math.sqrt(_BOUND / drag[1])
+    searched = question.ratio.common[1] / drag[1]
+    fastest = known.number("a1-initial-velocity") * math.sqrt(searched)
     return {
         "printed": greatest / low,
         "least": found.lower,
-        "velocity": fastest if excluded else 0.0,
+        "velocity": fastest if impossible else 0.0,
         "z": z,
         "nominal": math.log1p(z / stainless) / math.log1p(z / armor),
         "hand": (armor + z) / (stainless + z),
@@ -90,15 +91,10 @@ def _drag_for(ratio: float, armor: float, stainless: float) -> float:
     return low
 
 
-_BOUND = Fraction(60 * 10**9)
-_OCTAVES = 12
-"""The drags of which `explore` proves that they cannot give the pair; no results themselves."""
-
-
 def _possible_drag(known: Known) -> tuple[Fraction, Fraction]:
     """Least and greatest k_t rho_t V^2 [Pa] of inputs that print like the report's."""
-    k_t, velocity = (rounding(known.ledger, name) for name in ("fz-kt", "a1-initial-velocity"))
-    density = known_interval(infer(known.ledger, "target-density").possible)
+    names = ("fz-kt", "inferred:target-density", "a1-initial-velocity")
+    k_t, density, velocity = (possible(known.ledger, name) for name in names)
     low, high = (k_t[end] * density[end] * velocity[end] ** 2 for end in (0, 1))
     return low, high
 

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from reference.ledger import Ledger
-from reference.printed import Interval
 from replication import closed_form
 from replication.audit.entries import value
 from replication.audit.verdict import Assessment, Reading
 from replication.impact import BETA_5
 
-__all__ = ["Computed", "Known", "known_interval", "model_ratio"]
+__all__ = ["Computed", "Known", "model_ratio"]
 
 Computed = Mapping[str, Fraction | float | bool]
 """Evidence by name, in SI units."""
@@ -44,17 +43,7 @@ class Known:
 
     def prints(self, claim: str, computed: float) -> bool:
         """Whether a number, in SI, agrees with what a claim prints."""
-        interval, si = self.ledger.claims[claim].interval, self.ledger.claims[claim].si
-        assert interval is not None
-        return interval.contains(Fraction(computed) / si)
-
-
-def known_interval(interval: Interval | None) -> tuple[Fraction, Fraction]:
-    """Both ends of an interval that has them."""
-    assert interval is not None
-    assert interval.lower is not None
-    assert interval.upper is not None
-    return interval.lower, interval.upper
+        return self.ledger.claims[claim].target.contains(Fraction(computed))
 
 
 def model_ratio(**changed: float) -> float:

@@ -4,7 +4,7 @@ import math
 from fractions import Fraction
 
 from replication import resistance, sphere
-from replication.audit.findings.known import Computed, Known, known_interval, model_ratio
+from replication.audit.findings.known import Computed, Known, model_ratio
 from replication.impact import BETA_5
 
 __all__ = ["EVIDENCE"]
@@ -13,7 +13,7 @@ __all__ = ["EVIDENCE"]
 def _observed_beta(known: Known) -> Computed:
     p = _pressure_for(known, known.number("observed-ratio"))
     needed = _dynamic_pressure(known) / p
-    least, greatest = known_interval(known.ledger.claims["observed-ratio"].interval)
+    least, greatest = known.ledger.claims["observed-ratio"].target.ends
     velocity = known.number("a1-initial-velocity")
     return {
         "beta": needed / known.number("flow-stress"),
@@ -33,8 +33,7 @@ def _beta_for(known: Known, y: float) -> float:
 def _prints_the_same(known: Known) -> bool:
     """Whether X/R at beta = 5 prints as the report's for every admitted target density."""
     claim = known.ledger.claims["ratio-beta-5"]
-    assert claim.interval is not None
-    return claim.interval.encloses(*known.reading(claim.id).enclosure)
+    return claim.target.encloses(*known.reading(claim.id).enclosure)
 
 
 def _pressure_for(known: Known, y: float) -> float:
