@@ -1,34 +1,35 @@
-"""The report's equations over boxes of inputs, in interval arithmetic: bounds that are proven.
+"""Formulas over boxes of inputs, in interval arithmetic: bounds that are proven.
 
-An interval computed here contains every value that the formula takes for inputs in the box; it may
-be wider than that set. Where it is too wide to decide a question, the box is cut in halves until it
-decides, or the question stays undecided: never a guess.
+What is computed here contains every value that a formula takes for inputs in the box. The
+derivatives are enclosed along with it: an input by which the formula is proven to rise or fall all
+over the box is put at its ends, so that the bound is sharp. Where it is too wide to decide a
+question, the box is cut in halves until it decides, or the question stays undecided: never a guess.
 """
 
 import heapq
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, product
+from functools import cache
+from itertools import product
 
-from reference.exact import Number
-from reference.intervals import Intervals
+from reference.arithmetic import DiscontinuityError, Duals
+from reference.intervals import Intervals, Span
+from reference.ledger import Function
 from reference.printed import Interval
 
 __all__ = [
     "Box",
     "Constraint",
     "Exploration",
-    "Function",
+    "Range",
     "Solutions",
-    "admitted",
-    "evaluate",
+    "enclose",
     "explore",
     "extent",
-    "satisfiable",
     "satisfying",
-    "solutions",
+    "solve",
 ]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
@@ -37,20 +38,99 @@ Box = Mapping[str, tuple[Fraction, Fraction]]
 Part = dict[str, tuple[Fraction, Fraction]]
 """A box that is cut from another."""
 
-Function = Callable[..., Number | Fraction]
-"""Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
-
-
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
 
 
-def evaluate(function: Function, box: Box) -> tuple[Fraction, Fraction]:
-    """A proven range of the function over the box, in SI units."""
+@cache
+def _duals(variables: int) -> Duals:
+    return Duals(_INTERVALS, variables)
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A proven range of a function over a box.
+
+    `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
+    (-1) with it all over the box, or not (0).
+    """
+
+    lower: Fraction
+    upper: Fraction
+    signs: Mapping[str, int]
+
+    @property
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """Both ends."""
+        return self.lower, self.upper
+
+    @property
+    def is_monotone(self) -> bool:
+        """Whether every input is proven to act in one direction; the ends are then attained."""
+        return all(self.signs.values())
+
+
+def enclose(function: Function, box: Box) -> Range:
+    """A proven range of the function over the box, in SI units.
+
+    >>> box = {"x": (Fraction(1), Fraction(2))}
+    >>> [float(end) for end in enclose(lambda ar, x: x / (1 + x), box).ends]
+    [0.5, 0.6666666666666666]
+    """
+    wide = [name for name, (low, high) in box.items() if low != high]
+    with _INTERVALS.working():
+        signs = _signs(function, box, wide) if wide else {}
+        fixed = {name: sign for name, sign in signs.items() if sign}
+        if not fixed:
+            return Range(*_plain(function, box), dict.fromkeys(wide, 0))
+    lower, upper = (
+        {name: ends[end] if (end := _end(fixed.get(name), top)) is not None else ends
+         for name, ends in box.items()}
+        for top in (0, 1)
+    )  # fmt: skip
+    if len(fixed) == len(wide):
+        low, high = _plain(function, _points(lower))[0], _plain(function, _points(upper))[1]
+    else:
+        # An input that is put at an end may free another's sign.
+        low, high = enclose(function, _points(lower)).lower, enclose(function, _points(upper)).upper
+    return Range(low, high, signs)
+
+
+def _end(sign: int | None, top: int) -> int | None:
+    """Which end of a rising or falling input gives the least (top 0) or greatest value (1)."""
+    return None if sign is None else (top if sign > 0 else 1 - top)
+
+
+def _points(part: Mapping[str, Fraction | tuple[Fraction, Fraction]]) -> Part:
+    return {name: x if isinstance(x, tuple) else (x, x) for name, x in part.items()}
+
+
+def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     with _INTERVALS.working():
         numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
         value = function(_INTERVALS, **numbers)
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
+
+
+def _signs(function: Function, box: Box, wide: list[str]) -> dict[str, int]:
+    """The proven signs of the derivatives; none where the function may jump."""
+    duals = _duals(len(wide))
+    numbers = {}
+    for name, ends in box.items():
+        span = _INTERVALS.interval(*ends)
+        place = wide.index(name) if name in wide else None
+        numbers[name] = duals.constant(span) if place is None else duals.variable(span, place)
+    try:
+        value = function(duals, **numbers)
+    except (DiscontinuityError, ZeroDivisionError):
+        return dict.fromkeys(wide, 0)
+    if isinstance(value, Fraction):
+        return dict.fromkeys(wide, 1)
+    return {name: _sign(slope) for name, slope in zip(wide, value.slopes, strict=True)}
+
+
+def _sign(slope: Span) -> int:
+    return 1 if slope.low >= 0 else -1 if slope.high <= 0 else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,14 +138,14 @@ class Exploration:
     """What is proven of a function's values over a box, against a target interval.
 
     `lower`, `upper`: a range that holds all values. `inside`, `outside`: a point of the box whose
-    value is proven inside or outside the target, if one was found. `decided`: no part of the box
+    value is proven inside or outside the target, if one is known. `decided`: no part of the box
     was left open.
     """
 
     lower: Fraction
     upper: Fraction
-    inside: dict[str, Fraction] | None
-    outside: dict[str, Fraction] | None
+    inside: Mapping[str, Fraction] | None
+    outside: Mapping[str, Fraction] | None
     decided: bool
 
     @property
@@ -79,19 +159,65 @@ class Exploration:
         return self.decided and self.inside is None
 
 
-def explore(function: Function, box: Box, target: Interval, budget: int = 2000) -> Exploration:
-    """Decide by branch and bound whether values over the box fall inside the target interval.
+def explore(function: Function, box: Box, target: Interval, budget: int = 500) -> Exploration:
+    """Decide whether values over the box fall inside the target interval.
 
-    The part whose middle comes nearest to the target is cut first, along its relatively widest
-    side. It ends when points inside and outside are both known, when every part is decided, or
-    after `budget` evaluations.
+    Where every input acts in one direction, the way from the least to the greatest value is
+    searched. Else by branch and bound: the part whose middle comes nearest to the target is cut
+    first, along its relatively widest side. It ends when points inside and outside are both known,
+    when every part is decided, or after `budget` evaluations.
     """
+    whole = enclose(function, box)
+    if target.encloses(*whole.ends):
+        return Exploration(*whole.ends, _middle(box), None, decided=True)
+    if target.excludes(*whole.ends):
+        return Exploration(*whole.ends, None, _middle(box), decided=True)
+    if whole.signs and whole.is_monotone:
+        return _along_the_diagonal(function, box, whole, target)
     search, scales = _Search(function, target), _scales(box)
-    search.add(dict(box))
+    search.add(dict(box), whole)
     while search.open and search.evaluations < budget and not search.split():
         for part in _halves(search.nearest(), scales):
-            search.add(part)
-    return search.result()
+            search.add(part, enclose(function, part))
+    return search.result(whole)
+
+
+_STEPS = 80
+"""Halvings of a way through a box: down to parts that no printed digit and no double could tell."""
+
+
+def _along_the_diagonal(
+    function: Function, box: Box, whole: Range, target: Interval
+) -> Exploration:
+    """Of a function that only rises on the way from the box's one corner to the opposite one."""
+
+    def at(share: Fraction) -> dict[str, Fraction]:
+        return {
+            name: low + (high - low) * (share if whole.signs.get(name, 1) > 0 else 1 - share)
+            for name, (low, high) in box.items()
+        }
+
+    def value(share: Fraction) -> tuple[Fraction, Fraction]:
+        return _plain(function, {name: (x, x) for name, x in at(share).items()})
+
+    inside = outside = None
+    low, high = Fraction(0), Fraction(1)
+    for share in (low, high):
+        ends = value(share)
+        inside = at(share) if target.encloses(*ends) else inside
+        outside = at(share) if target.excludes(*ends) else outside
+    for _ in range(_STEPS):
+        if inside is not None:
+            break
+        middle = (low + high) / 2
+        ends = value(middle)
+        if target.encloses(*ends):
+            inside = at(middle)
+        elif target.lower is not None and ends[0] <= target.lower:
+            low = middle
+        else:
+            high = middle
+    return Exploration(*whole.ends, inside, outside, decided=inside is not None)
 
 
 class _Search:
@@ -110,22 +236,21 @@ class _Search:
     def split(self) -> bool:
         return self.inside is not None and self.outside is not None
 
-    def add(self, part: Part) -> None:
+    def add(self, part: Part, range_: Range) -> None:
         self.evaluations += 1
-        ends = evaluate(self.function, part)
-        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
-        if self._note(ends, middle):
-            self._closed_ranges.append(ends)
+        middle = _middle(part)
+        if self._note(range_.ends, middle):
+            self._closed_ranges.append(range_.ends)
             return
         if all(low == high for low, high in part.values()):
             # Its enclosure straddles an end of the target: no cut can decide it.
             self.stuck = True
-            self._closed_ranges.append(ends)
+            self._closed_ranges.append(range_.ends)
             return
         self.evaluations += 1
-        at_middle = evaluate(self.function, {name: (x, x) for name, x in middle.items()})
+        at_middle = _plain(self.function, {name: (x, x) for name, x in middle.items()})
         self._note(at_middle, middle)
-        self._open_ranges[self.evaluations] = ends
+        self._open_ranges[self.evaluations] = range_.ends
         heapq.heappush(self.open, (self._distance(at_middle), self.evaluations, part))
 
     def _note(self, ends: tuple[Fraction, Fraction], point: dict[str, Fraction]) -> bool:
@@ -148,15 +273,19 @@ class _Search:
         del self._open_ranges[number]
         return part
 
-    def result(self) -> Exploration:
+    def result(self, whole: Range) -> Exploration:
         ranges = self._closed_ranges + list(self._open_ranges.values())
         return Exploration(
-            min(low for low, _ in ranges),
-            max(high for _, high in ranges),
+            max(whole.lower, min(low for low, _ in ranges)),
+            min(whole.upper, max(high for _, high in ranges)),
             self.inside,
             self.outside,
             not self.open and not self.stuck,
         )
+
+
+def _middle(box: Box) -> dict[str, Fraction]:
+    return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
 def _scales(box: Box) -> dict[str, Fraction]:
@@ -172,79 +301,107 @@ def _halves(part: Part, scales: Mapping[str, Fraction]) -> list[Part]:
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
 
 
-Constraint = tuple[Function, Interval]
-"""A function of the inputs in a box, and the interval that its value must fall in."""
-
-
 @dataclass(frozen=True, slots=True)
 class Solutions:
-    """The values of one input, within a search, for which all constraints hold.
+    """The values of one input, within a search, for which a function meets its target.
 
-    `inner`: intervals all of whose values are proven to satisfy them; `outer`: those outside which
-    every value of the search is proven to violate some. Empty `outer`: proven that none does.
+    `inner`: intervals all of whose values are proven to; `outer`: those outside which every value
+    of the search is proven not to. Empty `outer`: proven that none does.
     """
 
     search: tuple[Fraction, Fraction]
-    inner: tuple[Interval, ...]
-    outer: tuple[Interval, ...]
+    inner: tuple[tuple[Fraction, Fraction], ...]
+    outer: tuple[tuple[Fraction, Fraction], ...]
 
     @property
     def reaches_an_end(self) -> bool:
-        """Whether what is admitted may go on beyond the search."""
+        """Whether the solutions may go on beyond the search."""
         low, high = self.search
-        return any(part.lower == low or part.upper == high for part in self.outer)
+        return any(part[0] == low or part[1] == high for part in self.outer)
+
+    def admits(self, value: Fraction) -> bool:
+        """Whether the value is proven to be a solution."""
+        return any(low <= value <= high for low, high in self.inner)
 
 
-def solutions(
-    constraints: Sequence[Constraint],
-    name: str,
-    search: Sequence[Fraction],
-    resolution: Fraction,
-    budget: int = 2000,
-) -> Solutions:
-    """The values of the one input for which every constraint holds, in as many intervals as it has.
-
-    `search` are the ends of the search and, between them, where it is cut to begin with. What is
-    neither proven to satisfy nor to violate them is cut in halves down to the resolution, or until
-    the budget of parts runs out; it then belongs to the outer intervals.
-    """
-    parts = deque((part, constraints) for part in pairwise(search))
-    inner: list[tuple[Fraction, Fraction]] = []
-    edge: list[tuple[Fraction, Fraction]] = []
-    while parts and budget:
-        (part, remaining), budget = parts.popleft(), budget - 1
-        undecided = _undecided(remaining, {name: part})
-        if undecided is None:
-            continue
-        if not undecided:
-            inner.append(part)
-        elif part[1] - part[0] > resolution:
-            middle = (part[0] + part[1]) / 2
-            parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
-        else:
-            edge.append(part)
-    found = (inner, [*inner, *edge, *(part for part, _ in parts)])
-    merged, outer = (tuple(Interval(*ends) for ends in _merged(some)) for some in found)
-    return Solutions((search[0], search[-1]), merged, outer)
-
-
-def admitted(
-    constraints: Sequence[Constraint],
+def solve(
+    function: Function,
     name: str,
     search: tuple[Fraction, Fraction],
-    resolution: Fraction,
-) -> tuple[Interval, Interval]:
-    """The one interval of values for which every constraint holds: an inner and outer one.
+    target: Interval,
+    budget: int = 200,
+) -> Solutions:
+    """The values of the one input for which the function falls into the target.
 
-    As `solutions`, but raises ValueError if none is proven to satisfy them, if those that do are
-    not one interval, or if they reach an end of the search.
+    Parts of the search on which the function only rises or only falls are solved by bisection, the
+    others are cut in halves, until the budget of parts runs out; what is still undecided then
+    belongs to the outer intervals.
     """
-    found = solutions(constraints, name, search, resolution)
-    if len(found.inner) != 1:
-        raise ValueError(f"{len(found.inner)} separate intervals of {name} are admitted, not one")
-    if found.reaches_an_end:
-        raise ValueError(f"the admitted {name} reaches an end of the search from {search[0]}")
-    return found.inner[0], Interval(found.outer[0].lower, found.outer[-1].upper)
+    queue = deque([search])
+    inner: list[tuple[Fraction, Fraction]] = []
+    outer: list[tuple[Fraction, Fraction]] = []
+    while queue:
+        part, budget = queue.popleft(), budget - 1
+        range_ = enclose(function, {name: part})
+        if target.excludes(*range_.ends):
+            continue
+        if target.encloses(*range_.ends):
+            inner.append(part)
+            outer.append(part)
+        elif range_.is_monotone:
+            low, high = _crossings(function, name, part, target, range_.signs[name] > 0)
+            outer.append((low[0], high[1]))
+            if low[1] <= high[0]:
+                inner.append((low[1], high[0]))
+        elif budget > 0:
+            middle = (part[0] + part[1]) / 2
+            queue += [(part[0], middle), (middle, part[1])]
+        else:
+            outer.append(part)
+    return Solutions(search, _merged(inner), _merged(outer))
+
+
+def _crossings(
+    function: Function, name: str, part: tuple[Fraction, Fraction], target: Interval, rises: bool
+) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+    """Brackets of the two places between which a rising or falling function is in the target."""
+
+    def past(x: Fraction, end: Fraction | None) -> bool | None:
+        """Whether the value at x is beyond an end of the target in the function's direction."""
+        low, high = _plain(function, {name: (x, x)})
+        if end is None or low <= end <= high:
+            return None
+        return (low > end) == rises
+
+    first, last = (target.lower, target.upper) if rises else (target.upper, target.lower)
+    brackets = []
+    for end, place in ((first, 0), (last, 1)):
+        low, high = part
+        if end is None or past(part[place], end) == (place == 0):
+            brackets.append((part[place], part[place]))
+            continue
+        for _ in range(_STEPS // 2):
+            middle = (low + high) / 2
+            beyond = past(middle, end)
+            if beyond is None:
+                break
+            low, high = (low, middle) if beyond else (middle, high)
+        brackets.append((low, high))
+    return brackets[0], brackets[1]
+
+
+def _merged(parts: list[tuple[Fraction, Fraction]]) -> tuple[tuple[Fraction, Fraction], ...]:
+    merged: list[tuple[Fraction, Fraction]] = []
+    for low, high in sorted(parts):
+        if merged and merged[-1][1] >= low:
+            merged[-1] = (merged[-1][0], max(high, merged[-1][1]))
+        else:
+            merged.append((low, high))
+    return tuple(merged)
+
+
+Constraint = tuple[Function, Interval]
+"""A function of the inputs in a box, and the interval that its value must fall in."""
 
 
 def extent(
@@ -253,7 +410,7 @@ def extent(
     box: Box,
     start: Fraction,
     tolerance: Fraction,
-    budget: int = 600,
+    budget: int = 300,
 ) -> tuple[Interval, Interval]:
     """How far one input can range while the others may be anywhere in the box.
 
@@ -267,20 +424,13 @@ def extent(
     return Interval(low, high), Interval(least, greatest)
 
 
-def satisfiable(constraints: Sequence[Constraint], box: Box, budget: int = 2000) -> bool | None:
-    """Whether some point of the box satisfies every constraint: proven by one, or for all of it.
-
-    None if the budget of boxes runs out.
-    """
-    return satisfying(constraints, box, budget)[0]
-
-
 def satisfying(
-    constraints: Sequence[Constraint], box: Box, budget: int = 2000
+    constraints: Sequence[Constraint], box: Box, budget: int = 1000
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
-    """As `satisfiable`, with the point of the box that proves it if there is one.
+    """Whether some point of the box satisfies every constraint, with such a point if one is known.
 
-    Constraints are tried in their order: cheap and narrow ones first save time.
+    None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
+    ones first save time.
     """
     queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
     for _ in range(budget):
@@ -290,7 +440,7 @@ def satisfying(
         undecided = _undecided(remaining, part)
         if undecided is None:
             continue
-        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
+        middle = _middle(part)
         point = {name: (x, x) for name, x in middle.items()}
         if not undecided or _undecided(undecided, point) == []:
             return True, middle
@@ -335,19 +485,9 @@ def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] 
     """The constraints not proven to hold all over the box; None if one fails all over it."""
     undecided = []
     for function, target in constraints:
-        ends = evaluate(function, box)
+        ends = enclose(function, box).ends
         if target.excludes(*ends):
             return None
         if not target.encloses(*ends):
             undecided.append((function, target))
     return undecided
-
-
-def _merged(parts: list[tuple[Fraction, Fraction]]) -> list[tuple[Fraction, Fraction]]:
-    merged: list[tuple[Fraction, Fraction]] = []
-    for low, high in sorted(parts):
-        if merged and merged[-1][1] == low:
-            merged[-1] = (merged[-1][0], high)
-        else:
-            merged.append((low, high))
-    return merged
