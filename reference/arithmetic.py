@@ -12,7 +12,18 @@ from typing import Any, Protocol
 import mpmath
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-__all__ = ["Arithmetic", "DiscontinuityError", "Dual", "Duals", "Number", "Ratio", "Ratios", "Reals"]
+__all__ = [
+    "Arithmetic",
+    "DiscontinuityError",
+    "Dual",
+    "Duals",
+    "InexactError",
+    "Number",
+    "Ratio",
+    "Rationals",
+    "Ratios",
+    "Reals",
+]
 
 Number = Any
 """A number of the arithmetic in use; all of them have the operators + - * /."""
@@ -89,6 +100,50 @@ class Reals:
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
         root = self.context.sqrt(c)
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class InexactError(ArithmeticError):
+    """A number is not rational, or not known to be."""
+
+
+class Rationals:
+    """Exact fractions, for as long as a formula needs no other numbers.
+
+    >>> Rationals().number(1) / 3
+    Fraction(1, 3)
+    """
+
+    least, greatest = staticmethod(min), staticmethod(max)
+
+    @property
+    def pi(self) -> Number:
+        raise InexactError("pi is no fraction")
+
+    def number(self, value: Fraction | int) -> Number:
+        return Fraction(value)
+
+    def log(self, x: Number) -> Number:
+        raise InexactError("a logarithm is no fraction")
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        if exponent.denominator != 1:
+            raise InexactError("a root is no fraction")
+        return x ** int(exponent)
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def cap_root(self, c: Number) -> Number:
+        raise InexactError("the root of a cubic is no fraction")
 
     def may_be_below(self, x: Number, bound: Number) -> bool:
         return bool(x < bound)

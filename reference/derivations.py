@@ -6,7 +6,7 @@ printed solution is differentiated and put in. Premises are geometry (a plane cu
 Newton's law, Bernoulli's, and earlier equations of the report where it says that it uses them.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -32,13 +32,15 @@ class Check:
     factor: Fraction | None = None
 
 
+_REALS = Reals(15)
+
+
 class _Algebra:
     """Expressions of the report as quotients of polynomials in all their symbols."""
 
-    def __init__(self, sides: Sides) -> None:
+    def __init__(self, sides: Sides, names: list[str]) -> None:
         self.sides = sides
-        names = {name for nodes in sides.values() for node in nodes for name in symbols_in(node)}
-        self.field = Ratios(sorted(names - {"pi"}))
+        self.field = Ratios(names)
 
     def __getitem__(self, name: str) -> Ratio:
         return self.field.symbols[name]
@@ -82,7 +84,7 @@ def _velocity_of_mass(of: _Algebra) -> Iterator[Check]:
     yield _equal("the left side is the velocity of the particle", of.value(left), of["V_p"])
     mean = of.value(right, m=of["m_o"])
     yield _equal("a particle of average mass has the average velocity", mean, of["V"])
-    reals = Reals(15)
+    reals = _REALS
     numbers = {"V": reals.number(1), "m_o": reals.number(1), "m": reals.number(2)}
     heavy = evaluate(right, reals, numbers)
     yield Check("a heavier particle is slower, as the report says", bool(heavy < 1))
@@ -143,7 +145,7 @@ def _force_of_contact(of: _Algebra) -> Iterator[Check]:
 def _plastic_zone_pressure(of: _Algebra) -> Iterator[Check]:
     left, right = of.sides["eq10"]
     yield _equal("the left side is beta", of.value(left), of["beta"])
-    reals = Reals(15)
+    reals = _REALS
     none, wide = (evaluate(right, reals, {"alpha": reals.number(n)}) for n in (1, 2))
     yield Check("no plastic zone, alpha = 1, no pressure", bool(none == 0))
     yield Check("a wider plastic zone presses harder", bool(wide > 0))
@@ -226,7 +228,7 @@ def _frank_zook_depth(of: _Algebra) -> Iterator[Check]:
     scale = of.value(left, **put) / of["X"]
     says = "the depth grows with the impact velocity as Eqs. 14 and 15 demand"
     yield _equal(says, of.slope(right, "V", **put), -(of["V"] / acceleration * scale))
-    reals = Reals(15)
+    reals = _REALS
     ones = {name: reals.number(name != "V") for name in symbols_in(right)}
     yield Check("no impact, no depth", bool(evaluate(right, reals, ones) == 0))
 
@@ -263,10 +265,11 @@ DERIVATIONS: Mapping[str, Callable[[_Algebra], Iterator[Check]]] = {
 """The checks of each equation, by its id; Eq. 8 has none but that of its dimensions."""
 
 
-def derive(number: str, sides: Sides) -> list[Check]:
-    """Every check of one equation, given the sides of all.
+def derive(number: str, sides: Sides, symbols: Iterable[str]) -> list[Check]:
+    """Every check of one equation, given the sides of all and the symbols in them.
 
     Raises ZeroDivisionError or EquationError where what is printed makes no sense there.
     """
-    checks = DERIVATIONS.get(number)
-    return [] if checks is None else list(checks(_Algebra(sides)))
+    if number not in DERIVATIONS:
+        return []
+    return list(DERIVATIONS[number](_Algebra(sides, [name for name in symbols if name != "pi"])))

@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import product
+from typing import Any
 
-from reference.arithmetic import DiscontinuityError, Duals
+from reference.arithmetic import DiscontinuityError, Duals, Number
 from reference.intervals import Intervals, Span
 from reference.ledger import Function
 from reference.printed import Interval
@@ -405,23 +405,59 @@ Constraint = tuple[Function, Interval]
 
 
 def extent(
-    constraints: Sequence[Constraint],
-    name: str,
-    box: Box,
-    start: Fraction,
-    tolerance: Fraction,
-    budget: int = 300,
-) -> tuple[Interval, Interval]:
+    constraints: Sequence[Constraint], name: str, box: Box, start: Fraction
+) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
     """How far one input can range while the others may be anywhere in the box.
 
-    An inner interval whose ends are attained (by some point of the box that satisfies every
-    constraint; `start` must be one such value), and an outer one beyond which no value of the box
-    is; apart by the tolerance, or by more if the budget of boxes runs out.
+    Every constraint alone bounds the input, with all others at the ends that suit it best. The
+    second pair is the tightest of these bounds: no value beyond it satisfies all constraints. The
+    first is the hull of `start` and of the values that are attained at such corners.
     """
-    (low, least), (high, greatest) = (
-        _extreme(constraints, name, box, sign, start, tolerance, budget) for sign in (-1, 1)
-    )
-    return Interval(low, high), Interval(least, greatest)
+    attained: list[Fraction] = []
+    outer = list(box[name])
+    # An open end does not belong to the box: what is attained is sought a little inside.
+    inside = {
+        key: (low + (high - low) / 10**6, high - (high - low) / 10**6) if key != name else (low, high)
+        for key, (low, high) in box.items()
+    }
+    for function, target in constraints:
+        signs = enclose(function, box).signs
+        for top in (0, 1) if all(signs.values()) else ():
+            beyond = solve(_at(function, _corner(box, name, signs, top)), name, box[name], target)
+            if beyond.outer:
+                bound = beyond.outer[-top][top]
+                outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
+            corner = _corner(inside, name, signs, top)
+            found = solve(_at(function, corner), name, box[name], target).inner
+            value = found[-top][top] if found else start
+            point = {**{key: (x, x) for key, x in corner.items()}, name: (value, value)}
+            if _undecided(constraints, point) == []:
+                attained.append(value)
+    return (min([start, *attained]), max([start, *attained])), (outer[0], outer[1])
+
+
+def _corner(
+    box: Box, name: str, signs: Mapping[str, int], top: int
+) -> dict[str, Fraction]:
+    """The other inputs at the ends that let the named one go farthest down (0) or up (1).
+
+    To go up where the function rises with it, the others must keep the function low.
+    """
+    low = signs.get(name, 1) > 0 if top else signs.get(name, 1) < 0
+    return {
+        key: ends[0 if (signs.get(key, 1) > 0) == low else 1]
+        for key, ends in box.items()
+        if key != name
+    }
+
+
+def _at(function: Function, corner: Mapping[str, Fraction]) -> Function:
+    """The function with some inputs fixed at rationals."""
+
+    def fixed(ar: Any, **free: Number) -> Number | Fraction:
+        return function(ar, **{key: ar.number(x) for key, x in corner.items()}, **free)
+
+    return fixed
 
 
 def satisfying(
@@ -446,39 +482,6 @@ def satisfying(
             return True, middle
         queue += [(half, undecided) for half in _halves(part, scales)]
     return None, None
-
-
-def _extreme(
-    constraints: Sequence[Constraint],
-    name: str,
-    box: Box,
-    sign: int,
-    start: Fraction,
-    tolerance: Fraction,
-    budget: int,
-) -> tuple[Fraction, Fraction]:
-    """The best value attained, and a bound that no value passes, in the direction of the sign."""
-
-    def end(part: Box) -> Fraction:
-        return part[name][sign > 0]
-
-    attained, scales = start, _scales(box)
-    queue = [(-sign * end(box), 0, dict(box), list(constraints))]
-    for count in range(1, budget + 1):
-        if not queue or sign * (end(queue[0][2]) - attained) <= tolerance:
-            break
-        _, _, part, remaining = heapq.heappop(queue)
-        undecided = _undecided(remaining, part)
-        if undecided is None:
-            continue
-        for number, half in enumerate(_halves(part, scales)):
-            heapq.heappush(queue, (-sign * end(half), 2 * count + number, half, undecided))
-        near = part[name][sign < 0]
-        sides = [ends if key != name else (near,) for key, ends in part.items()]
-        corners = ({k: (x, x) for k, x in zip(part, c, strict=True)} for c in product(*sides))
-        if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
-            attained = near
-    return attained, end(queue[0][2]) if queue else attained
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

@@ -21,7 +21,7 @@ import msgspec
 from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
 from reference.derivations import DERIVATIONS, Sides
-from reference.equations import Dimension, Node, read_equation
+from reference.equations import Dimension, EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, parse
 from reference.units import UnitError, same_dimension, to_si, unit_dimension
 
@@ -119,6 +119,8 @@ class Inferred(_Table):
     nominal: Fraction
     nominal_source: str
     mass: str
+    radius: str
+    density: str
     header: list[str]
     results: list[str]
     evidence: list[str]
@@ -382,8 +384,18 @@ class Ledger:
 
     @cached_property
     def sides(self) -> Sides:
-        """The sides of every equation. Raises EquationError for one that cannot be read."""
-        return {name: self.read(self.equation_text(name)) for name in self.equations}
+        """The sides of every equation.
+
+        Where a misprint makes one unreadable, they are those that the report prints. Raises
+        EquationError if even these cannot be read.
+        """
+        return {name: self._sides_of(equation) for name, equation in self.equations.items()}
+
+    def _sides_of(self, equation: Equation) -> tuple[Node, ...]:
+        try:
+            return self.read(self.equation_text(equation.id))
+        except EquationError:
+            return self.read(self.text[equation.place.start : equation.place.end])
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
@@ -489,7 +501,7 @@ class Ledger:
         for key, other in claims.items():
             if other.entry.against == name:
                 claims[key] = replace(other, bound=printed.value)
-        return replace(self, claims=claims)
+        return replace(self, claims=claims, misprinted={**self.misprinted, name: text})
 
     def misprint_equation(self, name: str, text: str) -> "Ledger":
         """This ledger with another text of an equation."""
