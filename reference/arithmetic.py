@@ -5,6 +5,7 @@
 rational coefficients, in which two forms of an equation are equal exactly or not at all.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
@@ -17,6 +18,7 @@ __all__ = [
     "DiscontinuityError",
     "Dual",
     "Duals",
+    "Floats",
     "InexactError",
     "Number",
     "Ratio",
@@ -144,6 +146,40 @@ class Rationals:
 
     def cap_root(self, c: Number) -> Number:
         raise InexactError("the root of a cubic is no fraction")
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class Floats:
+    """IEEE doubles, for a quick look; what they tell is no proof.
+
+    >>> f"{Floats().cap_root(0.08):.4f}"
+    '0.2980'
+    """
+
+    pi = math.pi
+    log = staticmethod(math.log)
+    least, greatest = staticmethod(min), staticmethod(max)
+
+    def number(self, value: Fraction | int) -> Number:
+        return float(value)
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        return x ** float(exponent)
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def cap_root(self, c: Number) -> Number:
+        third = math.asin(math.sqrt(3 * c) / 2) / 3
+        return 2 * math.sin(third) ** 2 + math.sqrt(3) * math.sin(2 * third)
 
     def may_be_below(self, x: Number, bound: Number) -> bool:
         return bool(x < bound)

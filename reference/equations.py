@@ -266,7 +266,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
             case "number":
                 return ar.number(node.value)
             case "symbol":
-                return ar.pi if node.name == "pi" else values[node.name]
+                return _symbol(node.name, ar, values)
             case "negative":
                 return -value(node.parts[0])
             case "sum":
@@ -282,6 +282,14 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
         return ar.log(value(node.parts[0])) / ar.log(ar.number(10))
 
     return value(node)
+
+
+def _symbol(name: str, ar: Any, values: Mapping[str, Number]) -> Number:
+    if name == "pi":
+        return ar.pi
+    if name not in values:
+        raise EquationError(f"the symbol {name} has no value here")
+    return values[name]
 
 
 def _folded(operation: Callable[[Any, Any], Any], numbers: Any) -> Any:

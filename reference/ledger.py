@@ -37,6 +37,7 @@ __all__ = [
     "Place",
     "Quantity",
     "Slip",
+    "Source",
     "Symbol",
     "load",
     "read",
@@ -152,6 +153,40 @@ class Slip(_Table):
     equation: str
     text: str | None = None
     inputs: dict[str, str] = {}
+
+
+class Source(_Table):
+    """A public source for a number that the report takes from nowhere; see sources.toml."""
+
+    id: str
+    title: str
+    address: str
+    quote: str
+    unit: str
+    applies: str
+    claims: list[str]
+
+    @property
+    def numbers(self) -> list[Printed]:
+        """The number that it prints, or the two ends of a range."""
+        return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
+
+    @property
+    def says(self) -> str:
+        """The number or the range as text, without its unit."""
+        return " to ".join(number.text for number in self.numbers)
+
+    @property
+    def value(self) -> Fraction:
+        """The number in SI; of a range, its lower end."""
+        return self.numbers[0].value * to_si(self.unit)
+
+    @property
+    def interval(self) -> Interval:
+        """What agrees with it, in SI."""
+        ends = [number.interval() for number in self.numbers]
+        whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
+        return whole.scaled(to_si(self.unit))
 
 
 class _Report(_Table):
@@ -312,6 +347,10 @@ class Claim:
         """The entries that it rests on, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
 
+    def resting_on(self, inputs: Mapping[str, tuple[str, ...]]) -> "Claim":
+        """The claim with other entries as its inputs."""
+        return replace(self, inputs=inputs)
+
     @property
     def by_scheme(self) -> bool:
         """Whether it depends on the scheme of the sheet."""
@@ -343,6 +382,7 @@ class Ledger:
     symbols: Mapping[str, Symbol]
     quantities: Mapping[str, Quantity]
     slips: tuple[Slip, ...]
+    sources: Mapping[str, Source]
     blank: tuple[str, ...]
     furniture: tuple[tuple[str, str], ...]
     misprinted: Mapping[str, str]
@@ -501,7 +541,10 @@ class Ledger:
         for key, other in claims.items():
             if other.entry.against == name:
                 claims[key] = replace(other, bound=printed.value)
-        return replace(self, claims=claims, misprinted={**self.misprinted, name: text})
+        copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
+        if claim.within is None:
+            copy.__dict__["sides"] = self.sides  # read once for all copies that leave them alone
+        return copy
 
     def misprint_equation(self, name: str, text: str) -> "Ledger":
         """This ledger with another text of an equation."""
@@ -543,16 +586,18 @@ def load() -> Ledger:
     ('7.67', '[7.665, 7.675)', 'um')
     """
     folder = resources.files("reference.report")
-    document = tomllib.loads((folder / "ledger.toml").read_text("utf-8"))
-    return read(document, (folder / document["report"]["text"]).read_text("utf-8"))
+    document, sources = (
+        tomllib.loads((folder / name).read_text("utf-8")) for name in ("ledger.toml", "sources.toml")
+    )
+    text = (folder / document["report"]["text"]).read_text("utf-8")
+    return read(document, text, sources["source"])
 
 
-def read(document: Mapping[str, Any], text: str) -> Ledger:
-    """Build and check a ledger from its parsed TOML and the report's text."""
-    try:
-        tables = msgspec.convert(document, _Document, dec_hook=_fraction)
-    except msgspec.ValidationError as error:
-        raise LedgerError(f"ledger.toml: {error}") from error
+def read(
+    document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
+) -> Ledger:
+    """Build and check a ledger from its parsed TOML, the report's text, and the public sources."""
+    tables = _converted(document, _Document, "ledger.toml")
     if not tables.claim:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
     equations = {}
@@ -575,12 +620,20 @@ def read(document: Mapping[str, Any], text: str) -> Ledger:
         symbols=tables.symbols,
         quantities=tables.quantities,
         slips=tuple(tables.slip),
+        sources={source.id: source for source in _converted(sources, list[Source], "sources.toml")},
         blank=tuple(cell for cells in tables.table.blank for cell in _cells(cells)),
         furniture=tuple((f.pattern, f.reason) for f in tables.furniture),
         misprinted={},
     )
     _check(ledger)
     return ledger
+
+
+def _converted(document: Any, kind: Any, file: str) -> Any:
+    try:
+        return msgspec.convert(document, kind, dec_hook=_fraction)
+    except msgspec.ValidationError as error:
+        raise LedgerError(f"{file}: {error}") from error
 
 
 def _fraction(kind: type, value: Any) -> Any:
@@ -731,6 +784,12 @@ def _check(ledger: Ledger) -> None:
         for name in claim.entry.shown_by:
             if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
                 raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
+    for source in ledger.sources.values():
+        for name in source.claims:
+            if not same_dimension(_unit_of(name, ledger, LedgerError), source.unit):
+                raise LedgerError(f"source {source.id!r}: {name} is not in {source.unit}")
+        if not 1 <= len(source.numbers) <= 2:
+            raise LedgerError(f"source {source.id!r}: its quote marks no number with ⟦ and ⟧")
     for slip in ledger.slips:
         if slip.equation not in ledger.equations:
             raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")

@@ -49,8 +49,10 @@ class EquationAssessment:
         return next((check.factor for check in self.checks if check.factor is not None), None)
 
 
-def assess_equation(ledger: Ledger, name: str) -> EquationAssessment:
-    """The verdict on one equation.
+def assess_equation(
+    ledger: Ledger, name: str, *, constants: bool = True
+) -> EquationAssessment:
+    """The verdict on one equation, and, if they are asked for, on its constants.
 
     One that the report derives must pass every check; of one that it takes over only dimensions,
     limits and signs can be checked, and it stays "not checkable" where they hold.
@@ -73,8 +75,8 @@ def assess_equation(ledger: Ledger, name: str) -> EquationAssessment:
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.entry.kind]
-    constants = _constants(ledger, name, sides, holds)
-    return EquationAssessment(equation, passed if holds else failed, checks, constants)
+    judged = _constants(ledger, name, sides, holds) if constants else {}
+    return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
 def _checks(

@@ -15,6 +15,7 @@ from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from replication.audit.inference import Inference, infer
 from replication.audit.replica import replica
+from replication.audit.screen import restates
 
 __all__ = ["Assessment", "Judge", "Judgement", "Reading", "Verdict"]
 
@@ -126,24 +127,10 @@ class Judge:
         Raises ArithmeticError where a formula has no value at the inputs as printed.
         """
         if claim.computation is not None and claim.computation.restates:
-            return Assessment(claim, self._restated(claim))
+            agrees = restates(self.ledger, claim, {})
+            return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         readings = tuple(self._reading(claim, name) for name in claim.computations)
         return Assessment(claim, readings[0].verdict, readings)
-
-    def _restated(self, claim: Claim) -> Verdict:
-        """Whether some value prints like both texts, and, of a bound, satisfies it."""
-        assert claim.computation is not None
-        target = claim.target()
-        if claim.computation.name == "count":
-            number = Fraction(len(claim.inputs))
-            return Verdict.CONSISTENT if target.contains(number) else Verdict.INCONSISTENT
-        (name,) = claim.inputs["value"]
-        # What is chosen or exact has one value, in the claim and in what it restates.
-        own = target if claim.bound is not None else claim.as_input(Convention())
-        other = self.ledger.claims[name].as_input(Convention())
-        if claim.entry.kind == "approximation":
-            own = target
-        return Verdict.CONSISTENT if own.meets(other) else Verdict.INCONSISTENT
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         judgements = tuple(self._judgements(claim, name))

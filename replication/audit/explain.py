@@ -1,0 +1,258 @@
+"""What would explain a number that does not follow: nothing here is asserted, all is tried."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from reference.enclosure import Solutions, enclose, solve
+from reference.equations import EquationError
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
+from reference.printed import parse
+from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
+from replication.audit.equations import EquationAssessment, assess_equation
+from replication.audit.screen import Screen, dependents
+from replication.audit.verdict import Judge
+
+__all__ = ["BackSolved", "Culprit", "Explainer", "Repair", "TriedSlip"]
+
+
+@dataclass(frozen=True, slots=True)
+class BackSolved:
+    """The values of one entry, the others as printed, for which a claim would agree; in SI.
+
+    `prints_alike` says that some of them print like the entry does.
+    """
+
+    reading: str
+    entry: str
+    solutions: Solutions
+    reason: str
+    prints_alike: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A text one edit away, of an entry or an equation, with which a claim would agree.
+
+    `failing` are the claims that would not agree then, this one's fellow sufferers included;
+    `reading` is the reading of the claim that then gives its number.
+    """
+
+    entry: str
+    reading: str
+    printed: str
+    text: str
+    kind: str
+    failing: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Culprit:
+    """The one repair that would make every failing claim and equation agree."""
+
+    repair: Repair
+    explains: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TriedSlip:
+    """What a slip makes of one claim: its proven range (in the claim's unit), and whether it fits.
+
+    `fits` is "as printed", "within rounding" or "".
+    """
+
+    slip: Slip
+    lower: Fraction
+    upper: Fraction
+    fits: str
+
+
+class Explainer:
+    """Explanations for the failing claims of one ledger."""
+
+    def __init__(self, judge: Judge) -> None:
+        self.judge, self.ledger = judge, judge.ledger
+
+    @cached_property
+    def screen(self) -> Screen:
+        """A quick look at the ledger as it stands."""
+        return Screen(self.ledger, self.judge.assumed)
+
+    # Single inputs
+
+    def back_solved(self, claim: Claim) -> list[BackSolved]:
+        """Each entry that the claim rests on, alone, for every reading of the claim."""
+        return [
+            self._back_solved(claim, reading, name)
+            for reading in claim.computations
+            for name in claim.entries
+            if self.ledger.unit(name) and self._may_vary(name)
+        ]
+
+    def _may_vary(self, name: str) -> bool:
+        return name.startswith(INFERRED) or not self.ledger.claims[name].is_exact
+
+    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
+        low, high, reason = self.ledger.search(name)
+        fixed = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = self.ledger.function(claim, frozenset(claim.entries), reading=reading)
+
+        def of_one(ar: object, **free: object) -> object:
+            known = {key: ar.number(value) for key, value in fixed.items()}  # type: ignore[attr-defined]
+            return function(ar, **known, **free)
+
+        solutions = solve(of_one, name, (low, high), claim.target(), _BUDGET)
+        alike = False
+        if not name.startswith(INFERRED):
+            own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
+            alike = any(not own.excludes(*part) for part in solutions.inner)
+        return BackSolved(reading, name, solutions, reason, alike)
+
+    # Misprints
+
+    def repairs(self, name: str) -> list[Repair]:
+        """Texts one edit away with which a claim or an equation agrees; the likeliest first.
+
+        A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
+        ones the likelier slip of a typist comes first.
+        """
+        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
+        found = list(self._repairs(name))
+        return sorted(
+            found, key=lambda r: (r.reading, len(r.failing), kinds.index(r.kind), r.entry != name, r.text)
+        )[:_SHOWN]
+
+    def _repairs(self, name: str) -> Iterator[Repair]:
+        for entry in self._suspects(name):
+            for text, kind in self._edits(entry):
+                changed = self._changed(entry, text)
+                reading = None if changed is None else self._mends(name, entry, changed)
+                if changed is not None and reading is not None:
+                    failing = tuple(sorted(self._failing(entry, changed)))
+                    yield Repair(entry, reading, self._text(entry), text, kind, failing)
+
+    def _suspects(self, name: str) -> list[str]:
+        """The claim or equation itself, its entries, and what its equations hold."""
+        if name in self.ledger.equations:
+            return [name, *self.ledger.constants_of(name)]
+        claim = self.ledger.claims[name]
+        entries = [entry for entry in claim.entries if not entry.startswith(INFERRED)]
+        inferred = [entry for entry in claim.entries if entry.startswith(INFERRED)]
+        for unknown in inferred:
+            # An input that is inferred moves with what its evidence rests on.
+            for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
+                entries += [e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims]
+        against = [claim.entry.against] if claim.entry.against else []
+        within = [claim.within] if claim.within else []
+        used = {e for c in claim.computations.values() for e in c.equations}
+        constants = [c for e in sorted(used) for c in self.ledger.constants_of(e)]
+        return list(dict.fromkeys([name, *entries, *against, *within, *sorted(used), *constants]))
+
+    def _text(self, entry: str) -> str:
+        if entry in self.ledger.equations:
+            return self.ledger.equation_text(entry)
+        return self.ledger.claims[entry].text
+
+    def _edits(self, entry: str) -> Iterable[tuple[str, str]]:
+        if entry in self.ledger.equations:
+            text = self.ledger.equation_text(entry)
+            return equation_edits(text, self.ledger.written, self.ledger.dimensions)
+        claim = self.ledger.claims[entry]
+        return edits(claim.text) if claim.printed is not None else ()
+
+    def _changed(self, entry: str, text: str) -> Ledger | None:
+        """The ledger with the edit, None if the text cannot be read."""
+        try:
+            if entry in self.ledger.equations:
+                self.ledger.read(text)
+                return self.ledger.misprint_equation(entry, text)
+            return self.ledger.misprint(entry, text)
+        except (ValueError, EquationError):
+            return None
+
+    def _mends(self, name: str, entry: str, changed: Ledger) -> str | None:
+        """The reading of the claim or equation that agrees with the edit, None if none does."""
+        within = name if name in self.ledger.equations else self.ledger.claims[name].within
+        if within is not None:
+            fails = assess_equation(changed, within, constants=False).verdict.is_failure
+            return None if fails else ""
+        claim = changed.claims[name]
+        screens = [Screen(changed, assumed) for assumed in self._assumed(entry)]
+        readings = (r for r in claim.computations for screen in screens if screen.agrees(claim, r))
+        return next(readings, None)
+
+    def _assumed(self, entry: str) -> list[Mapping[str, Fraction]]:
+        """The values of inferred inputs to try: as assumed, and as the ledger takes them."""
+        nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
+        return [self.judge.assumed] if nominal == self.judge.assumed else [nominal, self.judge.assumed]
+
+    def _failing(self, entry: str, changed: Ledger) -> set[str]:
+        """The claims and equations that fail with the edit; those it does not touch, as before."""
+        touched = dependents(self.ledger, entry)
+        others = self._failing_now - touched
+        tried = [Screen(changed, assumed).failing(touched) for assumed in self._assumed(entry)]
+        return others | min(tried, key=len) | self._failing_equations(entry, changed)
+
+    def _failing_equations(self, entry: str, changed: Ledger) -> set[str]:
+        within = entry if entry in self.ledger.equations else self.ledger.claims[entry].within
+        if within is None:
+            return self._bad_equations
+        fails = assess_equation(changed, within, constants=False).verdict.is_failure
+        return (self._bad_equations - {within}) | ({within} if fails else set())
+
+    @cached_property
+    def _failing_now(self) -> set[str]:
+        return self.screen.failing(self.ledger.claims)
+
+    @cached_property
+    def _bad_equations(self) -> set[str]:
+        assessed = (assess_equation(self.ledger, e, constants=False) for e in self.ledger.equations)
+        return {a.equation.id for a in assessed if a.verdict.is_failure}
+
+    def culprit(self, failing: Mapping[str, list[Repair]]) -> Culprit | None:
+        """The one repair that mends all that fails, if there is one and more than one claim fails.
+
+        `failing` gives the repairs of every claim and equation that fails.
+        """
+        if len(failing) < 2:
+            return None
+        whole = [r for repairs in failing.values() for r in repairs if not r.failing]
+        return Culprit(whole[0], tuple(failing)) if whole else None
+
+    # Slips
+
+    def slips(self, claim: Claim) -> list[TriedSlip]:
+        """What the slips of the claim's equations make of it."""
+        used = {e for c in claim.computations.values() for e in c.equations}
+        return [self._tried(claim, slip) for slip in self.ledger.slips if slip.equation in used]
+
+    def _tried(self, claim: Claim, slip: Slip) -> TriedSlip:
+        ledger = self.ledger
+        if slip.text is not None:
+            ledger = ledger.misprint_equation(slip.equation, slip.text)
+        inputs = {key: (slip.inputs.get(key, ""),) if key in slip.inputs else names
+                  for key, names in claim.inputs.items()}  # fmt: skip
+        changed = claim.resting_on(inputs)
+        function = ledger.function(changed)
+        printed = {name: (self.judge.value(name),) * 2 for name in changed.entries}
+        at_print = enclose(function, printed).ends
+        box = {
+            name: self.judge.inference(name).possible.ends
+            if name.startswith(INFERRED)
+            else self.ledger.claims[name].as_input(Convention(choices_exact=False)).ends
+            for name in changed.entries
+        }
+        target = claim.target()
+        fits = "as printed" if target.encloses(*at_print) else ""
+        if not fits and not target.excludes(*enclose(function, box).ends):
+            fits = "within rounding"
+        low, high = (end / claim.si for end in at_print)
+        return TriedSlip(slip, low, high, fits)
+
+
+_BUDGET = 30
+"""Parts of a search, beyond those on which the function is proven to rise or fall."""
+
+_SHOWN = 20
+"""So many repairs of one claim are kept, the likeliest first."""
