@@ -78,27 +78,43 @@ def enclose(function: Function, box: Box) -> Range:
     [0.5, 0.6666666666666666]
     """
     wide = [name for name, (low, high) in box.items() if low != high]
-    with _INTERVALS.working():
-        signs = _signs(function, box, wide) if wide else {}
-        fixed = {name: sign for name, sign in signs.items() if sign}
-        if not fixed:
-            return Range(*_plain(function, box), dict.fromkeys(wide, 0))
+    slopes = _slopes(function, box, wide) if wide else {}
+    signs = {name: _sign(slope) for name, slope in slopes.items()}
+    fixed = {name: sign for name, sign in signs.items() if sign}
+    if not fixed:
+        return Range(*_best(function, box, slopes), signs or dict.fromkeys(wide, 0))
     lower, upper = (
-        {name: ends[end] if (end := _end(fixed.get(name), top)) is not None else ends
-         for name, ends in box.items()}
+        _points({
+            name: ends if name not in fixed else ends[_end(fixed[name], top)]
+            for name, ends in box.items()
+        })
         for top in (0, 1)
     )  # fmt: skip
     if len(fixed) == len(wide):
-        low, high = _plain(function, _points(lower))[0], _plain(function, _points(upper))[1]
-    else:
-        # An input that is put at an end may free another's sign.
-        low, high = enclose(function, _points(lower)).lower, enclose(function, _points(upper)).upper
-    return Range(low, high, signs)
+        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs)
+    # An input that is put at an end may free another's sign.
+    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs)
 
 
-def _end(sign: int | None, top: int) -> int | None:
+def _best(
+    function: Function, box: Box, slopes: Mapping[str, Span]
+) -> tuple[Fraction, Fraction]:
+    """The plain range, cut to what the value in the middle and the slopes allow."""
+    low, high = _plain(function, box)
+    if not slopes:
+        return low, high
+    middle = _middle(box)
+    value = _plain(function, {name: (x, x) for name, x in middle.items()})
+    reach = Fraction(0)
+    for name, slope in slopes.items():
+        steepest = max(map(abs, _INTERVALS.ends(slope)))
+        reach += steepest * (box[name][1] - box[name][0]) / 2
+    return max(low, value[0] - reach), min(high, value[1] + reach)
+
+
+def _end(sign: int, top: int) -> int:
     """Which end of a rising or falling input gives the least (top 0) or greatest value (1)."""
-    return None if sign is None else (top if sign > 0 else 1 - top)
+    return top if sign > 0 else 1 - top
 
 
 def _points(part: Mapping[str, Fraction | tuple[Fraction, Fraction]]) -> Part:
@@ -112,21 +128,23 @@ def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
-def _signs(function: Function, box: Box, wide: list[str]) -> dict[str, int]:
-    """The proven signs of the derivatives; none where the function may jump."""
+def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
+    """What holds every derivative all over the box; nothing where the function may jump."""
     duals = _duals(len(wide))
-    numbers = {}
-    for name, ends in box.items():
-        span = _INTERVALS.interval(*ends)
-        place = wide.index(name) if name in wide else None
-        numbers[name] = duals.constant(span) if place is None else duals.variable(span, place)
-    try:
-        value = function(duals, **numbers)
-    except (DiscontinuityError, ZeroDivisionError):
-        return dict.fromkeys(wide, 0)
-    if isinstance(value, Fraction):
-        return dict.fromkeys(wide, 1)
-    return {name: _sign(slope) for name, slope in zip(wide, value.slopes, strict=True)}
+    with _INTERVALS.working():
+        numbers = {}
+        for name, ends in box.items():
+            span = _INTERVALS.interval(*ends)
+            place = wide.index(name) if name in wide else None
+            constant = place is None
+            numbers[name] = duals.constant(span) if constant else duals.variable(span, place)
+        try:
+            value = function(duals, **numbers)
+        except (DiscontinuityError, ZeroDivisionError):
+            return {}
+        if isinstance(value, Fraction):
+            return dict.fromkeys(wide, _INTERVALS.number(0))
+        return dict(zip(wide, value.slopes, strict=True))
 
 
 def _sign(slope: Span) -> int:

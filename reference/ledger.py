@@ -22,7 +22,7 @@ from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
 from reference.derivations import DERIVATIONS, Sides
 from reference.equations import Dimension, EquationError, Node, read_equation
-from reference.printed import Interval, Printed, Rounding, parse
+from reference.printed import Interval, Printed, Rounding, decimal_text, parse
 from reference.units import UnitError, same_dimension, to_si, unit_dimension
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "Symbol",
     "load",
     "read",
+    "shown",
 ]
 
 INFERRED = "inferred:"
@@ -52,6 +53,20 @@ Function = Callable[..., Number | Fraction]
 
 class LedgerError(ValueError):
     """Something in the ledger is wrong; the message names the entry and what would be right."""
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def shown(text: str) -> str:
+    r"""Printed text as a page shows it, without the marks of LaTeX.
+
+    >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3")
+    ('9.13 × 10⁹', '1/2', '~0.3')
+    """
+    text = re.sub(r"\\frac\{(\d+)\}\{(\d+)\}", r"\1/\2", text).replace(r"\times", "×")
+    text = re.sub(r"\^\{?(-?\d+)\}?", lambda power: power[1].translate(_SUPERSCRIPTS), text)
+    return re.sub(r"~\s+", "~", text)
 
 
 # The tables of ledger.toml, whose head says what each key means.
@@ -293,6 +308,11 @@ class Claim:
         return self.entry.unit
 
     @property
+    def shown(self) -> str:
+        """Its text as a page shows it, without the marks of LaTeX."""
+        return shown(self.text)
+
+    @property
     def si(self) -> Fraction:
         """The factor from the claim's unit to SI."""
         return to_si(self.unit)
@@ -466,6 +486,18 @@ class Ledger:
         if claim.printed is None:
             raise LedgerError(f"claim {name!r} is no number to rest on")
         return claim.printed.value * claim.si
+
+    def in_unit(self, name: str, unit: str) -> str:
+        """An entry's value as printed, in another unit, as a decimal.
+
+        >>> load().in_unit("fz-resistance-rha", "GPa")
+        '9.13'
+        """
+        return self.number_in(self.value(name), unit)
+
+    def number_in(self, value: Fraction, unit: str) -> str:
+        """A value in SI as a decimal of its unit."""
+        return decimal_text(value / to_si(unit))
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """The least and the greatest value of an entry, in SI, to search, and why these."""
