@@ -1,7 +1,7 @@
 r"""The report's equations, read from its text as they are printed.
 
 An equation becomes a tree (`Node`), so that what the report prints is what is computed, checked and
-shown: in numbers of any arithmetic (`evaluate`), in dimensions (`dimension`), in MathML (`mathml`).
+shown: in numbers of any arithmetic (`evaluate`), in dimensions (`dimension`), as text or MathML (`rendered`).
 
 How the text is read: a product written without a space binds before a fraction bar, one with a
 space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2, and
@@ -20,12 +20,14 @@ __all__ = [
     "Dimension",
     "DimensionError",
     "EquationError",
+    "MATHML",
     "Node",
+    "PLAIN",
     "dimension",
     "evaluate",
-    "mathml",
     "read_equation",
     "read_expression",
+    "rendered",
     "replaced",
     "symbols_in",
 ]
@@ -380,49 +382,86 @@ def dimension(
     return Dimension()
 
 
-_BINDING = {"sum": 0, "negative": 0, "product": 1, "quotient": 1, "ln": 2, "log": 2, "power": 3}
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """How the parts of an expression are put together as text."""
+
+    number: Callable[[str], str]
+    bracket: Callable[[str], str]
+    fraction: Callable[[str, str], str]
+    power: Callable[[str, str], str]
+    call: Callable[[str, str], str]
+    row: Callable[[str], str]
+    plus: str
+    minus: str
+    times: str
 
 
-def mathml(node: Node, shown: Mapping[str, str]) -> str:
-    """The expression in MathML; `shown` gives what stands for a symbol, as MathML.
+MATHML = Notation(
+    number=lambda text: f"<mn>{text}</mn>",
+    bracket=lambda inner: f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>",
+    fraction=lambda over, under: f"<mfrac>{over}{under}</mfrac>",
+    power=lambda base, exponent: f"<msup>{base}{exponent}</msup>",
+    call=lambda name, inner: f"<mrow><mi>{name}</mi><mo>(</mo>{inner}<mo>)</mo></mrow>",
+    row=lambda inner: f"<mrow>{inner}</mrow>",
+    plus="<mo>+</mo>",
+    minus="<mo>-</mo>",
+    times="<mo>·</mo>",
+)
+PLAIN = Notation(
+    number=str,
+    bracket=lambda inner: f"({inner})",
+    fraction=lambda over, under: f"{over}/{under}",
+    power=lambda base, exponent: f"{base}^{exponent}",
+    call=lambda name, inner: f"{name}({inner})",
+    row=str,
+    plus=" + ",
+    minus="-",
+    times=" ",
+)
+_BINDING = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
+_TIGHTEST = 5
 
-    >>> mathml(read_expression("x/D", {"x": "x", "D": "D"}), {"x": "<mi>x</mi>", "D": "<mn>2</mn>"})
-    '<mfrac><mi>x</mi><mn>2</mn></mfrac>'
+
+def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -> str:
+    """The expression as text; `shown` gives what stands for a symbol.
+
+    >>> rendered(read_expression("x/(D + 2)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
+    'X/(8 + 2)'
     """
+    plain = notation is PLAIN
 
     def part(child: Node, least: int) -> str:
-        inner = mathml(child, shown)
-        if _BINDING.get(child.kind, 4) >= least:
-            return inner
-        return f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>"
+        inner = rendered(child, shown, notation)
+        loose = _BINDING.get(child.kind, _TIGHTEST) < least
+        return notation.bracket(inner) if loose else inner
 
+    parts = node.parts
     match node.kind:
         case "number":
-            return f"<mn>{node.value}</mn>"
+            return notation.number(str(node.value))
         case "symbol":
             return shown[node.name]
         case "negative":
-            return f"<mrow><mo>-</mo>{part(node.parts[0], 1)}</mrow>"
+            return notation.row(notation.minus + part(parts[0], 2))
         case "sum":
-            first, *rest = node.parts
-            text = part(first, 0)
-            for term in rest:
-                negative = term.kind == "negative"
-                child = term.parts[0] if negative else term
-                text += f"<mo>{'-' if negative else '+'}</mo>{part(child, 1)}"
-            return f"<mrow>{text}</mrow>"
+            text = part(parts[0], 0)
+            for term in parts[1:]:
+                if term.kind == "negative":
+                    sign = f" {notation.minus} " if plain else notation.minus
+                    text += sign + part(term.parts[0], 2)
+                else:
+                    text += notation.plus + part(term, 1)
+            return notation.row(text)
         case "product":
-            factors = [part(child, 1) for child in node.parts]
-            text = factors[0]
-            for factor in factors[1:]:
-                # Two numbers side by side would read as one.
-                both = text.endswith("</mn>") and factor.startswith("<mn>")
-                text += ("<mo>·</mo>" if both else "<mo>&#8290;</mo>") + factor
-            return f"<mrow>{text}</mrow>"
+            return notation.row(notation.times.join(part(child, 2) for child in parts))
         case "quotient":
-            over, under = (mathml(child, shown) for child in node.parts)
-            return f"<mfrac>{over}{under}</mfrac>"
+            # A fraction bar needs no brackets; a stroke does.
+            over, under = (part(parts[0], 3), part(parts[1], 4)) if plain else (
+                rendered(parts[0], shown, notation), rendered(parts[1], shown, notation),
+            )  # fmt: skip
+            return notation.fraction(over, under)
         case "power":
-            base, exponent = node.parts
-            return f"<msup>{part(base, 4)}{mathml(exponent, shown)}</msup>"
-    return f"<mrow><mi>{node.kind}</mi><mo>(</mo>{mathml(node.parts[0], shown)}<mo>)</mo></mrow>"
+            exponent = part(parts[1], 4) if plain else rendered(parts[1], shown, notation)
+            return notation.power(part(parts[0], 5), exponent)
+    return notation.call(node.kind, rendered(parts[0], shown, notation))

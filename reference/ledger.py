@@ -574,13 +574,18 @@ class Ledger:
             if other.entry.against == name:
                 claims[key] = replace(other, bound=printed.value)
         copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
-        if claim.within is None:
-            copy.__dict__["sides"] = self.sides  # read once for all copies that leave them alone
-        return copy
+        return copy._rereading(self.sides, claim.within)
 
     def misprint_equation(self, name: str, text: str) -> "Ledger":
         """This ledger with another text of an equation."""
-        return replace(self, misprinted={**self.misprinted, name: text})
+        copy = replace(self, misprinted={**self.misprinted, name: text})
+        return copy._rereading(self.sides, name)
+
+    def _rereading(self, sides: Sides, equation: str | None) -> "Ledger":
+        """This copy, with the equations as they were read, but for one."""
+        changed = {} if equation is None else {equation: self._sides_of(self.equations[equation])}
+        self.__dict__["sides"] = {**sides, **changed}
+        return self
 
     # Coverage
 

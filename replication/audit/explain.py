@@ -1,10 +1,11 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Solutions, enclose, solve
 from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
@@ -94,20 +95,48 @@ class Explainer:
         return name.startswith(INFERRED) or not self.ledger.claims[name].is_exact
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
-        low, high, reason = self.ledger.search(name)
-        fixed = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = self.ledger.function(claim, frozenset(claim.entries), reading=reading)
-
-        def of_one(ar: object, **free: object) -> object:
-            known = {key: ar.number(value) for key, value in fixed.items()}  # type: ignore[attr-defined]
-            return function(ar, **known, **free)
-
-        solutions = solve(of_one, name, (low, high), claim.target(), _BUDGET)
+        solutions = self.solved(claim, reading, name)
         alike = False
         if not name.startswith(INFERRED):
             own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
             alike = any(not own.excludes(*part) for part in solutions.inner)
-        return BackSolved(reading, name, solutions, reason, alike)
+        return BackSolved(reading, name, solutions, self.ledger.search(name)[2], alike)
+
+    def admitted(
+        self, name: str, claims: Sequence[str]
+    ) -> tuple[Fraction, Fraction] | None:
+        """The least and greatest value of an entry, around the printed one, that suits some claims.
+
+        Found by bisection, in doubles: where the claims begin to disagree. None if they disagree
+        with the printed value itself.
+        """
+
+        def suits(value: Fraction) -> bool:
+            results = (self.ledger.claims[claim] for claim in claims)
+            return all(self.screen.agrees(result, "", {name: value}) for result in results)
+
+        printed = self.ledger.value(name)
+        if not suits(printed):
+            return None
+        ends = []
+        for far in self.ledger.search(name)[:2]:
+            good, bad = printed, far
+            for _ in range(_BISECTIONS):
+                middle = (good + bad) / 2
+                good, bad = (middle, bad) if suits(middle) else (good, middle)
+            ends.append(good)
+        return ends[0], ends[1]
+
+    def solved(self, claim: Claim, reading: str, name: str) -> Solutions:
+        """The values of one entry, the others as printed, for which a claim agrees."""
+        low, high, _ = self.ledger.search(name)
+        fixed = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = self.ledger.function(claim, frozenset(claim.entries), reading=reading)
+
+        def of_one(ar: Arithmetic, **free: Number) -> Number | Fraction:
+            return function(ar, **{key: ar.number(x) for key, x in fixed.items()}, **free)
+
+        return solve(of_one, name, (low, high), claim.target(), _BUDGET)
 
     # Misprints
 
@@ -250,6 +279,9 @@ class Explainer:
         low, high = (end / claim.si for end in at_print)
         return TriedSlip(slip, low, high, fits)
 
+
+_BISECTIONS = 40
+"""Down to 1e-12 of the search, beyond what any page shows."""
 
 _BUDGET = 30
 """Parts of a search, beyond those on which the function is proven to rise or fall."""

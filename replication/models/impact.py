@@ -6,8 +6,7 @@ from dataclasses import dataclass, fields
 
 __all__ = ["MAY_BE_ZERO", "Impact", "InputError", "check", "check_range", "particle_mass"]
 
-MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity", "resistance"})
-"""Inputs that may be zero; a resistance that is zero gets a message of its own."""
+MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 
 class InputError(ValueError):
@@ -116,6 +115,9 @@ zero
     """
     for name, value in inputs.items():
         if not (0 < value < math.inf or (value == 0 and name in MAY_BE_ZERO)):
+            if value == 0 and name == "resistance":
+                problem = "is 0.0: nothing would bring the particle to rest"
+                raise InputError("target resistance", problem)
             least = "zero or more" if name in MAY_BE_ZERO else "greater than zero"
             raise InputError(name, f"is {value!r}: it must be a finite number {least}")
 
@@ -131,8 +133,6 @@ def check_range(
 
     Within that range no formula of the models overflows, underflows or divides by zero.
     """
-    if resistance == 0:
-        raise InputError("target resistance", "is 0.0: nothing would bring the particle to rest")
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: no double can hold it")

@@ -12,7 +12,8 @@ energy integral; the time of a known state is found by Newton's method along the
 """
 
 import math
-from collections.abc import Iterator, MutableSequence, Sequence
+from collections.abc import Iterator
+from typing import Any
 
 from replication.models.depth import depth_at_velocity, normalized_depth, velocity_at_depth
 
@@ -21,11 +22,12 @@ __all__ = ["ORDER", "history", "series", "stop_time", "time_to_depth"]
 ORDER = 20
 E_2 = math.exp(-2)
 
-Series = MutableSequence[float]
+Series = Any
+"""A list of floats or, where it is compiled, an array."""
 
 
 def history(
-    time: Sequence[float],
+    time: Series,
     velocity: float,
     radius: float,
     particle_density: float,
@@ -37,7 +39,7 @@ def history(
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order; lists or arrays.
 
     Both are within 1e-14 of the final depth and of the impact velocity; from the stop time on they
-    are the final depth and 0.
+    are the final depth and 0. NaN at times that are negative or not finite.
 
     >>> depth, speed = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     >>> history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9, depth, speed)
@@ -46,15 +48,19 @@ def history(
     """
     V, R, rho_p, rho_t, R_t = velocity, radius, particle_density, target_density, resistance
     final = normalized_depth(V, rho_p, rho_t, R_t)
-    for k in range(len(time)):
-        depth[k], speed[k] = R * final, 0.0
     y, w = series(), series()
+    end = 0.0
     for start, unit, length in _steps(y, w, final, V, rho_p, rho_t, R_t):
         begin, end = start * R / V, (start + length * unit) * R / V
         for k in range(len(time)):
             if begin <= time[k] < end:
                 at, dy = _state(y, w, (time[k] * V / R - start) / unit)
                 depth[k], speed[k] = R * min(at, final), V * dy / unit
+    for k in range(len(time)):
+        if not 0 <= time[k] < math.inf:
+            depth[k], speed[k] = math.nan, math.nan
+        elif time[k] >= end:
+            depth[k], speed[k] = R * final, 0.0
 
 
 def stop_time(
@@ -162,7 +168,8 @@ def _expand(
         w[k + 1] = -product / (k + 1)
     size = max(abs(w[0]), abs(w[1]))
     last, before = abs(w[ORDER]) / size, abs(w[ORDER - 1]) / size
-    return E_2 / max(last ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)
+    inverse_radius: float = max(last ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)
+    return E_2 / inverse_radius
 
 
 def _state(y: Series, w: Series, s: float) -> tuple[float, float]:
@@ -193,6 +200,6 @@ def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float
     return s
 
 
-def series() -> Series:
+def series() -> list[float]:
     """Room for the coefficients of a series: a list, and where it is compiled an array."""
     return [0.0] * (ORDER + 1)

@@ -1,0 +1,191 @@
+"""The sentences of the record: why a verdict is what it is, and what it takes for granted."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.printed import Interval, Rounding
+from reference.units import to_si, written
+from replication.audit.equations import Constant, EquationAssessment
+from replication.audit.verdict import Judge, Judgement, Reading, Verdict
+from replication.text import inward, number, outward
+
+__all__ = [
+    "assumptions", "constant_explanation", "equation_explanation", "explanation", "holds", "quantity",
+]  # fmt: skip
+
+_USUAL = Convention()
+
+
+def quantity(text: str, unit: str) -> str:
+    """Text with its unit, as a page shows it.
+
+    >>> quantity("7.67", "um"), quantity("0.70", "1")
+    ('7.67 µm', '0.70')
+    """
+    return f"{text} {written(unit)}".strip()
+
+
+def explanation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
+    """Why a claim that a computation gives has its verdict."""
+    first, *others = readings
+    sentences = [_value(claim, first), *_reason(judge, claim, first)]
+    sentences += [_other(claim, reading) for reading in others]
+    return " ".join(sentences)
+
+
+def _value(claim: Claim, reading: Reading) -> str:
+    what = reading.summary[:1].upper() + reading.summary[1:]
+    value = quantity(number(reading.computed), claim.unit)
+    inside = reading.verdict is Verdict.REPRODUCED
+    interval = claim.interval()
+    relation = "as" if interval.is_point else "in"
+    return f"{what}: {value}, {'' if inside else 'not '}{relation} {interval}."
+
+
+def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
+    judgement = reading.judgements[0]
+    low, high = judgement.lower, judgement.upper
+    match judgement.verdict:
+        case Verdict.REPRODUCED:
+            if any(entry.startswith(INFERRED) for entry in claim.entries):
+                return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
+            return []
+        case Verdict.WITHIN_ROUNDING:
+            return [f"Inputs that print like the report's give it, for instance {_inputs(judge, judgement)}."]
+        case Verdict.NOT_REPRODUCED if low == high:
+            return ["No rounded input enters, so none could change it."]
+        case Verdict.NOT_REPRODUCED:
+            side = _side(claim.interval(), low, high)
+            return [f"Proven for all inputs that print like the report's: it lies in {outward(low, high)}, {side}."]
+    return [f"The proven range {outward(low, high)} is too wide to tell."]
+
+
+def _inputs(judge: Judge, judgement: Judgement) -> str:
+    ledger = judge.ledger
+    return ", ".join(
+        f"{ledger.title(name)} "
+        + quantity(number(value / to_si(ledger.unit(name)), 8), ledger.unit(name))
+        for name, value in (judgement.witness or {}).items()
+    )
+
+
+def _side(interval: Interval, low: Fraction, high: Fraction) -> str:
+    if interval.lower is not None and high <= interval.lower:
+        return "all of it below"
+    if interval.upper is not None and low >= interval.upper:
+        return "all of it above"
+    return "none of it inside"
+
+
+def _other(claim: Claim, reading: Reading) -> str:
+    judgement = reading.judgements[0]
+    text = f"Read as {reading.name}: {quantity(number(reading.computed), claim.unit)}, {reading.verdict}"
+    if judgement.lower != judgement.upper:
+        text += f"; proven range {outward(judgement.lower, judgement.upper)}"
+    return text + "."
+
+
+# Conventions
+
+
+def holds(claim: Claim, reading: Reading) -> str:
+    """Under which conventions the verdict holds, and which would change it."""
+    scope = "every convention of rounding"
+    tried = {(j.convention.choices_exact, j.convention.header_exact) for j in reading.judgements}
+    scope += ", with choices and header exact or rounded" if len(tried) > 1 else ""
+    scope += ", in both schemes" if claim.by_scheme else ""
+    exceptions: dict[str, list[str]] = {}
+    for judgement in reading.otherwise:
+        exceptions.setdefault(judgement.verdict, []).append(_condition(judgement.convention))
+    if not exceptions:
+        return f"The same under {scope}."
+    parts = [f"{verdict} {'; '.join(_merged(conditions))}" for verdict, conditions in exceptions.items()]
+    return f"The same under {scope}, except: {', and '.join(parts)}."
+
+
+def _condition(convention: Convention) -> str:
+    parts = [_ROUNDINGS[convention.rounding]]
+    parts.append("" if convention.choices_exact else "what the author chose is rounded, too")
+    parts.append("the header of Table A-1 is exact" if convention.header_exact else "")
+    parts.append("the drag is taken at the middle velocity" if convention.centered else "")
+    return " and ".join(part for part in parts if part)
+
+
+_ROUNDINGS = {
+    Rounding.AWAY: "",
+    Rounding.EVEN: "ties go to even",
+    Rounding.CUT: "digits are cut off",
+}
+
+
+def _merged(conditions: list[str]) -> list[str]:
+    """Conditions as clauses; one that holds however ties are broken is named once."""
+    even = f"{_ROUNDINGS[Rounding.EVEN]} and "
+    merged = [c for c in conditions if not (c.startswith(even) and c.removeprefix(even) in conditions)]
+    return [f"if {condition}" for condition in merged if condition]
+
+
+def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
+    """What the verdict takes for granted beyond the printed text."""
+    assumed = [] if claim.entry.assumes is None else [claim.entry.assumes]
+    for name in (entry for entry in claim.entries if entry.startswith(INFERRED)):
+        value = quantity(number(judge.value(name)), judge.ledger.unit(name))
+        admitted = inward(*judge.inference(name).inner.ends)
+        assumed.append(
+            f"{judge.ledger.title(name)} {value}, inferred: Table A-1 as printed admits {admitted}"
+        )
+    if claim.by_scheme:
+        assumed.append("the drag at the velocity with which a row begins")
+    return assumed + _digits(claim, computed)
+
+
+def _digits(claim: Claim, computed: float | None) -> list[str]:
+    """Which of an ambiguous number's digits were taken, and whether it matters."""
+    printed = claim.printed
+    if printed is None or computed is None or claim.is_exact or len(printed.quanta) == 1:
+        return []
+    if claim.bound is not None:
+        return []
+    taken = "the fewest digits" if claim.entry.kind == "approximation" else "all digits"
+    inside = {
+        printed.interval(quantum=quantum).contains(Fraction(computed)) for quantum in printed.quanta
+    }
+    depends = "depends" if len(inside) > 1 else "does not depend"
+    return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
+
+
+# Equations
+
+
+def equation_explanation(assessed: EquationAssessment) -> str:
+    """Why an equation has its verdict."""
+    entry = assessed.equation.entry
+    failed = [check.says for check in assessed.checks if not check.holds]
+    if not failed:
+        said = "; ".join(check.says for check in assessed.checks)
+        return f"From {entry.follows_from}. Checked exactly: {said}."
+    text = f"From {entry.follows_from}. It fails where {failed[0]}."
+    if assessed.factor is not None:
+        text += f" The printed side is {assessed.factor} times the derived one."
+    for constant in assessed.constants.values():
+        if constant.verdict is Verdict.NOT_REPRODUCED:
+            needed = " or ".join(str(value) for value in constant.needed)
+            text += f" With {needed} in the place of {constant.claim} it would follow."
+    return text
+
+
+def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
+    """Why a constant of an equation has its verdict."""
+    equation = ledger.equations[claim.within or ""].entry
+    tried = "no other number that was tried"
+    match constant.verdict:
+        case Verdict.REPRODUCED:
+            return f"The equation follows from {equation.follows_from} with this number, and with {tried}."
+        case Verdict.NOT_REPRODUCED:
+            needed = " or ".join(str(value) for value in constant.needed)
+            return f"The equation follows from {equation.follows_from} with {needed}, not with {claim.shown}."
+        case Verdict.UNDECIDED:
+            return f"The equation does not follow from {equation.follows_from}, whatever this number is."
+    reason = f": {claim.given}" if claim.given else ""
+    return f"Dimensions, limits and signs do not decide it{reason}."
