@@ -32,10 +32,10 @@ class Computation:
     """A function of the reference, and the units by which its inputs and result are checked.
 
     `inputs` maps each input's name to its unit; the name "each" stands for any number of inputs
-    with any names. `equations` are the printed ones that it evaluates. A function with a parameter
-    `row` takes the number of a row of the sheet (1 is the first time step), one with `centered`
-    runs the sheet in either of the two schemes that fit the report's words. What `restates` only
-    repeats or counts what the report prints elsewhere.
+    with any names. `equations` are the printed ones that it evaluates. What `restates` only repeats
+    or counts what the report prints elsewhere. `by_row`: it takes the number of a row of the sheet
+    (1 is the first time step); `by_scheme`: it runs the sheet, in either of the two schemes that
+    fit the report's words.
     """
 
     function: Callable[..., Number | Fraction]
@@ -43,6 +43,8 @@ class Computation:
     inputs: Mapping[str, str]
     equations: tuple[str, ...] = ()
     restates: bool = False
+    by_row: bool = False
+    by_scheme: bool = False
 
     @property
     def name(self) -> str:
@@ -53,16 +55,6 @@ class Computation:
     def any_number(self) -> bool:
         """Whether it takes any number of inputs."""
         return "each" in self.inputs
-
-    @property
-    def by_row(self) -> bool:
-        """Whether it takes the number of a row."""
-        return "row" in signature(self.function).parameters
-
-    @property
-    def by_scheme(self) -> bool:
-        """Whether it runs the sheet."""
-        return "centered" in signature(self.function).parameters
 
     @property
     def summary(self) -> str:
@@ -77,7 +69,10 @@ def _computes(
     unit: str, /, *equations: str, restates: bool = False, **inputs: str
 ) -> Callable[[Any], Any]:
     def register(function: Any) -> Any:
-        entry = Computation(function, unit, inputs, equations, restates)
+        takes = signature(function).parameters
+        entry = Computation(
+            function, unit, inputs, equations, restates, "row" in takes, "centered" in takes
+        )
         COMPUTATIONS[function.__name__] = entry
         return function
 
@@ -333,14 +328,6 @@ def final_sheet_depth(
 ) -> Number:
     """depth in the sheet's last row"""
     return sheet_depth(ar, sheet_rows(ar, centered=centered, **inputs), inputs["stop_velocity"])
-
-
-@_computes("1", stop_velocity="m/s", **SHEET)
-def sheet_normalized_depth(
-    ar: Arithmetic, printed: Sides, centered: bool = False, **inputs: Number
-) -> Number:
-    """X/R in the sheet's last row"""
-    return final_sheet_depth(ar, printed, centered, **inputs) / inputs["radius"]
 
 
 def _row(ar: Arithmetic, row: int, centered: bool, inputs: Mapping[str, Number]) -> Row:

@@ -8,7 +8,7 @@ question, the box is cut in halves until it decides, or the question stays undec
 
 import heapq
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -384,28 +384,58 @@ def _crossings(
 ) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
     """Brackets of the two places between which a rising or falling function is in the target."""
 
-    def past(x: Fraction, end: Fraction | None) -> bool | None:
-        """Whether the value at x is beyond an end of the target in the function's direction."""
-        low, high = _plain(function, {name: (x, x)})
-        if end is None or low <= end <= high:
-            return None
-        return (low > end) == rises
+    def value(x: Fraction) -> tuple[Fraction, Fraction]:
+        return _plain(function, {name: (x, x)})
 
     first, last = (target.lower, target.upper) if rises else (target.upper, target.lower)
+    ends = (value(part[0]), value(part[1]))
     brackets = []
-    for end, place in ((first, 0), (last, 1)):
-        low, high = part
-        if end is None or past(part[place], end) == (place == 0):
-            brackets.append((part[place], part[place]))
-            continue
-        for _ in range(_STEPS // 2):
-            middle = (low + high) / 2
-            beyond = past(middle, end)
-            if beyond is None:
-                break
-            low, high = (low, middle) if beyond else (middle, high)
-        brackets.append((low, high))
+    for goal, place in ((first, 0), (last, 1)):
+        # At the end of the part the target is entered or left already.
+        inside = goal is None or (
+            ends[place][0] > goal if rises == (place == 0) else ends[place][1] < goal
+        )
+        own = (part[place], part[place])
+        brackets.append(own if inside or goal is None else _bracket(value, part, ends, goal))
     return brackets[0], brackets[1]
+
+
+def _bracket(
+    value: Callable[[Fraction], tuple[Fraction, Fraction]],
+    part: tuple[Fraction, Fraction],
+    ends: tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]],
+    goal: Fraction,
+) -> tuple[Fraction, Fraction]:
+    """Where a function that rises or falls all over the part takes a value, between proven ends.
+
+    By the secant through the ends of the bracket, of which one that stays is halved in weight
+    (the Illinois method), and by halving where that does not help.
+    """
+    (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
+    at_low, at_high = (float((a + b) / 2 - goal) for a, b in ends)
+    rises, last = at_low < at_high, 0
+    for count in range(_STEPS):
+        if high - low <= width or at_low * at_high >= 0:
+            break
+        share = Fraction(at_low / (at_low - at_high)) if count % 4 != 3 else Fraction(1, 2)
+        # A little beyond the guess, so that the bracket closes from both sides.
+        nudge = _RESOLUTION if share < Fraction(1, 2) else -_RESOLUTION
+        x = low + (high - low) * min(max(share + nudge, Fraction(1, 10**6)), 1 - Fraction(1, 10**6))
+        x = x.limit_denominator(10**30)
+        below, above = value(x)
+        if below <= goal <= above:
+            break
+        if (above < goal) == rises:
+            low, at_low = x, float((below + above) / 2 - goal)
+            at_high, last = (at_high / 2, 1) if last == 1 else (at_high, 1)
+        else:
+            high, at_high = x, float((below + above) / 2 - goal)
+            at_low, last = (at_low / 2, -1) if last == -1 else (at_low, -1)
+    return low, high
+
+
+_RESOLUTION = Fraction(1, 2**44)
+"""Of a part: how narrow a bracket is made, beyond what any page shows."""
 
 
 def _merged(parts: list[tuple[Fraction, Fraction]]) -> tuple[tuple[Fraction, Fraction], ...]:

@@ -8,6 +8,7 @@ keeps the rounding errors of either end. A point is a span whose ends are one an
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -148,6 +149,8 @@ class Intervals:
         return _point(arb.pi())
 
     def number(self, value: Fraction | int) -> Span:
+        if isinstance(value, int):
+            return _integer(value)
         with self.working():
             return _point(_ball(value))
 
@@ -208,6 +211,11 @@ class Intervals:
     def hull(self, numbers: list[Span]) -> Span:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return Span(_least(*lows), _greatest(*highs))
+
+
+@cache
+def _integer(value: int) -> Span:
+    return _point(arb(value))
 
 
 def _root(degree: int) -> Callable[[arb], arb]:

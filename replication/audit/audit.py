@@ -85,7 +85,7 @@ class _Audit:
     def record(self) -> r.Record:
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        known = Known(self.judge, self._assessments, self._equations)
+        known = Known(self.judge, self.explainer, self._assessments, self._equations)
         findings = [self._finding(known, finding) for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
         failing = sum(Verdict(claim.verdict).is_failure for claim in claims)
@@ -197,7 +197,9 @@ class _Audit:
 
     def repairs(self, name: str) -> list[Repair]:
         if name not in self._repairs:
-            self._repairs[name] = self.explainer.repairs(name)
+            within = None if name in self.ledger.equations else self.ledger.claims[name].within
+            # A constant is mended with its equation.
+            self._repairs[name] = self.repairs(within) if within else self.explainer.repairs(name)
         return self._repairs[name]
 
     def _explanation(self, claim: Claim, assessment: Assessment) -> str:
@@ -288,7 +290,7 @@ class _Audit:
         """For a remark: the final depths at both steps, in both schemes."""
         if claim.entry.kind != "remark":
             return []
-        known = Known(self.judge, {}, {})
+        known = Known(self.judge, self.explainer, {}, {})
         found = []
         for beta in comparison.BETAS:
             for scheme in sheet.SCHEMES:
@@ -452,8 +454,12 @@ class _Audit:
             interval=_inward(*(end / si for end in inner)),
             interval_exact=(str(inner[0] / si), str(inner[1] / si)),
             with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
-            attained_with_rounded_inputs=_inward(*(e / si for e in inference.attained.ends)),
-            possible_with_rounded_inputs=_outward(*(e / si for e in inference.possible.ends)),
+            attained_with_rounded_inputs=None
+            if centered
+            else _inward(*(e / si for e in inference.attained.ends)),
+            possible_with_rounded_inputs=None
+            if centered
+            else _outward(*(e / si for e in inference.possible.ends)),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[
@@ -462,7 +468,7 @@ class _Audit:
                     verdict=inference.admits(source.value, source.interval),
                 )
                 for source in self.ledger.sources.values()
-                if INFERRED + name in source.claims
+                if INFERRED + name in source.claims and not centered
             ],
         )
 

@@ -43,7 +43,9 @@ def approaches(known: Known) -> list[Approach]:
                  computed=line),
         computed("observed", f"CV/PV = {claims['volume-ratio'].text}, as taken for Eq. 4",
                  "observed-depth-ratio"),
-        *(computed("sheet", f"beta = {beta}", f"ratio-beta-{beta}") for beta in BETAS),
+        *(Approach(kind="sheet", name=f"beta = {beta}", computed=sheet.run(impact).normalized_depth,
+                   printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
+          for beta, impact in models),
         *(Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
           for beta, impact in models),
         *(Approach(kind="constant pressure", name=f"beta = {beta}",

@@ -74,6 +74,8 @@ class Explainer:
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
+        self._solved: dict[str, list[BackSolved]] = {}
+        self._tries: dict[str, list[TriedSlip]] = {}
 
     @cached_property
     def screen(self) -> Screen:
@@ -84,12 +86,14 @@ class Explainer:
 
     def back_solved(self, claim: Claim) -> list[BackSolved]:
         """Each entry that the claim rests on, alone, for every reading of the claim."""
-        return [
-            self._back_solved(claim, reading, name)
-            for reading in claim.computations
-            for name in claim.entries
-            if self.ledger.unit(name) and self._may_vary(name)
-        ]
+        if claim.id not in self._solved:
+            self._solved[claim.id] = [
+                self._back_solved(claim, reading, name)
+                for reading in claim.computations
+                for name in claim.entries
+                if self._may_vary(name)
+            ]
+        return self._solved[claim.id]
 
     def _may_vary(self, name: str) -> bool:
         return name.startswith(INFERRED) or not self.ledger.claims[name].is_exact
@@ -155,10 +159,9 @@ class Explainer:
     def _repairs(self, name: str) -> Iterator[Repair]:
         for entry in self._suspects(name):
             for text, kind in self._edits(entry):
-                changed = self._changed(entry, text)
-                reading = None if changed is None else self._mends(name, entry, changed)
-                if changed is not None and reading is not None:
-                    failing = tuple(sorted(self._failing(entry, changed)))
+                reading = self._mends(name, entry, text)
+                if reading is not None:
+                    failing = tuple(sorted(self._failing(entry, text)))
                     yield Repair(entry, reading, self._text(entry), text, kind, failing)
 
     def _suspects(self, name: str) -> list[str]:
@@ -167,9 +170,8 @@ class Explainer:
             return [name, *self.ledger.constants_of(name)]
         claim = self.ledger.claims[name]
         entries = [entry for entry in claim.entries if not entry.startswith(INFERRED)]
-        inferred = [entry for entry in claim.entries if entry.startswith(INFERRED)]
-        for unknown in inferred:
-            # An input that is inferred moves with what its evidence rests on.
+        for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
+            # Its evidence has moved it: what the evidence rests on may be wrong.
             for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
                 entries += [e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims]
         against = [claim.entry.against] if claim.entry.against else []
@@ -190,37 +192,42 @@ class Explainer:
         claim = self.ledger.claims[entry]
         return edits(claim.text) if claim.printed is not None else ()
 
-    def _changed(self, entry: str, text: str) -> Ledger | None:
-        """The ledger with the edit, None if the text cannot be read."""
-        try:
-            if entry in self.ledger.equations:
-                self.ledger.read(text)
-                return self.ledger.misprint_equation(entry, text)
-            return self.ledger.misprint(entry, text)
-        except (ValueError, EquationError):
-            return None
+    def _changed(self, entry: str, text: str) -> Ledger:
+        """The ledger with the edit."""
+        if entry in self.ledger.equations:
+            return self.ledger.misprint_equation(entry, text)
+        return self.ledger.misprint(entry, text)
 
-    def _mends(self, name: str, entry: str, changed: Ledger) -> str | None:
+    def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
         within = name if name in self.ledger.equations else self.ledger.claims[name].within
         if within is not None:
+            changed = self._changed(entry, text)
             fails = assess_equation(changed, within, constants=False).verdict.is_failure
             return None if fails else ""
-        claim = changed.claims[name]
-        screens = [Screen(changed, assumed) for assumed in self._assumed(entry)]
-        readings = (r for r in claim.computations for screen in screens if screen.agrees(claim, r))
-        return next(readings, None)
+        claim, ledger, values = self.ledger.claims[name], self.ledger, {}
+        of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
+        if entry in (name, claim.entry.against) or of_equation:
+            ledger = self._changed(entry, text)
+        else:
+            values[entry] = parse(text).value * self.ledger.claims[entry].si
+        claim = ledger.claims[name]
+        screens = [Screen(ledger, assumed) for assumed in self._assumed]
+        agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
+        return next(agreeing, None)
 
-    def _assumed(self, entry: str) -> list[Mapping[str, Fraction]]:
+    @cached_property
+    def _assumed(self) -> list[Mapping[str, Fraction]]:
         """The values of inferred inputs to try: as assumed, and as the ledger takes them."""
         nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
-        return [self.judge.assumed] if nominal == self.judge.assumed else [nominal, self.judge.assumed]
+        return [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
 
-    def _failing(self, entry: str, changed: Ledger) -> set[str]:
+    def _failing(self, entry: str, text: str) -> set[str]:
         """The claims and equations that fail with the edit; those it does not touch, as before."""
+        changed = self._changed(entry, text)
         touched = dependents(self.ledger, entry)
         others = self._failing_now - touched
-        tried = [Screen(changed, assumed).failing(touched) for assumed in self._assumed(entry)]
+        tried = [Screen(changed, assumed).failing(touched) for assumed in self._assumed]
         return others | min(tried, key=len) | self._failing_equations(entry, changed)
 
     def _failing_equations(self, entry: str, changed: Ledger) -> set[str]:
@@ -253,8 +260,11 @@ class Explainer:
 
     def slips(self, claim: Claim) -> list[TriedSlip]:
         """What the slips of the claim's equations make of it."""
-        used = {e for c in claim.computations.values() for e in c.equations}
-        return [self._tried(claim, slip) for slip in self.ledger.slips if slip.equation in used]
+        if claim.id not in self._tries:
+            used = {e for c in claim.computations.values() for e in c.equations}
+            slips = [slip for slip in self.ledger.slips if slip.equation in used]
+            self._tries[claim.id] = [self._tried(claim, slip) for slip in slips]
+        return self._tries[claim.id]
 
     def _tried(self, claim: Claim, slip: Slip) -> TriedSlip:
         ledger = self.ledger

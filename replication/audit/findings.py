@@ -33,6 +33,7 @@ class Known:
     """What the evidence is computed from: the ledger, the verdicts on claims and on equations."""
 
     judge: Judge
+    explainer: Explainer
     assessments: Mapping[str, Assessment]
     equations: Mapping[str, EquationAssessment]
 
@@ -191,7 +192,7 @@ def _equation_16(known: Known) -> Evidence:
 
 
 def _values(known: Known) -> Evidence:
-    explainer = Explainer(known.judge)
+    explainer = known.explainer
     claims = {
         name: known.judge.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")
     }

@@ -266,8 +266,8 @@ class InferredRecord(_Part):
     interval: tuple[float, float]
     interval_exact: tuple[str, str]
     with_printed_mass: tuple[float, float]
-    attained_with_rounded_inputs: tuple[float, float]
-    possible_with_rounded_inputs: tuple[float, float]
+    attained_with_rounded_inputs: tuple[float, float] | None
+    possible_with_rounded_inputs: tuple[float, float] | None
     evidence: list[str]
     odd: list[str]
     sources: list[HandbookRecord]

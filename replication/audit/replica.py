@@ -37,10 +37,6 @@ def _final_depth(scheme: str, **inputs: float) -> float:
     return sheet.run(Impact(**inputs), scheme).final_depth
 
 
-def _normalized_depth(scheme: str, **inputs: float) -> float:
-    return sheet.run(Impact(**inputs), scheme).normalized_depth
-
-
 def _alpha_beta(elastic_modulus: float, flow_stress: float) -> float:
     return resistance.walker_anderson_beta(
         resistance.walker_anderson_alpha(elastic_modulus, flow_stress)
@@ -87,7 +83,6 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "row_velocity_final": _cell("velocity_final"),
     "deceleration_at_start": _deceleration_at_start,
     "final_sheet_depth": _final_depth,
-    "sheet_normalized_depth": _normalized_depth,
     "frank_zook_as_printed": frank_zook.depth_as_printed,
     "frank_zook_derived": frank_zook.depth_derived,
 }

@@ -100,6 +100,8 @@ class Judge:
         self.ledger = ledger
         self._inferences: dict[tuple[str, bool], Inference] = {}
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
+        self._explorations: dict[Any, Exploration] = {}
+        self._held: dict[Any, bool] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
@@ -116,6 +118,11 @@ class Judge:
             inner, nominal = self.inference(name).inner, self.ledger.value(name)
             values[name] = nominal if inner.contains(nominal) else sum(inner.ends, Fraction(0)) / 2
         return values
+
+    @property
+    def moved(self) -> set[str]:
+        """The inferred inputs whose evidence does not admit the nominal value."""
+        return {name for name, value in self.assumed.items() if value != self.ledger.value(name)}
 
     def value(self, name: str) -> Fraction:
         """An entry's value as printed, or as assumed where it is inferred, in SI."""
@@ -192,21 +199,42 @@ class Judge:
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
-        function = self.ledger.function(claim, reading=name, centered=convention.centered)
         target = claim.target(convention.rounding)
         printed = self._rounded(claim, convention)
         ranges = ("inner", "outer") if convention.header_exact else ("attained", "possible")
-        found: Exploration | None = None
         for which in ranges:
             box = {**printed, **self._inferred(claim, convention, which)}
-            if found is not None and box == searched:
-                break
-            searched, found = box, explore(function, box, target, _BUDGET)
+            found = self._explored(claim, name, convention, box, target)
             if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
                 return self._judgement(claim, convention, Verdict.WITHIN_ROUNDING, found)
-        assert found is not None
         verdict = Verdict.NOT_REPRODUCED if found.never else Verdict.UNDECIDED
         return self._judgement(claim, convention, verdict, found)
+
+    def _explored(
+        self, claim: Claim, name: str, convention: Convention, box: Box, target: Interval
+    ) -> Exploration:
+        """What is proven over a box, computed once for targets that differ in closed ends only.
+
+        What lies inside an open target lies in the closed one, what lies outside a closed one lies
+        outside the open one.
+        """
+        key = claim.id, name, convention.centered, tuple(box.items()), target.lower, target.upper
+        if key in self._explorations:
+            known = self._explorations[key]
+            closed = Interval(target.lower, target.upper)
+            if known.inside is not None or closed.excludes(known.lower, known.upper):
+                return known
+        function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        found = None
+        if not target.is_point:
+            inside = Interval(target.lower, target.upper, False, False)
+            found = explore(function, box, inside, _BUDGET)
+        if found is None or (
+            found.inside is None and not target.excludes(found.lower, found.upper)
+        ):
+            found = explore(function, box, target, _BUDGET)
+        self._explorations[key] = found
+        return found
 
     def _judgement(
         self, claim: Claim, convention: Convention, verdict: Verdict, found: Exploration
@@ -251,10 +279,13 @@ class Judge:
         if convention.header_exact:
             return True  # the admitted values are those of the header as printed
         inferred = [entry for entry in claim.entries if entry.startswith(INFERRED)]
-        return all(
-            self.inference(name, centered=convention.centered).holds_at(witness)
-            for name in inferred
-        )
+        key = tuple(inferred), convention.centered, tuple(witness.items())
+        if key not in self._held:
+            self._held[key] = all(
+                self.inference(name, centered=convention.centered).holds_at(witness)
+                for name in inferred
+            )
+        return self._held[key]
 
 
 def _exactly(function: Function, box: Box) -> Fraction | None:
