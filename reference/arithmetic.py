@@ -134,7 +134,7 @@ class Rationals:
         return Fraction(value)
 
     def log(self, x: Number) -> Number:
-        raise InexactError("a logarithm is no fraction")
+        raise InexactError(f"the logarithm of {x} is no fraction")
 
     def power(self, x: Number, exponent: Fraction) -> Number:
         if exponent.denominator != 1:
@@ -145,7 +145,7 @@ class Rationals:
         return y * (2 - y)
 
     def cap_root(self, c: Number) -> Number:
-        raise InexactError("the root of a cubic is no fraction")
+        raise InexactError(f"the root of y^2 - y^3/3 = {c} is no fraction")
 
     def may_be_below(self, x: Number, bound: Number) -> bool:
         return bool(x < bound)
@@ -215,11 +215,13 @@ class Dual:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Dual":
-        result: Dual = self + -other
-        return result
+        if not isinstance(other, Dual):
+            return Dual(self.value - other, self.slopes)
+        pairs = zip(self.slopes, other.slopes, strict=True)
+        return Dual(self.value - other.value, tuple(a - b for a, b in pairs))
 
     def __rsub__(self, other: Any) -> "Dual":
-        return -self + other
+        return Dual(other - self.value, tuple(-slope for slope in self.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
@@ -339,10 +341,12 @@ class Ratio:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Ratio":
-        return self + -self._ratio(other)
+        other = self._ratio(other)
+        over = self.over * other.under - other.over * self.under
+        return Ratio(over, self.under * other.under)
 
     def __rsub__(self, other: Any) -> "Ratio":
-        return -self + other
+        return self._ratio(other) - self
 
     def __mul__(self, other: Any) -> "Ratio":
         other = self._ratio(other)

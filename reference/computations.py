@@ -65,11 +65,10 @@ class Computation:
 COMPUTATIONS: dict[str, Computation] = {}
 
 
-def _computes(
-    unit: str, /, *equations: str, restates: bool = False, **inputs: str
-) -> Callable[[Any], Any]:
+def _computes(unit: str, /, *equations: str, **inputs: str) -> Callable[[Any], Any]:
     def register(function: Any) -> Any:
         takes = signature(function).parameters
+        restates = function.__name__ in ("same_as", "count")
         entry = Computation(
             function, unit, inputs, equations, restates, "row" in takes, "centered" in takes
         )
@@ -101,13 +100,13 @@ FRANK_ZOOK = {
 # Restatements and plain arithmetic
 
 
-@_computes(SAME, restates=True, value=SAME)
+@_computes(SAME, value=SAME)
 def same_as(ar: Arithmetic, printed: Sides, value: Number) -> Number:
     """the same quantity where the report prints it elsewhere"""
     return value
 
 
-@_computes("1", restates=True, each=SAME)
+@_computes("1", each=SAME)
 def count(ar: Arithmetic, printed: Sides, **values: Number) -> Fraction:
     """how many numbers the report lists"""
     return Fraction(len(values))
@@ -171,9 +170,7 @@ def crater_normalized_depth(ar: Arithmetic, printed: Sides, volume_ratio: Number
 
 
 @_computes("m", volume_ratio="1", diameter="m")
-def crater_depth(
-    ar: Arithmetic, printed: Sides, volume_ratio: Number, diameter: Number
-) -> Number:
+def crater_depth(ar: Arithmetic, printed: Sides, volume_ratio: Number, diameter: Number) -> Number:
     """X at the given CV/PV and particle diameter, from Eqs. 2 and 3"""
     return crater_normalized_depth(ar, printed, volume_ratio) * diameter / 2
 
@@ -198,9 +195,7 @@ def contact_diameter(
 
 
 @_computes("Pa", beta="1", flow_stress="Pa")
-def target_resistance(
-    ar: Arithmetic, printed: Sides, beta: Number, flow_stress: Number
-) -> Number:
+def target_resistance(ar: Arithmetic, printed: Sides, beta: Number, flow_stress: Number) -> Number:
     """R_t = beta Y_t, Eq. 7"""
     return beta * flow_stress
 

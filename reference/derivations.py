@@ -219,7 +219,7 @@ def _rod(of: _Algebra) -> Iterator[Check]:
 def _frank_zook_depth(of: _Algebra) -> Iterator[Check]:
     left, right = of.sides["eq16"]
     strength, rod = of.sides["eq14"][1], of.sides["eq15"][1]
-    put = {"v": of["V"], "D": 2 * of["R"]}
+    put: dict[str, Ratio | int] = {"v": of["V"], "D": 2 * of["R"]}
     # Both equations are linear: strength = steady + inertia dv/dt, dv/dt = -rod strength.
     steady = of.value(strength, **{**put, "dv/dt": 0})
     inertia, per_strength = of.slope(strength, "dv/dt", **put), of.value(rod, **put, Y_p=1)

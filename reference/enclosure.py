@@ -96,9 +96,7 @@ def enclose(function: Function, box: Box) -> Range:
     return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs)
 
 
-def _best(
-    function: Function, box: Box, slopes: Mapping[str, Span]
-) -> tuple[Fraction, Fraction]:
+def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fraction, Fraction]:
     """The plain range, cut to what the value in the middle and the slopes allow."""
     low, high = _plain(function, box)
     if not slopes:
@@ -135,9 +133,9 @@ def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
         numbers = {}
         for name, ends in box.items():
             span = _INTERVALS.interval(*ends)
-            place = wide.index(name) if name in wide else None
-            constant = place is None
-            numbers[name] = duals.constant(span) if constant else duals.variable(span, place)
+            numbers[name] = (
+                duals.variable(span, wide.index(name)) if name in wide else duals.constant(span)
+            )
         try:
             value = function(duals, **numbers)
         except (DiscontinuityError, ZeroDivisionError):
@@ -465,7 +463,9 @@ def extent(
     outer = list(box[name])
     # An open end does not belong to the box: what is attained is sought a little inside.
     inside = {
-        key: (low + (high - low) / 10**6, high - (high - low) / 10**6) if key != name else (low, high)
+        key: (low + (high - low) / 10**6, high - (high - low) / 10**6)
+        if key != name
+        else (low, high)
         for key, (low, high) in box.items()
     }
     for function, target in constraints:
@@ -484,9 +484,7 @@ def extent(
     return (min([start, *attained]), max([start, *attained])), (outer[0], outer[1])
 
 
-def _corner(
-    box: Box, name: str, signs: Mapping[str, int], top: int
-) -> dict[str, Fraction]:
+def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str, Fraction]:
     """The other inputs at the ends that let the named one go farthest down (0) or up (1).
 
     To go up where the function rises with it, the others must keep the function low.

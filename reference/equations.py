@@ -1,7 +1,8 @@
 r"""The report's equations, read from its text as they are printed.
 
 An equation becomes a tree (`Node`), so that what the report prints is what is computed, checked and
-shown: in numbers of any arithmetic (`evaluate`), in dimensions (`dimension`), as text or MathML (`rendered`).
+shown: in numbers of any arithmetic (`evaluate`), in dimensions (`dimension`), as text or MathML
+(`rendered`).
 
 How the text is read: a product written without a space binds before a fraction bar, one with a
 space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2, and
@@ -17,12 +18,12 @@ from typing import Any
 from reference.arithmetic import Number
 
 __all__ = [
+    "MATHML",
+    "PLAIN",
     "Dimension",
     "DimensionError",
     "EquationError",
-    "MATHML",
     "Node",
-    "PLAIN",
     "dimension",
     "evaluate",
     "read_equation",
@@ -236,9 +237,7 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
     sides = [match for match in re.finditer(r"[^=]+", text) if match[0].strip(" &,.\n")]
     if "=" not in text:
         raise EquationError(f"{text!r} has no equals sign")
-    return tuple(
-        read_expression(side[0].rstrip(" &,.\n"), symbols, side.start()) for side in sides
-    )
+    return tuple(read_expression(side[0].rstrip(" &,.\n"), symbols, side.start()) for side in sides)
 
 
 def replaced(node: Node, span: tuple[int, int], value: Fraction) -> Node:
@@ -393,6 +392,7 @@ class Notation:
     call: Callable[[str, str], str]
     row: Callable[[str], str]
     plus: str
+    less: str
     minus: str
     times: str
 
@@ -405,6 +405,7 @@ MATHML = Notation(
     call=lambda name, inner: f"<mrow><mi>{name}</mi><mo>(</mo>{inner}<mo>)</mo></mrow>",
     row=lambda inner: f"<mrow>{inner}</mrow>",
     plus="<mo>+</mo>",
+    less="<mo>-</mo>",
     minus="<mo>-</mo>",
     times="<mo>·</mo>",
 )
@@ -416,6 +417,7 @@ PLAIN = Notation(
     call=lambda name, inner: f"{name}({inner})",
     row=str,
     plus=" + ",
+    less=" - ",
     minus="-",
     times=" ",
 )
@@ -429,7 +431,8 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
     >>> rendered(read_expression("x/(D + 2)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
     'X/(8 + 2)'
     """
-    plain = notation is PLAIN
+    # A fraction bar or a raised exponent needs no brackets; a stroke on the line does.
+    stroke = (3, 4) if notation is PLAIN else (0, 0)
 
     def part(child: Node, least: int) -> str:
         inner = rendered(child, shown, notation)
@@ -445,23 +448,16 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "negative":
             return notation.row(notation.minus + part(parts[0], 2))
         case "sum":
-            text = part(parts[0], 0)
+            terms = [part(parts[0], 0)]
             for term in parts[1:]:
-                if term.kind == "negative":
-                    sign = f" {notation.minus} " if plain else notation.minus
-                    text += sign + part(term.parts[0], 2)
-                else:
-                    text += notation.plus + part(term, 1)
-            return notation.row(text)
+                negative = term.kind == "negative"
+                child = part(term.parts[0] if negative else term, 2 if negative else 1)
+                terms.append((notation.less if negative else notation.plus) + child)
+            return notation.row("".join(terms))
         case "product":
             return notation.row(notation.times.join(part(child, 2) for child in parts))
         case "quotient":
-            # A fraction bar needs no brackets; a stroke does.
-            over, under = (part(parts[0], 3), part(parts[1], 4)) if plain else (
-                rendered(parts[0], shown, notation), rendered(parts[1], shown, notation),
-            )  # fmt: skip
-            return notation.fraction(over, under)
+            return notation.fraction(part(parts[0], stroke[0]), part(parts[1], stroke[1]))
         case "power":
-            exponent = part(parts[1], 4) if plain else rendered(parts[1], shown, notation)
-            return notation.power(part(parts[0], 5), exponent)
+            return notation.power(part(parts[0], 5), part(parts[1], stroke[1]))
     return notation.call(node.kind, rendered(parts[0], shown, notation))

@@ -23,7 +23,7 @@ from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
 from reference.derivations import DERIVATIONS, Sides
 from reference.equations import Dimension, EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, decimal_text, parse
-from reference.units import UnitError, same_dimension, to_si, unit_dimension
+from reference.units import same_dimension, to_si, unit_dimension
 
 __all__ = [
     "INFERRED",
@@ -90,7 +90,7 @@ class _Table(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """A table that may hold no other keys."""
 
 
-class ClaimEntry(_Table):
+class ClaimEntry(_Table, frozen=True):
     """A [[claim]]."""
 
     id: str
@@ -113,7 +113,7 @@ class ClaimEntry(_Table):
     workbook: str | None = None
 
 
-class EquationEntry(_Table):
+class EquationEntry(_Table, frozen=True):
     """An [[equation]]."""
 
     id: str
@@ -123,7 +123,7 @@ class EquationEntry(_Table):
     follows_from: str
 
 
-class Inferred(_Table):
+class Inferred(_Table, frozen=True):
     """An input that the report does not print, to be inferred from the numbers that it does."""
 
     title: str
@@ -142,7 +142,7 @@ class Inferred(_Table):
     evidence: list[str]
 
 
-class Symbol(_Table):
+class Symbol(_Table, frozen=True):
     """What a symbol of the equations means, how the report writes it, and how a page shows it."""
 
     written: list[str]
@@ -152,7 +152,7 @@ class Symbol(_Table):
     value: str | None = None
 
 
-class Quantity(_Table):
+class Quantity(_Table, frozen=True):
     """A physical quantity: the range of it that is searched, in its unit, and why this one."""
 
     unit: str
@@ -160,7 +160,7 @@ class Quantity(_Table):
     reason: str
 
 
-class Slip(_Table):
+class Slip(_Table, frozen=True):
     """What the author may have computed instead: another text of an equation, or other inputs."""
 
     name: str
@@ -170,7 +170,7 @@ class Slip(_Table):
     inputs: dict[str, str] = {}
 
 
-class Source(_Table):
+class Source(_Table, frozen=True):
     """A public source for a number that the report takes from nowhere; see sources.toml."""
 
     id: str
@@ -204,23 +204,23 @@ class Source(_Table):
         return whole.scaled(to_si(self.unit))
 
 
-class _Report(_Table):
+class _Report(_Table, frozen=True):
     text: str
     title: str
     author: str
     year: int
 
 
-class _Blank(_Table):
+class _Blank(_Table, frozen=True):
     blank: list[str]
 
 
-class _Furniture(_Table):
+class _Furniture(_Table, frozen=True):
     pattern: str
     reason: str
 
 
-class _Document(_Table):
+class _Document(_Table, frozen=True):
     report: _Report
     reasons: dict[str, str]
     table: _Blank
@@ -347,9 +347,13 @@ class Claim:
         assert self.printed is not None
         number = self.printed
         in_header = self.entry.cell is not None and self.entry.cell.startswith("B")
-        if self.is_exact or number.quantum == 0 or self.bound is not None:
-            own = Interval.point(number.value)
-        elif (self.chosen and convention.choices_exact) or (in_header and convention.header_exact):
+        if (
+            self.is_exact
+            or number.quantum == 0
+            or self.bound is not None
+            or (self.chosen and convention.choices_exact)
+            or (in_header and convention.header_exact)
+        ):
             own = Interval.point(number.value)
         elif self.entry.kind == "approximation":
             own = number.about()
@@ -523,7 +527,7 @@ class Ledger:
         *,
         reading: str = "",
         centered: bool = False,
-        **fixed: Fraction,
+        fixed: Mapping[str, Fraction] | None = None,
     ) -> Function:
         """A claim's computation as a function of an arithmetic and of its free entries by name.
 
@@ -545,7 +549,7 @@ class Ledger:
             if ar not in known:
                 known[ar] = (
                     {name: ar.number(number) for name, number in printed.items()},
-                    {name: ar.number(number) for name, number in fixed.items()},
+                    {name: ar.number(number) for name, number in (fixed or {}).items()},
                 )
             numbers, inputs = known[ar]
             numbers = {**numbers, **entries}
@@ -562,7 +566,7 @@ class Ledger:
     # Copies with a misprint
 
     def misprint(self, name: str, text: str) -> "Ledger":
-        """This ledger with other text in the place of a claim's. Raises ValueError if no number."""
+        """A copy with other text in the place of a claim's. Raises ValueError if no number."""
         claim = self.claims[name]
         printed = parse(text)
         bound = None if claim.bound is None else printed.value
@@ -577,12 +581,12 @@ class Ledger:
         return copy._rereading(self.sides, claim.within)
 
     def misprint_equation(self, name: str, text: str) -> "Ledger":
-        """This ledger with another text of an equation."""
+        """A copy with another text of an equation."""
         copy = replace(self, misprinted={**self.misprinted, name: text})
         return copy._rereading(self.sides, name)
 
     def _rereading(self, sides: Sides, equation: str | None) -> "Ledger":
-        """This copy, with the equations as they were read, but for one."""
+        """The copy itself, with the equations as they were read, but for one."""
         changed = {} if equation is None else {equation: self._sides_of(self.equations[equation])}
         self.__dict__["sides"] = {**sides, **changed}
         return self
@@ -624,7 +628,8 @@ def load() -> Ledger:
     """
     folder = resources.files("reference.report")
     document, sources = (
-        tomllib.loads((folder / name).read_text("utf-8")) for name in ("ledger.toml", "sources.toml")
+        tomllib.loads((folder / name).read_text("utf-8"))
+        for name in ("ledger.toml", "sources.toml")
     )
     text = (folder / document["report"]["text"]).read_text("utf-8")
     return read(document, text, sources["source"])
@@ -690,9 +695,7 @@ def _place(text: str, who: str, quote: str, cell: str | None = None) -> Place:
     start = text.index(words) + len(before)
     heading = next(reversed(list(_HEADING.finditer(text, 0, start + 1))), None)
     numbered = next((n for s, e, n in _displays(text) if s <= start < e), None)
-    return Place(
-        start, start + len(inside), _line(text, start), _section(heading), numbered, cell
-    )
+    return Place(start, start + len(inside), _line(text, start), _section(heading), numbered, cell)
 
 
 @cache
@@ -732,9 +735,7 @@ def _cells(cells: str) -> Iterator[str]:
             yield f"{chr(column)}{row}"
 
 
-def _claim(
-    entry: ClaimEntry, tables: _Document, text: str, equations: Any
-) -> Claim:
+def _claim(entry: ClaimEntry, tables: _Document, text: str, equations: Any) -> Claim:
     """One claim, as far as its own entry tells; every message names it."""
     who = f"claim {entry.id!r}"
     place = _place(text, who, entry.quote, entry.cell)
@@ -808,25 +809,18 @@ def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
 
 def _check(ledger: Ledger) -> None:
     """Refuse what does not fit between entries."""
+    for claim in ledger.claims.values():
+        _check_claim(claim, ledger)
     for name, inferred in ledger.inferred.items():
-        for claim in (*inferred.evidence, *inferred.header, inferred.mass, *inferred.results):
-            if claim not in ledger.claims:
-                raise LedgerError(f"inferred {name!r}: there is no claim {claim!r}")
+        own = (inferred.mass, inferred.radius, inferred.density)
+        named = (*inferred.evidence, *inferred.header, *inferred.results, *own)
+        if unknown := set(named) - set(ledger.claims):
+            raise LedgerError(f"inferred {name!r}: there is no claim {min(unknown)!r}")
     for equation in ledger.equations.values():
         if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
             raise LedgerError(f"equation {equation.id!r}: nothing derives it")
-    for claim in ledger.claims.values():
-        for computation in claim.computations.values():
-            _check_units(claim, computation, ledger)
-        for name in claim.entry.shown_by:
-            if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
-                raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
     for source in ledger.sources.values():
-        for name in source.claims:
-            if not same_dimension(_unit_of(name, ledger, LedgerError), source.unit):
-                raise LedgerError(f"source {source.id!r}: {name} is not in {source.unit}")
-        if not 1 <= len(source.numbers) <= 2:
-            raise LedgerError(f"source {source.id!r}: its quote marks no number with ⟦ and ⟧")
+        _check_source(source, ledger)
     for slip in ledger.slips:
         if slip.equation not in ledger.equations:
             raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")
@@ -834,6 +828,22 @@ def _check(ledger: Ledger) -> None:
         TopologicalSorter({c.id: c.entries for c in ledger.claims.values()}).prepare()
     except CycleError as error:
         raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
+
+
+def _check_claim(claim: Claim, ledger: Ledger) -> None:
+    for computation in claim.computations.values():
+        _check_units(claim, computation, ledger)
+    for name in claim.entry.shown_by:
+        if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
+            raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
+
+
+def _check_source(source: Source, ledger: Ledger) -> None:
+    for name in source.claims:
+        if not same_dimension(_unit_of(name, ledger, LedgerError), source.unit):
+            raise LedgerError(f"source {source.id!r}: {name} is not in {source.unit}")
+    if not 1 <= len(source.numbers) <= 2:
+        raise LedgerError(f"source {source.id!r}: its quote marks no number with ⟦ and ⟧")
 
 
 def _check_units(claim: Claim, computation: Computation, ledger: Ledger) -> None:

@@ -15,7 +15,15 @@ from typing import Any, NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
 
-__all__ = ["Integration", "Row", "Trajectory", "contact_share", "final_depth", "sheet_depth", "sheet_rows"]
+__all__ = [
+    "Integration",
+    "Row",
+    "Trajectory",
+    "contact_share",
+    "final_depth",
+    "sheet_depth",
+    "sheet_rows",
+]
 
 
 def contact_share(ar: Arithmetic, y: Number) -> Number:

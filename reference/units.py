@@ -48,7 +48,9 @@ _UNITS = {name: (factor, powers) for name, (factor, powers, _) in _BASES.items()
     for name, (factor, powers, prefixes) in _BASES.items()
     for prefix in prefixes.split()
 }
-_FACTOR = re.compile(r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1)(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?")
+_FACTOR = re.compile(
+    r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1)(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
+)
 _SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "³": "3", "⁻": "-"})
 _LONGEST = 40
 
@@ -134,7 +136,9 @@ def quantity(text: str, unit: str) -> Fraction:
     match = _QUANTITY.fullmatch(text.strip()) if len(text) < _DIGITS else None
     if match is None:
         shown = text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
-        raise ValueError(f"{shown!r} is no finite number with or without a unit, such as '1 {unit}'")
+        raise ValueError(
+            f"{shown!r} is no finite number with or without a unit, such as '1 {unit}'"
+        )
     value, own = Fraction(match["number"]), match["unit"]
     if not own:
         return value

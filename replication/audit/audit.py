@@ -17,7 +17,7 @@ from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.equations import EquationAssessment, assess_equation
 from replication.audit.explain import BackSolved, Explainer, Repair
-from replication.audit.findings import EVIDENCE, Known
+from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number
@@ -115,12 +115,12 @@ class _Audit:
             provenance=_provenance(),
         )
 
-    def _counts(
-        self, claims: list[r.ClaimRecord], equations: list[r.EquationRecord]
-    ) -> r.Counts:
+    def _counts(self, claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
         calculations = {
-            (claim.computed_by, claim.cell or "", str(claim.rests_on)) if claim.computed_by else claim.id
+            (claim.computed_by, claim.cell or "", str(claim.rests_on))
+            if claim.computed_by
+            else claim.id
             for claim in reproduced
         }
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
@@ -176,7 +176,9 @@ class _Audit:
             otherwise=[] if first is None else [_judged(j) for j in first.otherwise],
             readings=[_reading(reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, None if first is None else first.computed),
+            assumes=wording.assumptions(
+                self.judge, claim, None if first is None else first.computed
+            ),
             explanation=self._explanation(claim, assessment),
             formula=formula,
             mathml=mathml,
@@ -189,7 +191,9 @@ class _Audit:
             ],
             repairs=[self._repair(repair) for repair in (self.repairs(claim.id) if fails else [])],
             slips=[
-                r.SlipRecord(name=t.slip.name, reason=t.slip.reason, value=float(t.lower), fits=t.fits)
+                r.SlipRecord(
+                    name=t.slip.name, reason=t.slip.reason, value=float(t.lower), fits=t.fits
+                )
                 for t in (self.explainer.slips(claim) if fails and first else [])
             ],
             workbook=claim.entry.workbook,
@@ -222,7 +226,7 @@ class _Audit:
         if claim.entry.shown_by:
             ends = self._shown(claim)
             if ends is None:
-                return "The author's choice; but what is computed from it does not come out as printed."
+                return "The author's choice; what is computed from it does not come out as printed."
             text = wording.quantity(f"{number(ends[0], 4)} to {number(ends[1], 4)}", claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
         return f"Nothing in the report decides it: {claim.given}."
@@ -251,15 +255,16 @@ class _Audit:
         put = {**shown, **{_SYMBOLS[key]: text for key, text in values.items() if key in _SYMBOLS}}
         put |= {"L": values.get("length_ratio", "L"), "D": "1"}
         result = number(reading.computed, 3)
-        text = f"{rendered(left, shown)} = {rendered(right, shown)} = {rendered(right, put)} = {result}"
+        parts = rendered(left, shown), rendered(right, shown), rendered(right, put), result
         marked = [
-            {name: _mathml_symbol(symbol) for name, symbol in names.items()} for names in (shown, put)
+            {name: _mathml_symbol(symbol) for name, symbol in names.items()}
+            for names in (shown, put)
         ]
         sides = (
             rendered(left, marked[0], MATHML), rendered(right, marked[0], MATHML),
             rendered(right, marked[1], MATHML), f"<mn>{result}</mn>",
         )  # fmt: skip
-        return text, _math("<mo>=</mo>".join(sides))
+        return " = ".join(parts), _math("<mo>=</mo>".join(sides))
 
     def _in_formula(self, names: Sequence[str]) -> str:
         if len(names) == 1 and names[0] in self.ledger.claims:
@@ -269,7 +274,7 @@ class _Audit:
     # What a choice is shown to be
 
     def _shown(self, claim: Claim) -> tuple[float, float] | None:
-        """The values, in its unit, around a chosen number with which what rests on it is as printed.
+        """The values, in its unit, around a chosen number for which what it shows is as printed.
 
         None if the number itself puts one of those claims wrong.
         """
@@ -296,7 +301,7 @@ class _Audit:
             for scheme in sheet.SCHEMES:
                 where = "initial" if scheme == "published" else "middle"
                 depths = {
-                    name: sheet.run(comparison.case(known, beta, step=known[name]), scheme).final_depth
+                    name: sheet.run(case(known, beta, step=known[name]), scheme).final_depth
                     for name in ("a-step", "coarse-step")
                 }
                 for name, depth in depths.items():
@@ -538,9 +543,7 @@ def _doubles(point: Mapping[str, Fraction] | None) -> dict[str, float] | None:
 
 
 def _ends(interval: Interval) -> r.Ends:
-    lower, upper = (
-        None if end is None else float(end) for end in (interval.lower, interval.upper)
-    )
+    lower, upper = (None if end is None else float(end) for end in (interval.lower, interval.upper))
     return lower, upper
 
 

@@ -31,18 +31,21 @@ def approaches(known: Known) -> list[Approach]:
 
     def computed(kind: str, name: str, claim: str, reading: str = "") -> Approach:
         value = known.reading(claim, reading).computed
-        return Approach(kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim)
+        return Approach(
+            kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim
+        )
 
     def quoted(name: str, claim: str) -> Approach:
         return Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
 
     line = depth_from_volume_ratio(known["volume-ratio-line"])
+    drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
+    armor, stainless = "frank-zook-rha", "frank-zook-stainless"
+    forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))
     models = [(beta, case(known, beta)) for beta in BETAS]
     return [
-        Approach(kind="observed", name=f"CV/PV = {claims['volume-ratio-line'].text}, the line in Figure 1",
-                 computed=line),
-        computed("observed", f"CV/PV = {claims['volume-ratio'].text}, as taken for Eq. 4",
-                 "observed-depth-ratio"),
+        Approach(kind="observed", name=f"CV/PV = {drawn}, the line in Figure 1", computed=line),
+        computed("observed", f"CV/PV = {taken}, as taken for Eq. 4", "observed-depth-ratio"),
         *(Approach(kind="sheet", name=f"beta = {beta}", computed=sheet.run(impact).normalized_depth,
                    printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
           for beta, impact in models),
@@ -51,8 +54,8 @@ def approaches(known: Known) -> list[Approach]:
         *(Approach(kind="constant pressure", name=f"beta = {beta}",
                    computed=constant_pressure_ratio(impact)) for beta, impact in models),
         *(computed("Frank-Zook", f"{name}, {form}", claim, reading)
-          for name, claim in (("armor", "frank-zook-rha"), ("stainless steel", "frank-zook-stainless"))
-          for form, reading in (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))),
+          for name, claim in (("armor", armor), ("stainless steel", stainless))
+          for form, reading in forms),
         quoted("CTH", "cth-ratio"),
         quoted("Autodyne", "autodyne-ratio"),
     ]  # fmt: skip
@@ -108,8 +111,10 @@ def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
                   "mean deviation in the stream")  # fmt: skip
     yield _effect(impact, "radius", impact.radius - size, impact.radius + size,
                   "standard deviation of the powder")  # fmt: skip
-    yield _effect(impact, "particle_density", *map(float, rounding), "rounding of the print")
-    yield _effect(impact, "target_density", *map(float, possible), "all that Table A-1 allows")
+    low, high = map(float, rounding)
+    yield _effect(impact, "particle_density", low, high, "rounding of the print")
+    low, high = map(float, possible)
+    yield _effect(impact, "target_density", low, high, "all that Table A-1 allows")
     yield _effect(impact, "beta", known["beta-range-least"], known["beta-range-greatest"],
                   "the report's range")  # fmt: skip
     yield _effect(impact, "flow_stress", known["strength-clear"], known["strength-feathery"],
@@ -178,7 +183,7 @@ def curves(known: Known) -> list[Curve]:
         stop = motion.stop_time(**impact.motion)
         times = [stop * k / 100 for k in range(101)]
         depths, speeds = [0.0] * 101, [0.0] * 101
-        motion.history(times, *impact.motion.values(), depths, speeds)
+        motion.history(times, **impact.motion, depth=depths, speed=speeds)
         found.append(
             Curve(
                 beta=float(beta),

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 
 from reference.equations import Dimension
 from reference.printed import Printed, parse
@@ -75,9 +76,11 @@ def _digits(text: str) -> list[int]:
 
 def _swapped(text: str) -> Iterator[str]:
     places = _digits(text)
-    for here, there in zip(places, places[1:], strict=False):
+    for here, there in pairwise(places):
         if there - here == 1 or text[here + 1 : there] == ".":
-            yield text[:here] + text[there] + text[here + 1 : there] + text[here] + text[there + 1 :]
+            yield (
+                text[:here] + text[there] + text[here + 1 : there] + text[here] + text[there + 1 :]
+            )
 
 
 def _doubled(text: str) -> Iterator[str]:
@@ -182,24 +185,25 @@ def _equation_edits(
         for other, kind in _replacements(match, written, dimensions):
             yield before + other + after, kind
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
-        yield text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :], (
-            "fraction turned over"
+        yield (
+            text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :],
+            ("fraction turned over"),
         )
 
 
 def _replacements(
     match: re.Match[str], written: Mapping[str, str], dimensions: Mapping[str, Dimension]
 ) -> Iterable[tuple[str, str]]:
-    token = match[0]
+    text = match[0]
     if match["number"]:
-        yield from ((n, "number changed") for n in ("1", "2", "3", "4") if n != token)
+        yield from ((n, "number changed") for n in ("1", "2", "3", "4") if n != text)
         yield "", "number dropped"
     elif match["sign"]:
-        yield "+" if token == "-" else "-", "sign changed"
-    elif token in (r"\ln", r"\log"):
-        yield r"\log" if token == r"\ln" else r"\ln", "function changed"
+        yield "+" if text == "-" else "-", "sign changed"
+    elif text in (r"\ln", r"\log"):
+        yield r"\log" if text == r"\ln" else r"\ln", "function changed"
     elif match["symbol"]:
-        own = dimensions[written[token]]
+        own = dimensions[written[text]]
         for other, name in written.items():
-            if name not in (written[token], "pi") and dimensions[name] == own:
+            if name not in (written[text], "pi") and dimensions[name] == own:
                 yield other, "symbol changed"

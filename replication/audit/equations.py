@@ -49,9 +49,7 @@ class EquationAssessment:
         return next((check.factor for check in self.checks if check.factor is not None), None)
 
 
-def assess_equation(
-    ledger: Ledger, name: str, *, constants: bool = True
-) -> EquationAssessment:
+def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
     """The verdict on one equation, and, if they are asked for, on its constants.
 
     One that the report derives must pass every check; of one that it takes over only dimensions,
@@ -79,9 +77,7 @@ def assess_equation(
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def _checks(
-    ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]
-) -> list[Check]:
+def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) -> list[Check]:
     """The check of dimensions, and those of the derivation."""
     exponents = {
         key: ledger.value(symbol.value)

@@ -7,11 +7,10 @@ from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Solutions, enclose, solve
-from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
-from replication.audit.equations import EquationAssessment, assess_equation
+from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Judge
 
@@ -106,9 +105,7 @@ class Explainer:
             alike = any(not own.excludes(*part) for part in solutions.inner)
         return BackSolved(reading, name, solutions, self.ledger.search(name)[2], alike)
 
-    def admitted(
-        self, name: str, claims: Sequence[str]
-    ) -> tuple[Fraction, Fraction] | None:
+    def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
         """The least and greatest value of an entry, around the printed one, that suits some claims.
 
         Found by bisection, in doubles: where the claims begin to disagree. None if they disagree
@@ -153,7 +150,8 @@ class Explainer:
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         found = list(self._repairs(name))
         return sorted(
-            found, key=lambda r: (r.reading, len(r.failing), kinds.index(r.kind), r.entry != name, r.text)
+            found,
+            key=lambda r: (r.reading, len(r.failing), kinds.index(r.kind), r.entry != name, r.text),
         )[:_SHOWN]
 
     def _repairs(self, name: str) -> Iterator[Repair]:
@@ -173,7 +171,9 @@ class Explainer:
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
             # Its evidence has moved it: what the evidence rests on may be wrong.
             for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
-                entries += [e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims]
+                entries += [
+                    e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims
+                ]
         against = [claim.entry.against] if claim.entry.against else []
         within = [claim.within] if claim.within else []
         used = {e for c in claim.computations.values() for e in c.equations}

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from statistics import NormalDist
 from typing import Any
@@ -10,7 +10,6 @@ from typing import Any
 from reference.arithmetic import Number
 from reference.enclosure import enclose
 from reference.ledger import INFERRED, Convention
-from reference.units import to_si
 from replication.audit.equations import EquationAssessment
 from replication.audit.explain import BackSolved, Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict
@@ -115,8 +114,11 @@ def _inertia(known: Known) -> float:
 def _derived(known: Known, strength: float, length_ratio: float | None = None) -> float:
     """X/R [1] from Eqs. 14 and 15."""
     ratio = known["sphere-length-ratio"] if length_ratio is None else length_ratio
-    materials = [known[name] for name in ("a1-density", _DENSITY, "fz-k1", "fz-kt")]
-    return frank_zook.depth_derived(ratio, *materials, strength, known["a1-initial-velocity"])
+    particle, target, k_1, k_t = (
+        known[name] for name in ("a1-density", _DENSITY, "fz-k1", "fz-kt")
+    )
+    velocity = known["a1-initial-velocity"]
+    return frank_zook.depth_derived(ratio, particle, target, k_1, k_t, strength, velocity)
 
 
 def _printed_ratio(known: Known) -> tuple[Fraction, Fraction]:
@@ -361,9 +363,12 @@ def _table_columns(known: Known) -> Evidence:
     impact = case(known, 5)
     for row in range(3):
         x += v * impact.step * (1 if row else 0.5)
-        v += sheet.deceleration(
-            x, v, impact.radius, impact.mass, impact.target_density, impact.target_resistance
-        ) * impact.step
+        v += (
+            sheet.deceleration(
+                x, v, impact.radius, impact.mass, impact.target_density, impact.target_resistance
+            )
+            * impact.step
+        )
     return {
         "exact": known["a1-initial-velocity"] * known["a1-time-1"],
         "plus": v,
@@ -481,7 +486,7 @@ def constant_pressure_ratio(impact: Impact) -> float:
 
 def _unlike_strengths(known: Known) -> Evidence:
     steel, code = known["autodyne-steel-yield"], known["autodyne-ratio"]
-    found = {}
+    found: dict[str, float] = {}
     for name, beta in (("low", 3), ("high", 5)):
         ratio = _exact_ratio(known, resistance=known[f"depth-beta-{beta}-beta"] * steel)
         found |= {name: ratio, f"times_{name}": ratio / code}
@@ -570,8 +575,8 @@ def _mean_deviation(power: float, relative: float) -> float:
     count = 20_000
     sizes = [(k + 0.5) * 2 / count for k in range(count)]
     weights = [normal.pdf(d) for d in sizes]
-    total = sum(w * abs(d**-power - 1) for d, w in zip(sizes, weights, strict=True))
-    return total / sum(weights)
+    total = math.fsum(w * abs(d**-power - 1) for d, w in zip(sizes, weights, strict=True))
+    return float(total / math.fsum(weights))
 
 
 def _faster_particles(known: Known) -> Evidence:

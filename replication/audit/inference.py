@@ -45,8 +45,8 @@ class Inference:
     @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
-        mass = self.ledger.value(self.entry.mass)
-        return _infer(self.ledger, self.name, self.centered, self.entry.evidence, mass=mass).inner
+        mass = {"mass": self.ledger.value(self.entry.mass)}
+        return _infer(self.ledger, self.name, self.centered, self.entry.evidence, mass).inner
 
     @property
     def attained(self) -> Interval:
@@ -98,7 +98,7 @@ class Inference:
             return by_radius
 
         own = self.ledger.claims[radius].as_input(Convention())
-        constraints.append((lambda ar, **entries: entries[radius], own))
+        constraints.append((lambda _, **entries: entries[radius], own))
         return [(of_mass(function), target) for function, target in constraints]
 
     def holds_at(self, point: Mapping[str, Fraction]) -> bool:
@@ -132,16 +132,20 @@ def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
     rest is left out; the Inference names it. Raises ValueError if no evidence admits any value.
     """
     evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
-    return _infer(ledger, name, centered, evidence)
+    return _infer(ledger, name, centered, evidence, {})
 
 
 def _infer(
-    ledger: Ledger, name: str, centered: bool, evidence: list[str], **fixed: Fraction
+    ledger: Ledger,
+    name: str,
+    centered: bool,
+    evidence: list[str],
+    fixed: Mapping[str, Fraction],
 ) -> Inference:
     search = ledger.inferred[name.removeprefix(INFERRED)].search
     each = {}
     for claim in (ledger.claims[name] for name in evidence):
-        function = ledger.function(claim, frozenset({name}), centered=centered, **fixed)
+        function = ledger.function(claim, frozenset({name}), centered=centered, fixed=fixed)
         each[claim.id] = solve(function, name, search, claim.target())
     agreeing = _agreeing(each)
     inner, outer = (

@@ -1,7 +1,8 @@
 """The record of a finished audit: everything that any report shows, as plain typed data.
 
-`audit.json` is this record, key by key; its JSON Schema comes from these classes. Reports render it
-and compute nothing. Lengths, velocities and the like are in SI units unless a `unit` says otherwise.
+`audit.json` is this record, key by key; its JSON Schema comes from these classes. Reports render
+it and compute nothing. Lengths, velocities and the like are in SI units unless a `unit` says
+otherwise.
 """
 
 from typing import Any
@@ -48,7 +49,7 @@ class _Part(msgspec.Struct, kw_only=True, frozen=True):
     """A part of the record."""
 
 
-class Judged(_Part):
+class Judged(_Part, frozen=True):
     """A verdict under one convention.
 
     `rounding` is how a value became the printed text; `choices` and `header` say whether what the
@@ -65,7 +66,7 @@ class Judged(_Part):
     enclosure_exact: ExactEnds
 
 
-class ReadingRecord(_Part):
+class ReadingRecord(_Part, frozen=True):
     """What one reading of the words makes of a claim."""
 
     name: str
@@ -79,7 +80,7 @@ class ReadingRecord(_Part):
     otherwise: list[Judged]
 
 
-class BackSolvedRecord(_Part):
+class BackSolvedRecord(_Part, frozen=True):
     """The values of one entry, all others as printed, for which the claim would agree."""
 
     reading: str
@@ -94,7 +95,7 @@ class BackSolvedRecord(_Part):
     prints_alike: bool
 
 
-class RepairRecord(_Part):
+class RepairRecord(_Part, frozen=True):
     """A text one edit away with which the claim would agree, and what would fail then."""
 
     entry: str
@@ -106,7 +107,7 @@ class RepairRecord(_Part):
     failing: list[str]
 
 
-class SlipRecord(_Part):
+class SlipRecord(_Part, frozen=True):
     """What a slip of the author's would make of the claim."""
 
     name: str
@@ -115,7 +116,7 @@ class SlipRecord(_Part):
     fits: str
 
 
-class SourceRecord(_Part):
+class SourceRecord(_Part, frozen=True):
     """A public source beside a claim."""
 
     id: str
@@ -128,7 +129,7 @@ class SourceRecord(_Part):
     agrees: bool | None
 
 
-class Figure(_Part):
+class Figure(_Part, frozen=True):
     """A number that helps to judge a remark."""
 
     means: str
@@ -136,7 +137,7 @@ class Figure(_Part):
     unit: str
 
 
-class Shown(_Part):
+class Shown(_Part, frozen=True):
     """What the claims that are computed from a chosen number tell of it."""
 
     claims: list[str]
@@ -144,7 +145,7 @@ class Shown(_Part):
     unit: str
 
 
-class ClaimRecord(_Part):
+class ClaimRecord(_Part, frozen=True):
     """One printed number with its verdict and proof; numbers in the claim's unit."""
 
     id: str
@@ -187,14 +188,14 @@ class ClaimRecord(_Part):
     workbook: str | None
 
 
-class CheckRecord(_Part):
+class CheckRecord(_Part, frozen=True):
     """One check of an equation."""
 
     says: str
     holds: bool
 
 
-class ConstantRecord(_Part):
+class ConstantRecord(_Part, frozen=True):
     """A constant of an equation: the verdict, and the values that would pass every check."""
 
     claim: str
@@ -202,7 +203,7 @@ class ConstantRecord(_Part):
     needed: list[str]
 
 
-class EquationRecord(_Part):
+class EquationRecord(_Part, frozen=True):
     """One printed equation with its verdict."""
 
     id: str
@@ -221,7 +222,7 @@ class EquationRecord(_Part):
     repairs: list[RepairRecord]
 
 
-class EvidenceRecord(_Part):
+class EvidenceRecord(_Part, frozen=True):
     """A number in a finding's text: as asserted, and as computed by this audit."""
 
     name: str
@@ -232,7 +233,7 @@ class EvidenceRecord(_Part):
     holds: bool
 
 
-class FindingRecord(_Part):
+class FindingRecord(_Part, frozen=True):
     """What a failed or surprising claim teaches."""
 
     id: str
@@ -247,14 +248,14 @@ class FindingRecord(_Part):
     evidence: list[EvidenceRecord]
 
 
-class HandbookRecord(_Part):
+class HandbookRecord(_Part, frozen=True):
     """What the evidence says of a public value of an inferred input."""
 
     source: SourceRecord
     verdict: str
 
 
-class InferredRecord(_Part):
+class InferredRecord(_Part, frozen=True):
     """An input that the report never prints, and what its evidence admits; in `unit`."""
 
     id: str
@@ -273,14 +274,14 @@ class InferredRecord(_Part):
     sources: list[HandbookRecord]
 
 
-class CulpritRecord(_Part):
+class CulpritRecord(_Part, frozen=True):
     """One misprint that would explain everything that fails."""
 
     repair: RepairRecord
     explains: list[str]
 
 
-class Approach(_Part):
+class Approach(_Part, frozen=True):
     """One normalized depth X/R: ours, and the report's."""
 
     kind: str
@@ -290,7 +291,7 @@ class Approach(_Part):
     claim: str | None = None
 
 
-class Effect(_Part):
+class Effect(_Part, frozen=True):
     """The exact X/R and depth at both ends of an input's range, and what range it is."""
 
     input: str
@@ -301,7 +302,7 @@ class Effect(_Part):
     why: str
 
 
-class Sensitivity(_Part):
+class Sensitivity(_Part, frozen=True):
     """How the exact depth of one case depends on its inputs."""
 
     beta: float
@@ -311,7 +312,7 @@ class Sensitivity(_Part):
     stated: list[Effect]
 
 
-class ScatterPoint(_Part):
+class ScatterPoint(_Part, frozen=True):
     """Velocity and X/R that so many of the particles do not exceed."""
 
     share: float
@@ -319,7 +320,7 @@ class ScatterPoint(_Part):
     ratio: float
 
 
-class Scatter(_Part):
+class Scatter(_Part, frozen=True):
     """The stream by one law; deviations of the velocity to first order."""
 
     law: str
@@ -328,7 +329,7 @@ class Scatter(_Part):
     points: list[ScatterPoint]
 
 
-class Curve(_Part):
+class Curve(_Part, frozen=True):
     """Depth against time, from touch to rest."""
 
     beta: float
@@ -339,7 +340,7 @@ class Curve(_Part):
     exact_depth: list[float]
 
 
-class VelocityCurve(_Part):
+class VelocityCurve(_Part, frozen=True):
     """X/R against impact velocity, for beta = 5."""
 
     velocity: list[float]
@@ -347,7 +348,7 @@ class VelocityCurve(_Part):
     exact: list[float]
 
 
-class Level(_Part):
+class Level(_Part, frozen=True):
     """The sheet at one time step, and its error against the exact depth at rest."""
 
     beta: float
@@ -358,7 +359,7 @@ class Level(_Part):
     error: float
 
 
-class Counts(_Part):
+class Counts(_Part, frozen=True):
     """How many there are: printed numbers, of them computed anew, equations, blank cells.
 
     `calculations` counts the distinct ones among the reproduced numbers: a value that the report
@@ -375,7 +376,7 @@ class Counts(_Part):
     blank_cells: int
 
 
-class ReportRecord(_Part):
+class ReportRecord(_Part, frozen=True):
     """The report that was audited."""
 
     title: str
@@ -383,7 +384,7 @@ class ReportRecord(_Part):
     year: int
 
 
-class Record(_Part):
+class Record(_Part, frozen=True):
     """The finished audit."""
 
     schema: str

@@ -259,7 +259,9 @@ class Judge:
             self._ranges[key] = enclose(function, box).ends if exact is None else (exact, exact)
         return self._ranges[key]
 
-    def _rounded(self, claim: Claim, convention: Convention) -> dict[str, tuple[Fraction, Fraction]]:
+    def _rounded(
+        self, claim: Claim, convention: Convention
+    ) -> dict[str, tuple[Fraction, Fraction]]:
         """Every printed entry that prints like the report's."""
         printed = (entry for entry in claim.entries if not entry.startswith(INFERRED))
         return {name: self.ledger.claims[name].as_input(convention).ends for name in printed}
@@ -316,5 +318,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    for choices, head in product((True, False) if chosen else (True,), (False, True) if header else (False,)):
+    for choices, head in product(
+        (True, False) if chosen else (True,), (False, True) if header else (False,)
+    ):
         yield replace(usual, choices_exact=choices, header_exact=head)

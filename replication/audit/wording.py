@@ -11,8 +11,13 @@ from replication.audit.verdict import Judge, Judgement, Reading, Verdict
 from replication.text import inward, number, outward
 
 __all__ = [
-    "assumptions", "constant_explanation", "equation_explanation", "explanation", "holds", "quantity",
-]  # fmt: skip
+    "assumptions",
+    "constant_explanation",
+    "equation_explanation",
+    "explanation",
+    "holds",
+    "quantity",
+]
 
 _USUAL = Convention()
 
@@ -52,12 +57,14 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
                 return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
             return []
         case Verdict.WITHIN_ROUNDING:
-            return [f"Inputs that print like the report's give it, for instance {_inputs(judge, judgement)}."]
+            found = _inputs(judge, judgement)
+            return [f"Inputs that print like the report's give it, for instance {found}."]
         case Verdict.NOT_REPRODUCED if low == high:
             return ["No rounded input enters, so none could change it."]
         case Verdict.NOT_REPRODUCED:
             side = _side(claim.interval(), low, high)
-            return [f"Proven for all inputs that print like the report's: it lies in {outward(low, high)}, {side}."]
+            proven = f"it lies in {outward(low, high)}, {side}"
+            return [f"Proven for all inputs that print like the report's: {proven}."]
     return [f"The proven range {outward(low, high)} is too wide to tell."]
 
 
@@ -80,7 +87,8 @@ def _side(interval: Interval, low: Fraction, high: Fraction) -> str:
 
 def _other(claim: Claim, reading: Reading) -> str:
     judgement = reading.judgements[0]
-    text = f"Read as {reading.name}: {quantity(number(reading.computed), claim.unit)}, {reading.verdict}"
+    value = quantity(number(reading.computed), claim.unit)
+    text = f"Read as {reading.name}: {value}, {reading.verdict}"
     if judgement.lower != judgement.upper:
         text += f"; proven range {outward(judgement.lower, judgement.upper)}"
     return text + "."
@@ -100,7 +108,9 @@ def holds(claim: Claim, reading: Reading) -> str:
         exceptions.setdefault(judgement.verdict, []).append(_condition(judgement.convention))
     if not exceptions:
         return f"The same under {scope}."
-    parts = [f"{verdict} {'; '.join(_merged(conditions))}" for verdict, conditions in exceptions.items()]
+    parts = [
+        f"{verdict} {'; '.join(_merged(conditions))}" for verdict, conditions in exceptions.items()
+    ]
     return f"The same under {scope}, except: {', and '.join(parts)}."
 
 
@@ -122,7 +132,9 @@ _ROUNDINGS = {
 def _merged(conditions: list[str]) -> list[str]:
     """Conditions as clauses; one that holds however ties are broken is named once."""
     even = f"{_ROUNDINGS[Rounding.EVEN]} and "
-    merged = [c for c in conditions if not (c.startswith(even) and c.removeprefix(even) in conditions)]
+    merged = [
+        c for c in conditions if not (c.startswith(even) and c.removeprefix(even) in conditions)
+    ]
     return [f"if {condition}" for condition in merged if condition]
 
 
@@ -177,15 +189,14 @@ def equation_explanation(assessed: EquationAssessment) -> str:
 
 def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
     """Why a constant of an equation has its verdict."""
-    equation = ledger.equations[claim.within or ""].entry
-    tried = "no other number that was tried"
+    source = ledger.equations[claim.within or ""].entry.follows_from
     match constant.verdict:
         case Verdict.REPRODUCED:
-            return f"The equation follows from {equation.follows_from} with this number, and with {tried}."
+            return f"The equation follows from {source} with this number, and no other tried."
         case Verdict.NOT_REPRODUCED:
             needed = " or ".join(str(value) for value in constant.needed)
-            return f"The equation follows from {equation.follows_from} with {needed}, not with {claim.shown}."
+            return f"The equation follows from {source} with {needed}, not with {claim.shown}."
         case Verdict.UNDECIDED:
-            return f"The equation does not follow from {equation.follows_from}, whatever this number is."
+            return f"The equation does not follow from {source}, whatever this number is."
     reason = f": {claim.given}" if claim.given else ""
     return f"Dimensions, limits and signs do not decide it{reason}."
