@@ -10,9 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-import mpmath
-from flint import Ordering, fmpq, fmpq_mpoly_ctx
-
 __all__ = [
     "Arithmetic",
     "DiscontinuityError",
@@ -80,6 +77,8 @@ class Reals:
     """
 
     def __init__(self, digits: int = 50) -> None:
+        import mpmath  # a twentieth of a second that a command without proofs need not wait for
+
         self.context = mpmath.MPContext()
         self.context.dps = digits
         self.log = self.context.log
@@ -402,6 +401,8 @@ class Ratios:
 
     def __init__(self, names: Sequence[str]) -> None:
         self._names = [*names, "pi", *(f"other_{k}" for k in range(8))]
+        from flint import Ordering, fmpq_mpoly_ctx
+
         self._context = fmpq_mpoly_ctx.get(self._names, Ordering.lex)
         one = self._context.constant(1)
         ratios = [Ratio(generator, one) for generator in self._context.gens()]
@@ -414,6 +415,8 @@ class Ratios:
         return self._named["pi"]
 
     def number(self, value: Fraction | int) -> Ratio:
+        from flint import fmpq
+
         constant = self._context.constant
         return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
 

@@ -693,9 +693,14 @@ def _place(text: str, who: str, quote: str, cell: str | None = None) -> Place:
     if (times := text.count(words)) != 1:
         raise LedgerError(f"{who}: the report has {words!r} {times} times, not once")
     start = text.index(words) + len(before)
-    heading = next(reversed(list(_HEADING.finditer(text, 0, start + 1))), None)
+    heading = next((h for h in reversed(_headings(text)) if h.start() <= start), None)
     numbered = next((n for s, e, n in _displays(text) if s <= start < e), None)
     return Place(start, start + len(inside), _line(text, start), _section(heading), numbered, cell)
+
+
+@cache
+def _headings(text: str) -> list[re.Match[str]]:
+    return list(_HEADING.finditer(text))
 
 
 @cache
