@@ -94,7 +94,9 @@ def _file(path: Path) -> dict[str, str]:
         raise ValueError(f"{quoted(path)}: wants one table, [impact], with inputs such as velocity")
     if unknown := sorted(set(table) - set(INPUTS)):
         known = ", ".join(INPUTS)
-        raise ValueError(f"{quoted(path)}: no such input as {quoted(unknown[0])}: choose of {known}")
+        raise ValueError(
+            f"{quoted(path)}: no such input as {quoted(unknown[0])}: choose of {known}"
+        )
     return {name: str(value) for name, value in table.items()}
 
 

@@ -1,4 +1,4 @@
-"""What a user wrote, read within bounds: files, TOML, numbers with units; and quoted in one line."""
+"""What a user wrote: files, TOML, numbers with units, read within bounds and quoted in one line."""
 
 import math
 import stat
@@ -59,9 +59,9 @@ class _Float(str):
 
 
 def parse_toml(content: bytes) -> dict[str, Any]:
-    """A TOML document, its floats as they are written. Raises ValueError if it is none.
+    r"""A TOML document, its floats as they are written. Raises ValueError if it is none.
 
-    >>> parse_toml(b"[impact]\\nvelocity = 450.0")
+    >>> parse_toml(b"[impact]\nvelocity = 450.0")
     {'impact': {'velocity': 450.0}}
     """
     deepest = depth = 0
