@@ -395,6 +395,8 @@ class Notation:
     less: str
     minus: str
     times: str
+    stroke: tuple[int, int]
+    """How tightly what is over and under a fraction bar must bind to go without brackets."""
 
 
 MATHML = Notation(
@@ -408,6 +410,7 @@ MATHML = Notation(
     less="<mo>-</mo>",
     minus="<mo>-</mo>",
     times="<mo>·</mo>",
+    stroke=(0, 0),
 )
 PLAIN = Notation(
     number=str,
@@ -420,6 +423,7 @@ PLAIN = Notation(
     less=" - ",
     minus="-",
     times=" ",
+    stroke=(3, 4),
 )
 _BINDING = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
 _TIGHTEST = 5
@@ -431,8 +435,6 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
     >>> rendered(read_expression("x/(D + 2)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
     'X/(8 + 2)'
     """
-    # A fraction bar or a raised exponent needs no brackets; a stroke on the line does.
-    stroke = (3, 4) if notation is PLAIN else (0, 0)
 
     def part(child: Node, least: int) -> str:
         inner = rendered(child, shown, notation)
@@ -457,7 +459,9 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "product":
             return notation.row(notation.times.join(part(child, 2) for child in parts))
         case "quotient":
-            return notation.fraction(part(parts[0], stroke[0]), part(parts[1], stroke[1]))
+            return notation.fraction(
+                part(parts[0], notation.stroke[0]), part(parts[1], notation.stroke[1])
+            )
         case "power":
-            return notation.power(part(parts[0], 5), part(parts[1], stroke[1]))
+            return notation.power(part(parts[0], 5), part(parts[1], notation.stroke[1]))
     return notation.call(node.kind, rendered(parts[0], shown, notation))

@@ -1,7 +1,8 @@
 """The audit: every verdict, explanation and finding, computed once, as one record."""
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
@@ -9,7 +10,8 @@ from math import inf, nextafter
 
 from reference import findings as asserted
 from reference import ledger as ledgers
-from reference.equations import MATHML, rendered
+from reference.arithmetic import Floats
+from reference.equations import MATHML, PLAIN, Node, Notation, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Ledger, Source
 from reference.printed import Interval
 from reference.units import to_si
@@ -20,7 +22,7 @@ from replication.audit.explain import BackSolved, Explainer, Repair
 from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
 from replication.models import sheet
-from replication.text import number
+from replication.text import number, powers_of_ten
 
 __all__ = ["audit", "audit_claim"]
 
@@ -111,6 +113,7 @@ class _Audit:
             curves=comparison.curves(known),
             velocity_curve=comparison.velocity_curve(known),
             ladders=comparison.ladders(known),
+            blank_cells=list(self.ledger.blank),
             symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
             provenance=_provenance(),
         )
@@ -146,7 +149,7 @@ class _Audit:
         )
         judgement = None if first is None else first.judgements[0]
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
-        formula, mathml = self._formula(claim, first)
+        formula, mathml, by_hand = self._formula(claim, first)
         restates = claim.computation is not None and claim.computation.restates
         return r.ClaimRecord(
             id=claim.id,
@@ -174,7 +177,7 @@ class _Audit:
             error_in_last_digit=_error(claim, first),
             holds="" if first is None else wording.holds(claim, first),
             otherwise=[] if first is None else [_judged(j) for j in first.otherwise],
-            readings=[_reading(reading) for reading in assessment.readings[1:]],
+            readings=[_reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(
                 self.judge, claim, None if first is None else first.computed
@@ -182,6 +185,7 @@ class _Audit:
             explanation=self._explanation(claim, assessment),
             formula=formula,
             mathml=mathml,
+            by_hand=by_hand,
             shown_by=self._shown_record(claim),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
@@ -242,34 +246,36 @@ class _Audit:
             return f"It repeats or compares with {text} ({other.title})."
         return f"It repeats or compares with {text} ({other.title}), which does not agree."
 
-    def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, str | None]:
-        """The formula of a failing claim with the numbers in it."""
+    def _formula(
+        self, claim: Claim, reading: Reading | None
+    ) -> tuple[str, str, str] | tuple[None, None, None]:
+        """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand."""
         if reading is None or reading.verdict is not Verdict.NOT_REPRODUCED:
-            return None, None
+            return None, None, None
         computation = claim.computations[""]
         if not computation.equations:
-            return None, None
+            return None, None, None
         (left, right) = self.ledger.sides[computation.equations[-1]]
-        shown = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
-        values = {key: self._in_formula(names) for key, names in claim.inputs.items()}
-        put = {**shown, **{_SYMBOLS[key]: text for key, text in values.items() if key in _SYMBOLS}}
-        put |= {"L": values.get("length_ratio", "L"), "D": "1"}
-        result = number(reading.computed, 3)
-        parts = rendered(left, shown), rendered(right, shown), rendered(right, put), result
+        values = {
+            _SYMBOLS[key]: self.judge.value(*names)
+            for key, names in claim.inputs.items()
+            if key in _SYMBOLS and len(names) == 1
+        } | {"D": Fraction(1)}  # L is given in diameters
+        names = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
+        put = names | {key: _short(value) for key, value in values.items()}
         marked = [
-            {name: _mathml_symbol(symbol) for name, symbol in names.items()}
-            for names in (shown, put)
+            {key: _mathml_symbol(text) for key, text in texts.items()} for texts in (names, put)
         ]
-        sides = (
-            rendered(left, marked[0], MATHML), rendered(right, marked[0], MATHML),
-            rendered(right, marked[1], MATHML), f"<mn>{result}</mn>",
+        result = f"{reading.computed:#.3g}"
+        texts = (
+            rendered(left, names), rendered(right, names), rendered(right, put, _NUMBERS), result,
         )  # fmt: skip
-        return " = ".join(parts), _math("<mo>=</mo>".join(sides))
-
-    def _in_formula(self, names: Sequence[str]) -> str:
-        if len(names) == 1 and names[0] in self.ledger.claims:
-            return self.ledger.claims[names[0]].shown
-        return number(self.judge.value(names[0]), 4)
+        rows = (
+            (rendered(left, marked[0], MATHML), rendered(right, marked[0], MATHML)),
+            ("", rendered(right, marked[1], _MATHML_NUMBERS)),
+            ("", f"<mn>{result}</mn>"),
+        )
+        return " = ".join(texts), _lines(rows), _by_hand(right, put, values, result)
 
     # What a choice is shown to be
 
@@ -411,7 +417,7 @@ class _Audit:
                 )
                 for c in assessed.constants.values()
             ],
-            explanation=wording.equation_explanation(assessed),
+            explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=[self._repair(repair) for repair in repairs],
         )
 
@@ -479,6 +485,7 @@ class _Audit:
 
 
 _SYMBOLS = {
+    "length_ratio": "L",
     "particle_density": "rho_p",
     "target_density": "rho_t",
     "k_1": "k_1",
@@ -487,6 +494,50 @@ _SYMBOLS = {
     "velocity": "V",
 }
 """Input of a computation -> the symbol of the equation that it stands for."""
+
+
+def _short(value: Fraction) -> str:
+    """A number as it is put into a formula.
+
+    >>> _short(Fraction(2, 3)), _short(Fraction(8900)), _short(Fraction(76 * 10**8))
+    ('2/3', '8900', '7.6×10⁹')
+    """
+    return str(value) if 1 < value.denominator < 10 else powers_of_ten(number(value))
+
+
+def _with_numbers(notation: Notation) -> Notation:
+    """The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
+    unit = notation.number("1")
+
+    def fraction(over: str, under: str) -> str:
+        return over if under == unit else notation.fraction(over, under)
+
+    return replace(notation, fraction=fraction, times=notation.times.replace(" ", " · "))
+
+
+_NUMBERS, _MATHML_NUMBERS = _with_numbers(PLAIN), _with_numbers(MATHML)
+
+
+def _by_hand(
+    right: Node, put: Mapping[str, str], values: Mapping[str, Fraction], result: str
+) -> str:
+    """The factors of a product, each calculated from the numbers put in, and the product."""
+    at = {name: float(value) for name, value in values.items()}
+    factors = right.parts if right.kind == "product" else (right,)
+    texts = [f"{evaluate(factor, Floats(), at):#.5g}" for factor in factors]
+    steps = [
+        f"{rendered(factor, put, _NUMBERS)} = {text}"
+        for factor, text in zip(factors, texts, strict=True)
+    ]
+    if len(steps) > 1:
+        steps.append(f"{' · '.join(texts)} = {result}")
+    return "; ".join(steps) + "."
+
+
+def _lines(rows: Iterable[tuple[str, str]]) -> str:
+    """Left and right sides of equations below each other, as MathML."""
+    cells = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
+    return _math(f"<mtable>{''.join(cells.format(*row) for row in rows)}</mtable>")
 
 
 def _math(inner: str) -> str:
@@ -501,7 +552,7 @@ def _mathml_symbol(shown: str) -> str:
     return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
 
 
-def _reading(reading: Reading) -> r.ReadingRecord:
+def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
     judgement = reading.judgements[0]
     return r.ReadingRecord(
         name=reading.name,
@@ -512,6 +563,7 @@ def _reading(reading: Reading) -> r.ReadingRecord:
         enclosure=_outward(judgement.lower, judgement.upper),
         enclosure_exact=_exact(judgement.lower, judgement.upper),
         witness=_doubles(judgement.witness),
+        holds=wording.holds(claim, reading),
         otherwise=[_judged(j) for j in reading.otherwise],
     )
 

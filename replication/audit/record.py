@@ -77,6 +77,7 @@ class ReadingRecord(_Part, frozen=True):
     enclosure: Ends
     enclosure_exact: ExactEnds
     witness: dict[str, float] | None
+    holds: str
     otherwise: list[Judged]
 
 
@@ -179,6 +180,7 @@ class ClaimRecord(_Part, frozen=True):
     explanation: str
     formula: str | None
     mathml: str | None
+    by_hand: str | None
     shown_by: Shown | None
     sources: list[SourceRecord]
     figures: list[Figure]
@@ -403,6 +405,7 @@ class Record(_Part, frozen=True):
     curves: list[Curve]
     velocity_curve: VelocityCurve
     ladders: list[Level]
+    blank_cells: list[str]
     symbols: dict[str, str]
     provenance: dict[str, Any]
 

@@ -19,9 +19,6 @@ __all__ = [
     "quantity",
 ]
 
-_USUAL = Convention()
-
-
 def quantity(text: str, unit: str) -> str:
     """Text with its unit, as a page shows it.
 
@@ -103,9 +100,9 @@ def holds(claim: Claim, reading: Reading) -> str:
     tried = {(j.convention.choices_exact, j.convention.header_exact) for j in reading.judgements}
     scope += ", with choices and header exact or rounded" if len(tried) > 1 else ""
     scope += ", in both schemes" if claim.by_scheme else ""
-    exceptions: dict[str, list[str]] = {}
+    exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
-        exceptions.setdefault(judgement.verdict, []).append(_condition(judgement.convention))
+        exceptions.setdefault(judgement.verdict, []).append(_conditions(judgement.convention))
     if not exceptions:
         return f"The same under {scope}."
     parts = [
@@ -114,12 +111,15 @@ def holds(claim: Claim, reading: Reading) -> str:
     return f"The same under {scope}, except: {', and '.join(parts)}."
 
 
-def _condition(convention: Convention) -> str:
-    parts = [_ROUNDINGS[convention.rounding]]
-    parts.append("" if convention.choices_exact else "what the author chose is rounded, too")
-    parts.append("the header of Table A-1 is exact" if convention.header_exact else "")
-    parts.append("the drag is taken at the middle velocity" if convention.centered else "")
-    return " and ".join(part for part in parts if part)
+def _conditions(convention: Convention) -> tuple[str, ...]:
+    """What a convention does otherwise than the usual one."""
+    parts = (
+        _ROUNDINGS[convention.rounding],
+        "" if convention.choices_exact else "what the author chose is rounded, too",
+        "the header of Table A-1 is exact" if convention.header_exact else "",
+        "the drag is taken at the middle velocity" if convention.centered else "",
+    )
+    return tuple(part for part in parts if part)
 
 
 _ROUNDINGS = {
@@ -129,13 +129,10 @@ _ROUNDINGS = {
 }
 
 
-def _merged(conditions: list[str]) -> list[str]:
-    """Conditions as clauses; one that holds however ties are broken is named once."""
-    even = f"{_ROUNDINGS[Rounding.EVEN]} and "
-    merged = [
-        c for c in conditions if not (c.startswith(even) and c.removeprefix(even) in conditions)
-    ]
-    return [f"if {condition}" for condition in merged if condition]
+def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
+    """Conditions as clauses; one that contains another is left out."""
+    kept = [c for c in dict.fromkeys(conditions) if not any(set(o) < set(c) for o in conditions)]
+    return [f"if {' and '.join(condition)}" for condition in kept]
 
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
@@ -170,20 +167,21 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
 # Equations
 
 
-def equation_explanation(assessed: EquationAssessment) -> str:
+def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     """Why an equation has its verdict."""
     entry = assessed.equation.entry
     failed = [check.says for check in assessed.checks if not check.holds]
     if not failed:
         said = "; ".join(check.says for check in assessed.checks)
         return f"From {entry.follows_from}. Checked exactly: {said}."
-    text = f"From {entry.follows_from}. It fails where {failed[0]}."
+    text = f"From {entry.follows_from}. This check fails: {failed[0]}."
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
     for constant in assessed.constants.values():
         if constant.verdict is Verdict.NOT_REPRODUCED:
             needed = " or ".join(str(value) for value in constant.needed)
-            text += f" With {needed} in the place of {constant.claim} it would follow."
+            printed = ledger.claims[constant.claim]
+            text += f" With {needed} for {printed.shown} ({printed.title}) it would follow."
     return text
 
 
