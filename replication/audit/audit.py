@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
@@ -22,7 +23,7 @@ from replication.audit.explain import BackSolved, Explainer, Repair
 from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
 from replication.models import sheet
-from replication.text import number, powers_of_ten
+from replication.text import number, powers_of_ten, rounded
 
 __all__ = ["audit", "audit_claim"]
 
@@ -30,8 +31,8 @@ __all__ = ["audit", "audit_claim"]
 def audit() -> r.Record:
     """Audit every number and equation of the report.
 
-    >>> audit().claim("depth-beta-5").verdict
-    'reproduced'
+    >>> print(audit().claim("depth-beta-5").verdict)
+    reproduced
     """
     return _Audit(ledgers.load()).record()
 
@@ -231,7 +232,9 @@ class _Audit:
             ends = self._shown(claim)
             if ends is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            text = wording.quantity(f"{number(ends[0], 4)} to {number(ends[1], 4)}", claim.unit)
+            low = rounded(Fraction(ends[0]), 4, ROUND_CEILING)
+            high = rounded(Fraction(ends[1]), 4, ROUND_FLOOR)
+            text = wording.quantity(f"{low} to {high}", claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
         return f"Nothing in the report decides it: {claim.given}."
 
@@ -512,9 +515,10 @@ def _with_numbers(notation: Notation) -> Notation:
     def fraction(over: str, under: str) -> str:
         return over if under == unit else notation.fraction(over, under)
 
-    return replace(notation, fraction=fraction, times=notation.times.replace(" ", " · "))
+    return replace(notation, fraction=fraction, times=_TIMES[notation.times])
 
 
+_TIMES = {PLAIN.times: " · ", MATHML.times: "<mo>·</mo>"}
 _NUMBERS, _MATHML_NUMBERS = _with_numbers(PLAIN), _with_numbers(MATHML)
 
 

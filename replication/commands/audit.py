@@ -1,6 +1,7 @@
 """`coldspray audit`: every number of the report, and the files that say so."""
 
 import argparse
+import sys
 from pathlib import Path
 
 from replication.commands import shared
@@ -18,21 +19,31 @@ def options(command: argparse.ArgumentParser) -> None:
         "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
     )
     command.add_argument("--json", action="store_true", help="print audit.json instead of text")
+    command.add_argument("--schema", action="store_true", help="print the schema of audit.json")
     command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
 
 
 def run(options: argparse.Namespace) -> int:
     """Audit, write, summarize."""
-    from replication.audit import Verdict
-    from replication.reports.files import FILES, write_audit
-    from replication.reports.terminal import audit_summary
-    from spreadsheets.safely import check_folder
+    from replication.report import files
 
-    check_folder(options.out, FILES)
-    done = write_audit(options.out)
+    if options.schema:
+        from replication.audit.record import schema
+
+        sys.stdout.write(files.json_bytes(schema()).decode())
+        return 0
+    files.check_folder(options.out)
+    from replication.audit.audit import audit
+    from replication.workbook import to_bytes
+
+    record = audit()
+    written = files.write(record, options.out, {"workbook.xlsx": to_bytes()})
     if options.json:
-        print((options.out / "audit.json").read_text("utf-8"), end="")
+        sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:
-        top = dict.fromkeys(Path(name).parts[0] for name in FILES)
-        print(audit_summary(done), "", f"Written to {options.out}/: {', '.join(top)}", sep="\n")
-    return 1 if options.exit_code and done.with_verdict(Verdict.NOT_REPRODUCED) else 0
+        from replication.report.terminal import summary
+
+        top = dict.fromkeys(Path(name).parts[0] for name in written)
+        print(summary(record, shared.width(), shared.may_emphasize()))
+        print("", f"Written to {options.out}/: {', '.join(top)}", sep="\n")
+    return 1 if options.exit_code and record.counts.failing else 0

@@ -1,7 +1,9 @@
 """`coldspray claims`: the ledger, or one claim with its proof."""
 
 import argparse
+import sys
 from collections.abc import Iterable
+from typing import Any
 
 from replication.commands import shared
 
@@ -17,26 +19,50 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """List, or prove."""
     from reference.ledger import load
-    from replication.reports import records, terminal
 
     ledger = load()
     if options.id is None:
-        claims = list(ledger.claims.values())
         if options.json:
-            shared.print_json([records.ledger_record(claim) for claim in claims])
+            _print_json([_listed(claim) for claim in ledger.claims.values()])
         else:
-            print(terminal.ledger_table(claims))
+            from replication.report.terminal import ledger_table
+
+            print(ledger_table(ledger.claims.values(), shared.width(piped=10_000)))
         return 0
     if options.id not in ledger.claims:
         raise ValueError(f"there is no claim {options.id!r}{_nearest(options.id, ledger.claims)}")
-    from replication.audit import assess_claim
+    from replication.audit.audit import audit_claim
 
-    assessment = assess_claim(ledger, options.id)
+    claim = audit_claim(options.id)
     if options.json:
-        shared.print_json(records.claim_record(ledger, assessment))
+        _print_json(claim)
     else:
-        print(terminal.claim_proof(ledger, assessment))
+        from replication.report.terminal import proof
+
+        print(proof(claim, ledger, shared.width(), shared.may_emphasize()))
     return 0
+
+
+def _print_json(document: Any) -> None:
+    from replication.report.files import json_bytes
+
+    sys.stdout.write(json_bytes(document).decode())
+
+
+def _listed(claim: Any) -> dict[str, Any]:
+    """What the ledger says of a claim, without a verdict."""
+    return {
+        "id": claim.id,
+        "title": claim.title,
+        "where": str(claim.place),
+        "line": claim.place.line,
+        "section": claim.place.section,
+        "cell": claim.place.cell,
+        "quote": " ".join(claim.entry.quote.split()),
+        "printed": claim.text,
+        "unit": claim.unit,
+        "kind": claim.entry.kind,
+    }
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:

@@ -1,6 +1,8 @@
 """What the commands share: options for a case and for output, and how they print."""
 
 import argparse
+import os
+import shutil
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -9,7 +11,17 @@ from typing import Any
 from replication.case import INPUTS, read_case
 from replication.impact import Impact
 
-__all__ = ["case", "given", "input_options", "output_options", "path", "print_json", "warn"]
+__all__ = [
+    "case",
+    "given",
+    "input_options",
+    "may_emphasize",
+    "output_options",
+    "path",
+    "print_json",
+    "warn",
+    "width",
+]
 
 
 def path(text: str) -> Path:
@@ -58,6 +70,18 @@ def print_json(record: Any) -> None:
     from replication.reports.plain import json_text
 
     sys.stdout.write(json_text(record))
+
+
+def width(piped: int = 80) -> int:
+    """The columns of the terminal; where output goes elsewhere, so many."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
+
+
+def may_emphasize() -> bool:
+    """Whether output may be bold: to a terminal that can, and NO_COLOR is not set."""
+    return (
+        sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    )
 
 
 def warn(options: argparse.Namespace, warnings: Iterable[str]) -> None:

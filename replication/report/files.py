@@ -1,0 +1,93 @@
+"""The audit's folder: the record as JSON, CSV, Markdown, page and figures, written all or none."""
+
+import csv
+import io
+import os
+from collections.abc import Mapping
+from errno import EACCES, ENOTDIR
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from replication.audit.record import ClaimRecord, Record
+
+__all__ = ["check_folder", "contents", "json_bytes", "write"]
+
+
+def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Write the record, and the files `beside` it by name, into a folder that is made if needed.
+
+    Each file is written beside its place first; they take their names when all are there. Returns
+    what was written. Raises OSError, naming the file, and leaves nothing behind.
+    """
+    files = contents(record, beside)
+    drafts = {name: (folder / name).with_name(f".{Path(name).name}.part") for name in files}
+    try:
+        for name, draft in drafts.items():
+            draft.parent.mkdir(parents=True, exist_ok=True)
+            draft.write_bytes(files[name])
+        for name, draft in drafts.items():
+            draft.replace(folder / name)
+    finally:
+        for draft in drafts.values():
+            draft.unlink(missing_ok=True)
+    return files
+
+
+def check_folder(folder: Path) -> None:
+    """Raise OSError, naming it, if a folder cannot be written to; it need not be there yet."""
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(there))
+    if not os.access(there, os.W_OK):
+        raise PermissionError(EACCES, "cannot be written to", str(there))
+
+
+def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Every file of the folder by its name; the record names the hashes of those beside it."""
+    from replication.report.figures import draw
+    from replication.report.render import markdown, page
+
+    hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
+    provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
+    record = msgspec.structs.replace(record, provenance=provenance)
+    drawings = draw(record)
+    texts = {
+        "audit.html": page(record, drawings),
+        "audit.md": markdown(record),
+        "audit.csv": _csv(record),
+        **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
+    }
+    files = {name: text.encode() for name, text in texts.items()}
+    return {**beside, **files, "audit.json": json_bytes(record)}
+
+
+def json_bytes(document: Any) -> bytes:
+    """A JSON document with every digit of its doubles, indented."""
+    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+
+
+_COLUMNS = (
+    "id", "where", "printed", "unit", "kind", "interval_lower", "interval_upper", "computed",
+    "enclosure_lower", "enclosure_upper", "verdict", "error_in_last_digit", "title", "explanation",
+    "holds", "restates",
+)  # fmt: skip
+
+
+def _csv(record: Record) -> str:
+    """A line for each claim; what does not apply is empty."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    writer.writerows([_cell(claim, column) for column in _COLUMNS] for claim in record.claims)
+    return buffer.getvalue()
+
+
+def _cell(claim: ClaimRecord, column: str) -> Any:
+    name, _, end = column.rpartition("_")
+    if end in ("lower", "upper"):
+        ends = getattr(claim, name)
+        return ends and ends[end == "upper"]
+    return getattr(claim, column)
