@@ -3,6 +3,7 @@
 import argparse
 import sys
 from pathlib import Path
+from textwrap import fill
 
 from replication.commands import shared
 
@@ -44,6 +45,7 @@ def run(options: argparse.Namespace) -> int:
         from replication.report.terminal import summary
 
         top = dict.fromkeys(Path(name).parts[0] for name in written)
-        print(summary(record, shared.width(), shared.may_emphasize()))
-        print("", f"Written to {options.out}/: {', '.join(top)}", sep="\n")
+        width = shared.width()
+        print(summary(record, width, shared.may_emphasize()), end="\n\n")
+        print(fill(f"Written to {options.out}/: {', '.join(top)}", width, break_long_words=False))
     return 1 if options.exit_code and record.counts.failing else 0

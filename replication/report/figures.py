@@ -1,42 +1,26 @@
-"""The figures, drawn from the record: SVG that takes ink and paper of the page around it."""
+"""The figures, drawn from the record: SVG that takes ink and paper of the page around it.
 
-import io
-import re
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
-from xml.etree import ElementTree as ET
+Drawn here and not by a plotting library: its import alone takes half as long as the whole audit,
+and its style attributes are what the page's content policy forbids.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from math import log10
+from typing import NamedTuple
 
 from replication.audit.record import Approach, Effect, Level, Record
 from replication.report.facts import shown_range
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+__all__ = ["Drawing", "draw"]
 
-__all__ = ["FIGURES", "Drawing", "draw"]
+INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
+"""The color of the text around, and two of Okabe and Ito's, which stand out from white and from
+near-black, and from each other for the color-blind."""
 
-INK, BLUE, VERMILION = "#000000", "#0072B2", "#D55E00"
-"""Ink becomes the color of the text around; the others, Okabe and Ito's, stand out from white and
-from near-black, and from each other for the color-blind."""
+WIDTH = 440
 
-_LOOKS: Any = {
-    "svg.hashsalt": "coldspray",
-    "svg.fonttype": "none",
-    "font.family": "DejaVu Sans",
-    "font.size": 9.5,
-    "axes.titlesize": 9.5,
-    "axes.facecolor": "none",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.formatter.use_mathtext": False,
-    "grid.color": INK,
-    "grid.alpha": 0.15,
-    "legend.frameon": False,
-    "legend.borderaxespad": 0.2,
-    "lines.linewidth": 1.6,
-    "savefig.facecolor": "none",
-}
+Points = Iterable[tuple[float, float]]
 
 
 class Drawing(NamedTuple):
@@ -48,80 +32,219 @@ class Drawing(NamedTuple):
     svg: str
 
 
-class _Plan(NamedTuple):
-    title: str
-    size: tuple[float, float]
-    words: Callable[[Record], str]
-    plot: Callable[["Figure", Record], None]
-
-
 def draw(record: Record) -> list[Drawing]:
-    """Every figure of the record. The same record gives the same text."""
-    return [_drawn(name, plan, record) for name, plan in FIGURES.items()]
+    """Every figure of the record."""
+    return [
+        _comparison(record),
+        _sensitivity(record),
+        _figure_3(record),
+        _figure_5(record),
+        _convergence(record),
+    ]
 
 
-def _drawn(name: str, plan: _Plan, record: Record) -> Drawing:
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
+def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str]) -> Drawing:
+    """Parts as one SVG; in a file of its own it stands on white paper."""
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
+        f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
+        f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" aria-labelledby="{name}-title {name}-words">',
+        f'<title id="{name}-title">{escape(title)}</title>',
+        f'<desc id="{name}-words">{escape(words)}</desc>',
+        f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+    )
+    return Drawing(name, title, words, "\n".join((*head, *parts, "</svg>\n")))
 
-    with mpl.rc_context(_LOOKS):
-        figure = Figure(figsize=plan.size)
-        plan.plot(figure, record)
-        svg = io.StringIO()
-        figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": None})
-    words = plan.words(record)
-    return Drawing(name, plan.title, words, _tidied(svg.getvalue(), name, plan.title, words))
+
+# What a plot is made of
+
+
+class _Plot:
+    """A plot in a box of the figure, of given ranges (from left to right, from bottom to top)."""
+
+    def __init__(
+        self,
+        box: tuple[float, float, float, float],
+        x: tuple[float, float],
+        y: tuple[float, float],
+        logarithmic: bool = False,
+    ) -> None:
+        self.left, self.top, self.width, self.height = box
+        self.x, self.y, self.logarithmic = x, y, logarithmic
+        self.parts: list[str] = []
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point lies in the figure."""
+        across, up = self._share(x, self.x), self._share(y, self.y)
+        return self.left + across * self.width, self.top + (1 - up) * self.height
+
+    def _share(self, value: float, ends: tuple[float, float]) -> float:
+        low, high = map(log10, ends) if self.logarithmic else ends
+        return ((log10(value) if self.logarithmic else value) - low) / (high - low)
+
+    def axes(self, x: Iterable[float], y: Iterable[float], x_label: str, y_label: str = "") -> None:
+        """Grid, numbers at both axes, and what they are."""
+        bottom, middle = self.top + self.height, self.left + self.width / 2
+        for value in x:
+            across, _ = self.at(value, self.y[0])
+            self.parts.append(_line([(across, self.top), (across, bottom)], INK, 0.15))
+            self.parts.append(_text(across, bottom + 16, f"{value:g}", "middle"))
+        for value in y:
+            _, down = self.at(self.x[0], value)
+            self.parts.append(_line([(self.left, down), (self.left + self.width, down)], INK, 0.15))
+            self.parts.append(_text(self.left - 6, down + 4, f"{value:g}", "end"))
+        self.parts.append(
+            _line([(self.left, self.top), (self.left, bottom), (self.left + self.width, bottom)])
+        )
+        self.parts.append(_text(middle, bottom + 33, x_label, "middle"))
+        if y_label:
+            turned = f' transform="rotate(-90 12 {_n(self.top + self.height / 2)})"'
+            self.parts.append(_text(12, self.top + self.height / 2, y_label, "middle", turned))
+
+    def rows(self, labels: Sequence[str]) -> None:
+        """Labels of rows 0, 1, ... at the left; a semicolon begins a second line."""
+        for row, label in enumerate(labels):
+            _, down = self.at(self.x[0], row)
+            lines = label.split("; ")
+            for k, line in enumerate(lines):
+                y = down + 4 + 13 * (k - (len(lines) - 1) / 2)
+                self.parts.append(_text(self.left - 8, y, line, "end"))
+
+    def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
+        self.parts.append(_line([self.at(*point) for point in points], color, 1.0, dashes))
+
+    def marks(self, kind: str, color: str, points: Points) -> None:
+        self.parts += [_mark(kind, color, *self.at(*point)) for point in points]
+
+    def bar(self, low: float, high: float, y: float, color: str, height: float) -> None:
+        left, down = self.at(min(low, high), y)
+        right, _ = self.at(max(low, high), y)
+        self.parts.append(
+            f'<rect x="{_n(left)}" y="{_n(down - height / 2)}" width="{_n(right - left)}" '
+            f'height="{_n(height)}" fill="{color}"/>'
+        )
+
+
+def _n(value: float) -> str:
+    return f"{value:.1f}".removesuffix(".0")
+
+
+def _line(
+    points: Sequence[tuple[float, float]], color: str = INK, opacity: float = 1.0, dashes: str = ""
+) -> str:
+    path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
+    faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
+    dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
+    return f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
+
+
+def _text(x: float, y: float, words: str, anchor: str = "start", more: str = "") -> str:
+    return f'<text x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
+
+
+def _mark(kind: str, color: str, x: float, y: float) -> str:
+    """A mark by its name; a hollow one is larger than a filled one, so that both show."""
+    filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
+    r = 3.5 if filled else 5.0
+    looks = f'fill="{color if filled else "none"}" stroke="{color}"'
+    if shape == "circle":
+        return f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{r}" {looks}/>'
+    turned = f' transform="rotate(45 {_n(x)} {_n(y)})"' if shape == "diamond" else ""
+    return (
+        f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}{turned}/>'
+    )
+
+
+def _legend(x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> list[str]:
+    """Words below each other, each with its mark (of a kind and a color) or line."""
+    parts = []
+    for k, (words, (kind, color)) in enumerate(entries.items()):
+        down = y + 17 * k
+        if kind.endswith("line"):
+            dashes = "5 3" if kind == "dashed line" else ""
+            parts.append(_line([(x - 9, down), (x + 9, down)], color, 1.0, dashes))
+        else:
+            parts.append(_mark(kind, color, x, down))
+        parts.append(_text(x + 15, down + 4, words))
+    return parts
 
 
 # Normalized depth by every approach
 
 
-def _comparison_words(record: Record) -> str:
-    def value(approach: Approach) -> str:
-        if approach.computed is None:
-            return f"{approach.printed}, quoted by the report and not recomputable"
-        printed = f", printed {approach.printed}" if approach.printed else ""
-        return f"{approach.computed:.3f} computed{printed}"
-
-    parts = (f"{a.kind}, {a.name}: {value(a)}" for a in record.approaches)
-    return "; ".join(parts).replace("beta", "β") + "."
-
-
-def _comparison(figure: "Figure", record: Record) -> None:
+def _comparison(record: Record) -> Drawing:
     """A row for each approach: what is computed filled, what is printed or quoted hollow."""
-    axes = figure.add_axes((0.43, 0.19, 0.55, 0.8))
     observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
-    approaches = [a for a in record.approaches if a.kind != "observed"]
-    axes.axvspan(min(observed), max(observed), color=INK, alpha=0.25, lw=0, label="observed")
-    rows = list(enumerate(approaches))
-    for marker, face, color, label, chosen in (
-        ("s", "none", VERMILION, "printed by the report",
-         [(float(a.printed), y) for y, a in rows if a.printed and a.computed is not None]),
-        ("D", "none", INK, "quoted by the report, not recomputable",
-         [(float(a.printed), y) for y, a in rows if a.computed is None]),
-        ("o", BLUE, BLUE, "computed in this audit",
-         [(a.computed, y) for y, a in rows if a.computed is not None]),
-    ):  # fmt: skip
-        size = 5 if face != "none" else 8
-        axes.plot(*zip(*chosen, strict=True), marker, mfc=face, mec=color, ms=size, label=label)
-    axes.set_yticks(range(len(rows)), [_row_label(a) for a in approaches])
-    axes.set(xlabel="Normalized depth X/R", xlim=(0, 1.1), ylim=(len(rows) - 0.5, -0.5))
-    figure.legend(loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=2, columnspacing=1.0)
+    shown = [a for a in record.approaches if a.kind != "observed"]
+    plot = _Plot((190, 8, 240, 30 * len(shown)), (0, 1.1), (len(shown) - 0.5, -0.5))
+    middle = (len(shown) - 1) / 2
+    plot.bar(min(observed), max(observed), middle, "#8c959f", plot.height)
+    plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
+    names = (a.name.replace(", ", ",; ").replace("beta", "β") for a in shown)
+    plot.rows([f"{a.kind}: {name}" for a, name in zip(shown, names, strict=True)])
+    for y, a in enumerate(shown):
+        if a.computed is None:
+            plot.marks("hollow diamond", INK, [(float(a.printed), y)])
+        elif a.printed:
+            plot.marks("hollow square", VERMILION, [(float(a.printed), y)])
+        if a.computed is not None:
+            plot.marks("circle", BLUE, [(a.computed, y)])
+    bottom = plot.top + plot.height
+    legend = {
+        "computed in this audit": ("circle", BLUE),
+        "printed by the report": ("hollow square", VERMILION),
+        "quoted by the report, not recomputable": ("hollow diamond", INK),
+        "observed": ("square", "#8c959f"),
+    }
+    words = "; ".join(f"{a.kind}, {a.name}: {_value(a)}" for a in record.approaches)
+    title = "Normalized depth by every approach of the report"
+    parts = plot.parts + _legend(100, bottom + 52, legend)
+    return _drawing("comparison", title, f"{words}.".replace("beta", "β"), int(bottom + 115), parts)
 
 
-def _row_label(approach: Approach) -> str:
-    name = approach.name.replace("beta", "β").replace(", ", ",\n")
-    return f"{approach.kind}: {name}"
+def _value(approach: Approach) -> str:
+    if approach.computed is None:
+        return f"{approach.printed}, quoted by the report and not recomputable"
+    printed = f", printed {approach.printed}" if approach.printed else ""
+    return f"{approach.computed:.3f} computed{printed}"
 
 
 # What each input does
 
 
-def _effects(record: Record) -> list[tuple[str, list[Effect]]]:
-    """The effects in the case of the greatest beta, the longest first."""
+def _sensitivity(record: Record) -> Drawing:
+    """Two panels of bars about the depth as printed, the longest on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
-    panels = (("each input ± 10 %", case.ten_percent), ("its own stated range", case.stated))
-    return [(words, sorted(effects, key=_reach, reverse=True)) for words, effects in panels]
+    parts, words, top = [], [], 24.0
+    for title, effects in (
+        ("each input ± 10 %", case.ten_percent),
+        ("its own stated range", case.stated),
+    ):
+        effects = sorted(effects, key=_reach, reverse=True)
+        plot = _Plot((140, top, 240, 32 * len(effects)), (5.4, 10.6), (len(effects) - 0.5, -0.5))
+        parts.append(_text(260, top - 8, title, "middle"))
+        plot.axes(range(6, 11), [], "" if effects[0] in case.ten_percent else "Depth X [µm]")
+        stated = effects[0] in case.stated
+        plot.rows([_input(e) + f"; {shown_range(e)}" * stated for e in effects])
+        for y, effect in enumerate(effects):
+            ends = [depth * 1e6 for depth in effect.depths]
+            for end, color in zip(ends, (VERMILION, BLUE), strict=True):
+                plot.bar(case.depth * 1e6, end, y, color, 18)
+            changes = [f"{end - case.depth * 1e6:+.3f}".replace("-", "−") for end in ends]
+            for k, change in enumerate(c for c in changes if float(c.replace("−", "-"))):
+                _, down = plot.at(5.4, y)
+                parts.append(_text(434, down - 2 + 13 * k, change, "end"))
+        plot.line([(case.depth * 1e6, -0.5), (case.depth * 1e6, len(effects) - 0.5)])
+        told = (
+            f"{_input(e)} {' to '.join(f'{x * 1e6:.2f}' for x in e.depths)} µm" for e in effects
+        )
+        words.append(f"{title.capitalize()}: {'; '.join(told)}.")
+        parts += plot.parts
+        top += plot.height + 52
+    legend = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
+    parts += [*_legend(150, top + 4, legend), _text(434, 16, "change [µm]", "end")]
+    title = f"What each input does to the exact penetration depth, β = {case.beta:g}"
+    return _drawing("sensitivity", title, " ".join(words), int(top + 32), parts)
 
 
 def _reach(effect: Effect) -> float:
@@ -132,214 +255,93 @@ def _input(effect: Effect) -> str:
     return effect.input.replace("_", " ").replace("beta", "β")
 
 
-def _sensitivity_words(record: Record) -> str:
-    return " ".join(
-        f"{words.capitalize()}: "
-        + "; ".join(
-            f"{_input(e)} {e.depths[0] * 1e6:.2f} to {e.depths[1] * 1e6:.2f} µm" for e in effects
-        )
-        + "."
-        for words, effects in _effects(record)
-    )
-
-
-def _sensitivity(figure: "Figure", record: Record) -> None:
-    """Two panels of bars about the depth as printed, the longest on top."""
-    nominal = max(record.sensitivity, key=lambda s: s.beta).depth * 1e6
-    for bottom, (words, effects) in zip((0.585, 0.125), _effects(record), strict=True):
-        axes = figure.add_axes((0.3, bottom, 0.54, 0.37))
-        rows = range(len(effects))
-        for end, color, label in (
-            (0, VERMILION, "input at its low end"),
-            (1, BLUE, "at its high end"),
-        ):
-            changes = [e.depths[end] * 1e6 - nominal for e in effects]
-            axes.barh(rows, changes, left=nominal, color=color, height=0.7, label=label)
-        for y, e in enumerate(effects):
-            changes = [depth * 1e6 - nominal for depth in e.depths]
-            text = "\n".join(f"{x:+.3f}".replace("-", "−") for x in changes if x)
-            axes.text(1.02, y, text, transform=axes.get_yaxis_transform(), va="center", size=8.5)
-        stated = words != "each input ± 10 %"
-        labels = [f"{_input(e)}\n{shown_range(e)}" if stated else _input(e) for e in effects]
-        axes.axvline(nominal, color=INK, linewidth=1.0)
-        axes.set_yticks(rows, labels)
-        axes.set(title=words, xlim=(5.4, 10.6), ylim=(len(rows) - 0.5, -0.5))
-        axes.grid(visible=False, axis="y")
-    axes.set_xlabel("Depth X [µm]; at the right its change [µm]")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.2), ncols=2)
-
-
 # Depth against time, and against velocity
 
 
-def _figure_3_words(record: Record) -> str:
-    ends = "; ".join(
-        f"for β = {c.beta:g} the sheet stops at {c.sheet_depth[-1] * 1e6:.4f} µm after "
-        f"{c.sheet_time[-1] * 1e9:.1f} ns (printed {c.printed}), the exact depth at rest is "
-        f"{c.exact_depth[-1] * 1e6:.4f} µm"
-        for c in record.curves
-    )
-    return f"Depth rises ever more slowly to rest: {ends}. At this scale the two coincide."
-
-
-def _figure_3(figure: "Figure", record: Record) -> None:
-    """Every fourth row of each sheet as a point, the exact motion as a line."""
-    axes = figure.add_axes((0.11, 0.14, 0.87, 0.83))
-    for curve, color, marker in zip(record.curves, (VERMILION, BLUE), "os", strict=True):
-        times, depths = ([x * f for x in xs] for xs, f in (
-            (curve.exact_time, 1e9), (curve.exact_depth, 1e6)))  # fmt: skip
-        axes.plot(times, depths, color=INK, linewidth=1.0)
-        rows = ([t * 1e9 for t in curve.sheet_time[::4]], [x * 1e6 for x in curve.sheet_depth[::4]])
-        axes.plot(
-            *rows,
-            marker,
-            color=color,
-            ms=3.5,
-            label=f"the sheet, every fourth row, β = {curve.beta:g}",
+def _figure_3(record: Record) -> Drawing:
+    """Every eighth row of each sheet as a point, the exact motion as a line."""
+    plot = _Plot((44, 8, 386, 260), (0, 46), (0, 11.5))
+    plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
+    legend, words = {"exact": ("line", INK)}, []
+    for curve, color, kind in zip(
+        record.curves, (VERMILION, BLUE), ("circle", "square"), strict=True
+    ):
+        exact = _scaled(curve.exact_time, curve.exact_depth)
+        sheet = _scaled(curve.sheet_time, curve.sheet_depth)
+        plot.line(exact)
+        plot.marks(kind, color, sheet[::8])
+        legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = (kind, color)
+        x, y = plot.at(*exact[-1])
+        end = sheet[-1]
+        plot.parts.append(_text(x + 8, y, f"{end[1]:.4f} µm,"))
+        plot.parts.append(_text(x + 8, y + 14, f"printed {curve.printed}"))
+        words.append(
+            f"for β = {curve.beta:g} the sheet stops at {end[1]:.4f} µm after {end[0]:.1f} ns "
+            f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
         )
-        end = f"{curve.sheet_depth[-1] * 1e6:.4f} µm,\nprinted {curve.printed}"
-        axes.text(times[-1] + 0.8, depths[-1], end, va="center")
-    axes.plot([], [], color=INK, linewidth=1.0, label="exact")
-    axes.set(xlabel="Time [ns]", ylabel="Penetration depth [µm]", xlim=(0, 46), ylim=(0, 11.5))
-    axes.legend(loc="lower right")
+    told = f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
+    title = "Penetration depth against time, as in Figure 3 of the report"
+    return _drawing("figure-3", title, told, 310, plot.parts + _legend(205, 205, legend))
 
 
-def _observed(record: Record) -> float:
-    """The observed X/R that the report prints."""
-    return next(float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed)
+def _scaled(times: Sequence[float], depths: Sequence[float]) -> list[tuple[float, float]]:
+    return [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
 
 
-def _figure_5_words(record: Record) -> str:
-    curve = record.velocity_curve
-    (low, high), (first, last) = (
-        (values[0], values[-1]) for values in (curve.velocity, curve.exact)
-    )
-    return (
-        f"For β = 5, X/R rises almost in proportion to the velocity, from {first:.3f} at "
-        f"{low:g} m/s to {last:.3f} at {high:g} m/s; the sheet's points lie on the exact line. All "
-        f"of it is above the observed {_observed(record):.3f}."
-    )
-
-
-def _figure_5(figure: "Figure", record: Record) -> None:
+def _figure_5(record: Record) -> Drawing:
     """The exact line, the sheet's points, and the observed level."""
-    axes = figure.add_axes((0.11, 0.15, 0.87, 0.82))
     curve = record.velocity_curve
-    axes.plot(curve.velocity, curve.exact, color=INK, linewidth=1.0, label="exact")
-    axes.plot(
-        curve.velocity[::2], curve.sheet[::2], "s", color=BLUE, ms=4.5, label="the sheet, β = 5"
+    low, high = curve.velocity[0], curve.velocity[-1]
+    plot = _Plot((44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
+    plot.axes(range(400, 501, 20), [k / 10 for k in range(9)], "Impact velocity [m/s]",
+              "Normalized depth X/R")  # fmt: skip
+    observed = next(
+        float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed
     )
-    axes.axhline(_observed(record), color=INK, linewidth=1.0, linestyle="--", label="observed")
-    axes.set(xlabel="Impact velocity [m/s]", ylabel="Normalized depth X/R", ylim=(0, 0.8))
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.06))
+    plot.line(zip(curve.velocity, curve.exact, strict=True))
+    plot.line([(low - 5, observed), (high + 5, observed)], INK, "5 3")
+    plot.marks("square", BLUE, list(zip(curve.velocity, curve.sheet, strict=True))[::2])
+    legend = {
+        "exact": ("line", INK),
+        "the sheet, β = 5": ("square", BLUE),
+        f"observed, {observed}": ("dashed line", INK),
+    }
+    words = (
+        f"For β = 5, X/R rises almost in proportion to the velocity, from {curve.exact[0]:.3f} at "
+        f"{low:g} m/s to {curve.exact[-1]:.3f} at {high:g} m/s; the sheet's points lie on the "
+        f"exact line. All of it is above the observed {observed:.3f}."
+    )
+    title = "Normalized depth against impact velocity, as in Figure 5 of the report"
+    return _drawing("figure-5", title, words, 280, plot.parts + _legend(290, 180, legend))
 
 
 # The sheet's error against its time step
 
-
 _SCHEMES = {
-    "published": ("drag at the initial velocity", VERMILION, "o"),
-    "centered": ("drag at the middle velocity", BLUE, "s"),
+    "published": ("initial", VERMILION, "circle"),
+    "centered": ("middle", BLUE, "square"),
 }
 
 
-def _ladders(record: Record) -> dict[tuple[str, float], list[Level]]:
+def _convergence(record: Record) -> Drawing:
+    """The error of the final depth over the time step, both axes logarithmic."""
     ladders: dict[tuple[str, float], list[Level]] = {}
     for level in record.ladders:
         ladders.setdefault((level.scheme, level.beta), []).append(level)
-    return ladders
-
-
-def _convergence_words(record: Record) -> str:
-    return "; ".join(
-        f"{_SCHEMES[scheme][0]}, β = {beta:g}: "
-        + ", ".join(f"{abs(e.error) * 1e9:.2g} nm at {e.step * 1e9:g} ns" for e in levels[::2])
-        for (scheme, beta), levels in _ladders(record).items()
-    )
-
-
-def _convergence(figure: "Figure", record: Record) -> None:
-    """The error of the final depth over the time step, both axes logarithmic."""
-    axes = figure.add_axes((0.13, 0.13, 0.85, 0.72))
-    for (scheme, beta), levels in _ladders(record).items():
-        words, color, marker = _SCHEMES[scheme]
-        steps = [level.step * 1e9 for level in levels]
-        errors = [abs(level.error) * 1e9 for level in levels]
-        face = color if beta == max(level.beta for level in record.ladders) else "none"
-        axes.loglog(steps, errors, marker=marker, color=color, mfc=face, ms=5, lw=1.0,
-                    label=f"{words}, β = {beta:g}")  # fmt: skip
-    axes.set(xlabel="Time step [ns]", ylabel="Error of the final depth [nm]")
-    axes.set_xticks(steps, [f"{step:g}" for step in steps])
-    axes.yaxis.set_major_formatter("{x:g}")
-    axes.minorticks_off()
-    figure.legend(loc="upper center", ncols=2, columnspacing=1.0, fontsize=9)
-
-
-FIGURES = {
-    "comparison": _Plan("Normalized depth by every approach of the report", (5.2, 5.4),
-                        _comparison_words, _comparison),
-    "sensitivity": _Plan("What each input does to the exact penetration depth, β = 5",
-                         (5.2, 6.2), _sensitivity_words, _sensitivity),
-    "figure-3": _Plan("Penetration depth against time, as in Figure 3 of the report", (5.2, 3.8),
-                      _figure_3_words, _figure_3),
-    "figure-5": _Plan("Normalized depth against impact velocity, as in Figure 5 of the report",
-                      (5.2, 3.4), _figure_5_words, _figure_5),
-    "convergence": _Plan("Error of the sheet's final depth against its time step", (5.2, 4.0),
-                         _convergence_words, _convergence),
-}  # fmt: skip
-"""By the name of the file."""
-
-
-# Matplotlib's SVG made fit for a page
-
-_SVG = "http://www.w3.org/2000/svg"
-_LINK = "{http://www.w3.org/1999/xlink}href"
-
-
-def _tidied(text: str, name: str, title: str, words: str) -> str:
-    """The SVG without style attributes, which a strict content policy forbids, and without black.
-
-    Style becomes presentation attributes, ink the color of the text around; ids begin with `name`,
-    so that several figures stand in one page. A file of its own stands on white paper.
-    """
-    ET.register_namespace("", _SVG)
-    root = ET.fromstring(text)
-    for useless in ("metadata", "defs"):  # who made it; a style that attributes replace
-        found = root.find(f"{{{_SVG}}}{useless}")
-        if found is None:
-            raise ValueError(f"Matplotlib's SVG has no <{useless}> where one was removed")
-        root.remove(found)
-    referenced = set(re.findall(r'(?:href="|url\()#([^")]+)', text))
-    for element in root.iter():
-        _present(element)
-        given = element.attrib.pop("id", None)
-        if given in referenced:
-            element.set("id", f"{name}-{given}")
-        if _LINK in element.attrib:
-            element.set("href", f"#{name}-{element.attrib.pop(_LINK)[1:]}")
-        for key, value in element.attrib.items():
-            element.set(key, value.replace("url(#", f"url(#{name}-"))
-    root.attrib |= {
-        "class": "figure",
-        "role": "img",
-        "aria-labelledby": f"{name}-title {name}-words",
-        "color": "#1f2328",
-        "fill": "currentColor",  # Matplotlib leaves out what is black
-        "font-family": "DejaVu Sans, Verdana, sans-serif",
-        "stroke-linejoin": "round",
-    }
-    paper = {"class": "paper", "width": "100%", "height": "100%", "fill": "#ffffff"}
-    head = [ET.Element(f"{{{_SVG}}}{tag}") for tag in ("title", "desc")]
-    for element, part, content in zip(head, ("title", "words"), (title, words), strict=True):
-        element.set("id", f"{name}-{part}")
-        element.text = content
-    root[:0] = [*head, ET.Element(f"{{{_SVG}}}rect", paper)]
-    return ET.tostring(root, encoding="unicode") + "\n"
-
-
-def _present(element: ET.Element) -> None:
-    """Turn the style attribute of an element into presentation attributes."""
-    for declaration in element.attrib.pop("style", "").split(";"):
-        key, _, value = (part.strip() for part in declaration.partition(":"))
-        if key and key != "font-family":
-            element.set(key, value.replace(INK, "currentColor"))
+    plot = _Plot((44, 8, 386, 260), (0.04, 4), (0.01, 300), logarithmic=True)
+    steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
+    plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
+    legend, words = {}, []
+    for (scheme, beta), levels in ladders.items():
+        velocity, color, shape = _SCHEMES[scheme]
+        kind = shape if beta == max(level.beta for level in record.ladders) else f"hollow {shape}"
+        points = [(level.step * 1e9, abs(level.error) * 1e9) for level in levels]
+        plot.line(points, color)
+        plot.marks(kind, color, points)
+        name = f"drag at the {velocity} velocity, β = {beta:g}"
+        legend[name] = (kind, color)
+        errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
+        words.append(f"{name}: {errors}")
+    parts = plot.parts + _legend(140, 322, legend)
+    title = "Error of the sheet's final depth against its time step"
+    return _drawing("convergence", title, "; ".join(words), 388, parts)

@@ -25,13 +25,10 @@ class Named(NamedTuple):
 
 _LOWERED = str.maketrans("0123456789aehklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 _RAISED = str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")
-_SIGNS = tuple((re.compile(pattern), sign) for pattern, sign in (
-    (r"<=", "≤"), (r">=", "≥"), (r" \* ", " · "), (r" - ", " − "),
-    (r"(?<![\w)\]])-(?=\d|\(|inf)", "−"), (r"\binf\b", "∞"), (r"\bum\b", "µm"),
-    (r"\^(-?\d+|n\b)", lambda power: power[1].translate(_RAISED)),
-))  # fmt: skip
-
-
+_SIGNS = {
+    "<=": "≤", ">=": "≥", " * ": " · ", " - ": " − ", "-": "−", "inf": "∞", "um": "µm",
+}  # fmt: skip
+_SIGN = re.compile(r"<=|>=| [*-] |(?<![\w)\]])-(?=\d|\(|inf\b)|\binf\b|\bum\b|\^(?:-?\d+|n\b)")
 _POWER = re.compile(r"\^(\([^()]*\))")
 
 
@@ -103,8 +100,7 @@ class Prose:
         def part(k: int, text: str) -> str:
             if k % 2:
                 return reference(text)
-            for pattern, sign in _SIGNS:
-                text = pattern.sub(sign, text)
+            text = _SIGN.sub(_sign, text)
             text = self._pattern.sub(symbol, escaped(powers_of_ten(text)))
             return _POWER.sub(lambda power: raised(power[1]), text)
 
@@ -119,6 +115,10 @@ class Prose:
         title, anchor, _ = self.names[name]
         inner = self.html(title)
         return f'<a href="#{anchor}">{inner}</a>' if anchor else str(inner)
+
+
+def _sign(found: re.Match[str]) -> str:
+    return _SIGNS.get(found[0]) or found[0][1:].translate(_RAISED)
 
 
 def _word(letter: str) -> str:

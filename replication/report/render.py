@@ -2,16 +2,18 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from hashlib import sha256
 from importlib import resources
+from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any
 
-from replication.audit.record import FindingRecord, Record, SourceRecord
+from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
+from replication.audit.verdict import Verdict
 from replication.report import facts as told
-from replication.report.facts import Arranged, Table
+from replication.report import tables
 from replication.report.figures import Drawing
-from replication.report.prose import Named, Prose, quoted
+from replication.report.prose import Prose, quoted
 from replication.text import number
 
 if TYPE_CHECKING:
@@ -50,7 +52,7 @@ def page(record: Record, drawings: Sequence[Drawing]) -> str:
         drawings={drawing.name: drawing for drawing in drawings},
         style=style,
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-    )
+    ).lstrip()
 
 
 def markdown(record: Record) -> str:
@@ -64,14 +66,14 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
     """Where the templates are found, and their filters."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    environment = Environment(
+    found = Environment(
         loader=PackageLoader("replication.report", ""),
         autoescape=escaping,  # noqa: S701  (the page is escaped; the others are no HTML)
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {
+    found.filters |= {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
@@ -79,48 +81,35 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    return environment
+    return found
 
 
 def _context(record: Record) -> dict[str, Any]:
-    """What the templates show: the record, and its parts in the order in which they stand."""
-    groups, names = Arranged.of(record), told.names_of(record)
-    sections = {id_: title for id_, title in SECTIONS.items() if id_ != "open" or groups.open}
+    """What both templates show: the record, and its parts in the order in which they stand."""
+    groups, names = _groups(record), told.names_of(record)
     return {
         "record": record,
+        "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
         "groups": groups,
-        "sections": list(sections.items()),
-        "titles": sections,
+        "names": names,
+        "counted": counted(record),
         "verdicts": told.VERDICTS,
         "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
-        "counted": counted(record),
-        "failing": told.failing(record, groups.open),
-        "facts": lambda claim: told.facts(claim, names),
-        "tables": told.tables,
-        "repairs": told.repairs,
-        "evidence": _evidence,
         "between": told.between,
         "quantity": told.quantity,
+        "facts": lambda claim: told.facts(claim, names),
+        "tables": tables,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": _touching(record),
-        "assumed": "; ".join(
-            dict.fromkeys(text for claim in groups.cells.values() for text in claim.assumes)
-        ),
-        "proven": _proven(groups, names),
-        "approaches": _approaches(record),
-        "ladders": _ladders(record),
-        "sensitivity": _sensitivity(record),
-        "scatter": _scatter(record),
-        "compared": _compared(record),
-        "compared_ids": {claim.id: claim for claim in groups.compared},
-        "names": names,
+        "sources": _sources(record),
+        "table": _table_a_1(groups["table-a-1"]),
     }
 
 
 def counted(record: Record) -> str:
     """The counts in words, the independent checks first."""
     counts = record.counts
-    failing = sum(equation.verdict == "not reproduced" for equation in record.equations)
+    failing = sum(equation.verdict == Verdict.NOT_REPRODUCED for equation in record.equations)
     return (
         f"{counts.calculations} independent checks come out as printed; they cover "
         f"{counts.reproduced} of the {counts.numbers} numbers that the report prints. "
@@ -128,6 +117,43 @@ def counted(record: Record) -> str:
         f"equations {counts.equations_derived} follow from those before them or from mechanics, "
         f"{failing} does not, and the others are definitions or taken from the literature."
     )
+
+
+def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
+    """The claims by the section that shows them; each stands in one section only."""
+    constants = {c.claim for equation in record.equations for c in equation.constants}
+    by_verdict = {
+        Verdict.REPRODUCED: "computed", Verdict.CONSISTENT: "repeated", Verdict.AGREES: "sources",
+        Verdict.DIFFERS: "sources", Verdict.REMARK: "remarks", Verdict.NOT_CHECKABLE: "undecided",
+    }  # fmt: skip
+    names = ("open", "equations", "table-a-1", *dict.fromkeys(by_verdict.values()))
+    groups: dict[str, dict[str, ClaimRecord]] = {name: {} for name in names}
+    for claim in record.claims:
+        name = by_verdict.get(Verdict(claim.verdict), "open")
+        if name != "open" and claim.id in constants:
+            name = "equations"
+        elif name != "open" and claim.cell:
+            name = "table-a-1"
+        groups[name][claim.id] = claim
+    return groups
+
+
+def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
+    """Table A-1 as it stands in the report, and a letter for each verdict and its conventions."""
+    cells = {str(claim.cell): claim for claim in claims.values()}
+    said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
+    letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
+    below = [cell for cell in cells if not cell.startswith("B")]
+    columns = sorted({cell[0] for cell in below})
+    rows = sorted({int(cell[1:]) for cell in below})
+    return {
+        "header": [claim for cell, claim in cells.items() if cell.startswith("B")],
+        "rows": [[cells.get(f"{column}{row}") for column in columns] for row in rows],
+        "letters": letters,
+        "marks": {name: letters[text] for name, text in said.items()},
+        "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
+        "proven": tables.proven(cells),
+    }
 
 
 def _touching(record: Record) -> dict[str, list[FindingRecord]]:
@@ -139,124 +165,17 @@ def _touching(record: Record) -> dict[str, list[FindingRecord]]:
     return touching
 
 
-def _evidence(finding: FindingRecord) -> Table:
-    rows = [
-        (
-            e.means,
-            told.quantity(e.asserted, e.unit),
-            told.evidence(e) + ("" if e.holds else ": NOT AS STATED"),
-        )
-        for e in finding.evidence
-    ]
-    return Table(
-        "As the finding states them, and as computed", ("what", "stated", "computed"), rows
-    )
-
-
-def _proven(groups: Arranged, names: Mapping[str, Named]) -> Table:
-    """The cells of Table A-1 that are computed, with all digits that matter."""
-    rows = [
-        (
-            claim.title,
-            str(claim.cell),
-            told.quantity(number(claim.computed or 0.0, 10), claim.unit),
-            str(dict(told.facts(claim, names))["proven range"]),
-        )
-        for claim in groups.cells.values()
-        if claim.computed is not None
-    ]
-    return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
-
-
-def _approaches(record: Record) -> Table:
-    rows = [
-        (
-            f"{a.kind}: {a.name}",
-            "not recomputable" if a.computed is None else number(a.computed, 5),
-            f"{a.printed} `{a.claim}`" if a.claim else "",
-        )
-        for a in record.approaches
-    ]
-    return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
-
-
-def _ladders(record: Record) -> Table:
-    """A row for each time step, a column for each case and scheme."""
-    schemes = {"published": "initial", "centered": "middle"}
-    columns = list(dict.fromkeys((level.beta, level.scheme) for level in record.ladders))
-    found = {(level.step, level.beta, level.scheme): level for level in record.ladders}
-    rows = [
-        (
-            f"{number(step * 1e9)} ns",
-            *(
-                f"{found[step, *column].depth * 1e6:.6f} ({found[step, *column].error * 1e9:+.3f})"
-                for column in columns
-            ),
-        )
-        for step in dict.fromkeys(level.step for level in record.ladders)
-    ]
-    heads = [f"beta = {beta:g}, {schemes[scheme]} velocity" for beta, scheme in columns]
-    caption = (
-        "Final depth of the sheet [um] and its error [nm], by the velocity at which drag is taken"
-    )
-    return Table(caption, ("time step", *heads), rows)
-
-
-def _sensitivity(record: Record) -> list[Table]:
-    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
-    return [
-        Table(
-            f"Derivatives and stated ranges, beta = {number(case.beta)}",
-            heads,
-            [
-                (
-                    effect.input.replace("_", " "),
-                    f"{case.elasticities[effect.input]:+.3f}",
-                    told.shown_range(effect),
-                    _span([f"{depth * 1e6:.3f}" for depth in effect.depths]),
-                    _span([f"{ratio:.4f}" for ratio in effect.ratios]),
-                    effect.why,
-                )
-                for effect in case.stated
-            ],
-        )
-        for case in record.sensitivity
-    ]
-
-
-def _span(ends: Sequence[str]) -> str:
-    return " to ".join(dict.fromkeys(ends))
-
-
-def _scatter(record: Record) -> Table:
-    shares = [point.share for point in record.scatter[0].points]
-    heads = (
-        "law", "standard deviation", "mean deviation",
-        *(f"V and X/R that {number(100 * share)} % do not exceed" for share in shares),
-    )  # fmt: skip
-    rows = [
-        (
-            law.law,
-            f"{law.standard_deviation:.1f} m/s",
-            f"{law.mean_deviation:.1f} m/s",
-            *(f"{point.velocity:.0f} m/s, {point.ratio:.3f}" for point in law.points),
-        )
-        for law in record.scatter
-    ]
-    return Table("Velocity and X/R over the particles of the stream", heads, rows)
-
-
-def _compared(record: Record) -> list[tuple[str, list[tuple[SourceRecord, str]]]]:
+def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
     """What public sources print for a claim or an inferred input, and what comes of comparing."""
     outcomes = {True: "agrees", False: "differs", None: ""}
-    claims = [
-        (claim.id, [(source, outcomes[source.agrees]) for source in claim.sources])
+    claims = {
+        claim.id: [(source, outcomes[source.agrees]) for source in claim.sources]
         for claim in record.claims
         if claim.sources
-    ]
-    inferred = [
-        (f"inferred:{one.id}", [(each.source, f"is {each.verdict}") for each in one.sources])
+    }
+    inferred = {
+        f"inferred:{one.id}": [(each.source, f"is {each.verdict}") for each in one.sources]
         for one in record.inferred
         if one.sources
-    ]
-    return claims + inferred
+    }
+    return claims | inferred

@@ -10,9 +10,9 @@ from reference.findings import load
 from reference.ledger import INFERRED, Claim, Ledger
 from replication.audit.record import ClaimRecord, Record
 from replication.report import facts as told
-from replication.report.facts import Arranged, Table
 from replication.report.prose import Named, Prose
 from replication.report.render import counted, environment
+from replication.report.tables import Table, failing, tried
 from replication.text import number
 
 __all__ = ["columns", "ledger_table", "proof", "summary"]
@@ -42,7 +42,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         record=record,
         counted=counted(record),
         verdicts=told.VERDICTS,
-        failing=_by_title(record, told.failing(record, Arranged.of(record).open)),
+        failing=_by_title(record, failing(record)),
         main=Table("Main results", ("number", "printed", "computed", "verdict"), rows),
         shown=FINDINGS,
     )
@@ -71,7 +71,7 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
         claim=claim,
         printed=told.printed,
         facts=told.facts(claim, names),
-        tables=told.tables(claim),
+        tables=tried(claim),
         findings=[
             finding.title
             for finding in load().values()

@@ -166,6 +166,8 @@ def test_a_text_of_the_ledger_cannot_become_markup(record: Record) -> None:
 def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None:
     figures = {name: text.decode() for name, text in files.items() if name.startswith("figures/")}
     assert len(figures) == 5
+    shown = Path(__file__).parents[2] / "docs" / "comparison.svg"  # by the README
+    assert shown.read_text("utf-8") == figures["figures/comparison.svg"]
     for text in figures.values():
         assert text.strip() in files["audit.html"].decode()
         root = ET.fromstring(text)
@@ -258,9 +260,7 @@ def test_a_proof_fits_the_terminal(record: Record, name: str) -> None:
     assert max(map(len, text.splitlines())) <= 80
     claim = record.claim(name)
     assert claim.verdict in text
-    assert all(
-        terminal.told.number(figure.value, 5).lstrip("-") in text for figure in claim.figures
-    )
+    assert all(terminal.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
     assert ("One input changed" in text) == bool(claim.back_solved)
 
 
