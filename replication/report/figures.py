@@ -48,7 +48,8 @@ def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
         f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
-        f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" aria-labelledby="{name}-title {name}-words">',
+        f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" '
+        f'aria-labelledby="{name}-title {name}-words">',
         f'<title id="{name}-title">{escape(title)}</title>',
         f'<desc id="{name}-words">{escape(words)}</desc>',
         f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
