@@ -126,7 +126,7 @@ _WORDS = (
     ("one", "two", "three", "four", "five"),
     ("third", "half"),
     ("one-sixth", "one-fifth"),
-    ("twice", "three times"),
+    ("twice", "thrice"),
 )
 
 
