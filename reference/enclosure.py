@@ -175,14 +175,21 @@ class Exploration:
         return self.decided and self.inside is None
 
 
-def explore(function: Function, box: Box, target: Interval, budget: int = 500) -> Exploration:
+def explore(
+    function: Function, box: Box, target: Interval, budget: int = 500, *, sharp: bool = True
+) -> Exploration:
     """Decide whether values over the box fall inside the target interval.
+
+    Not `sharp`: a range that is wider than need be will do where it decides.
 
     Where every input acts in one direction, the way from the least to the greatest value is
     searched. Else by branch and bound: the part whose middle comes nearest to the target is cut
     first, along its relatively widest side. It ends when points inside and outside are both known,
     when every part is decided, or after `budget` evaluations.
     """
+    plain = _plain(function, box)
+    if target.excludes(*plain) and not sharp:
+        return Exploration(*plain, None, _middle(box), decided=True)
     whole = enclose(function, box)
     if target.encloses(*whole.ends):
         return Exploration(*whole.ends, _middle(box), None, decided=True)
@@ -507,7 +514,7 @@ def _at(function: Function, corner: Mapping[str, Fraction]) -> Function:
 
 
 def satisfying(
-    constraints: Sequence[Constraint], box: Box, budget: int = 1000
+    constraints: Sequence[Constraint], box: Box, budget: int = 60
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
     """Whether some point of the box satisfies every constraint, with such a point if one is known.
 

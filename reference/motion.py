@@ -93,7 +93,7 @@ def sheet_rows(
         return (drag * v**2 + push) * contact_share(ar, x * per_radius)
 
     time, x, v = ar.number(0), velocity * half_step, velocity
-    while True:
+    for _ in range(_MOST_ROWS):
         time = time + step
         a = deceleration(x, v)
         if centered:
@@ -107,6 +107,11 @@ def sheet_rows(
             # Where a box of inputs is run, only those that have not stopped go on.
             v = ar.greatest(v, stop_velocity)
         x = x + v * step
+    raise ArithmeticError(f"the sheet does not end in {_MOST_ROWS} rows")
+
+
+_MOST_ROWS = 5000
+"""Forty times those of the report: what takes more is no impact, or no step."""
 
 
 def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:

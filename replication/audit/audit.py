@@ -25,7 +25,7 @@ from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Ver
 from replication.models import sheet
 from replication.text import number, powers_of_ten, rounded
 
-__all__ = ["audit", "audit_claim"]
+__all__ = ["Audit", "audit", "audit_claim"]
 
 
 def audit() -> r.Record:
@@ -34,21 +34,21 @@ def audit() -> r.Record:
     >>> print(audit().claim("depth-beta-5").verdict)
     reproduced
     """
-    return _Audit(ledgers.load()).record()
+    return Audit(ledgers.load()).record()
 
 
 def audit_claim(name: str) -> r.ClaimRecord:
     """Audit one claim. Raises KeyError if the ledger has none of this id."""
-    whole = _Audit(ledgers.load())
+    whole = Audit(ledgers.load())
     return whole.claim(whole.ledger.claims[name])
 
 
-class _Audit:
-    """Builds the record; what several parts of it need is computed once."""
+class Audit:
+    """The audit of one ledger; what several parts of its record need is computed once."""
 
-    def __init__(self, ledger: Ledger) -> None:
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger = ledger
-        self.judge = Judge(ledger)
+        self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
         self._equations: dict[str, EquationAssessment] = {}
         self._assessments: dict[str, Assessment] = {}
@@ -56,11 +56,13 @@ class _Audit:
         self._shown_values: dict[str, tuple[float, float] | None] = {}
 
     def equation(self, name: str) -> EquationAssessment:
+        """The verdict on one equation."""
         if name not in self._equations:
             self._equations[name] = assess_equation(self.ledger, name)
         return self._equations[name]
 
     def assessment(self, claim: Claim) -> Assessment:
+        """The verdict on one claim."""
         if claim.id not in self._assessments:
             self._assessments[claim.id] = self._assess(claim)
         return self._assessments[claim.id]
@@ -86,6 +88,7 @@ class _Audit:
     # The record
 
     def record(self) -> r.Record:
+        """Everything, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
         known = Known(self.judge, self.explainer, self._assessments, self._equations)
@@ -143,6 +146,7 @@ class _Audit:
     # Claims
 
     def claim(self, claim: Claim) -> r.ClaimRecord:
+        """One claim, as data."""
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
         fails = assessment.verdict.is_failure or any(
@@ -205,6 +209,7 @@ class _Audit:
         )
 
     def repairs(self, name: str) -> list[Repair]:
+        """The misprints that would explain a claim or an equation that fails."""
         if name not in self._repairs:
             within = None if name in self.ledger.equations else self.ledger.claims[name].within
             # A constant is mended with its equation.
@@ -214,6 +219,8 @@ class _Audit:
     def _explanation(self, claim: Claim, assessment: Assessment) -> str:
         if assessment.readings:
             return wording.explanation(self.judge, claim, assessment.readings)
+        if assessment.reason:
+            return f"With the numbers as printed it cannot be computed: {assessment.reason}."
         if claim.entry.kind == "remark":
             return "A remark, no number: the figures below are what it can be judged by."
         if claim.computation is not None:
@@ -387,9 +394,9 @@ class _Audit:
         )
 
     def _culprit(self) -> r.CulpritRecord | None:
-        failing = [name for name, a in self._assessments.items() if a.verdict.is_failure]
-        failing += [name for name, a in self._equations.items() if a.verdict.is_failure]
-        culprit = self.explainer.culprit({name: self.repairs(name) for name in failing})
+        assessed = {**self._assessments, **self._equations}
+        failing = [name for name, a in assessed.items() if a.verdict.is_failure]
+        culprit = self.explainer.culprit(failing)
         if culprit is None:
             return None
         return r.CulpritRecord(repair=self._repair(culprit.repair), explains=list(culprit.explains))

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Constraint, Solutions, extent, satisfying, solve
+from reference.enclosure import Constraint, Solutions, enclose, extent, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
@@ -69,7 +69,7 @@ class Inference:
         The printed mass and density tell the radius more closely than its own print does: with
         `by_mass` the mass is free in its place.
         """
-        claims = [self.ledger.claims[name] for name in self.agreeing]
+        claims = [self.ledger.claims[name] for name in self.entry.evidence]
         names = {name for claim in claims for name in claim.entries} - {self.name}
         radius, mass = self.entry.radius, self.entry.mass
         if by_mass and radius in names:
@@ -101,6 +101,22 @@ class Inference:
         constraints.append((lambda _, **entries: entries[radius], own))
         return [(of_mass(function), target) for function, target in constraints]
 
+    @cached_property
+    def radius(self) -> tuple[str, tuple[Fraction, Fraction]]:
+        """The radius, by name, and the values of it that its print and the printed mass admit."""
+        name, mass, density = self.entry.radius, self.entry.mass, self.entry.density
+        box = {key: self.ledger.claims[key].as_input(Convention()).ends for key in (mass, density)}
+
+        def of_mass(ar: Arithmetic, **entries: Number) -> Number:
+            volume = entries[mass] / entries[density]
+            return ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
+
+        low, high = self.ledger.claims[name].as_input(Convention()).ends
+        least, greatest = enclose(of_mass, box).ends
+        if greatest < low or high < least:  # the mass contradicts it
+            return name, (low, high)
+        return name, (max(low, least), min(high, greatest))
+
     def holds_at(self, point: Mapping[str, Fraction]) -> bool:
         """Whether the evidence can hold at a point; other inputs are within their rounding."""
         by_mass = self.entry.radius not in point
@@ -129,7 +145,7 @@ def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
     """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
     `name` is its id with "inferred:" before it. Evidence that no value serves together with the
-    rest is left out; the Inference names it. Raises ValueError if no evidence admits any value.
+    rest is left out; the Inference names it. If none of it admits any value, the nominal one stays.
     """
     evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
     return _infer(ledger, name, centered, evidence, {})
@@ -148,6 +164,9 @@ def _infer(
         function = ledger.function(claim, frozenset({name}), centered=centered, fixed=fixed)
         each[claim.id] = solve(function, name, search, claim.target())
     agreeing = _agreeing(each)
+    if not agreeing:
+        nominal = Interval.point(ledger.value(name))
+        return Inference(ledger, name, centered, each, (), nominal, nominal)
     inner, outer = (
         _intersection([getattr(each[claim], which) for claim in agreeing])
         for which in ("inner", "outer")
@@ -156,13 +175,14 @@ def _infer(
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
-    """The largest set of evidence that one value serves; of several, that of the least value."""
+    """The largest set of evidence that one value serves; of several, that of the least value.
+
+    Empty if no value of the search serves any of it.
+    """
     best: tuple[str, ...] = ()
     for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):
         agreeing = tuple(name for name, solutions in each.items() if solutions.admits(value))
         best = max(best, agreeing, key=len)
-    if not best:
-        raise ValueError("no value of the search serves any of the evidence")
     return best
 
 

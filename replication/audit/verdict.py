@@ -11,6 +11,7 @@ from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
 from reference.enclosure import Box, Exploration, enclose, explore
+from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from replication.audit.inference import Inference, infer
@@ -86,18 +87,25 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """The verdict on a claim, and the readings that it comes from; the first is as printed."""
+    """The verdict on a claim, and the readings that it comes from; the first is as printed.
+
+    `reason` tells why its formula has no value, where that is so.
+    """
 
     claim: Claim
     verdict: Verdict
     readings: tuple[Reading, ...] = ()
+    reason: str = ""
 
 
 class Judge:
-    """Judges the claims of one ledger; what several of them ask for is computed once."""
+    """Judges the claims of one ledger; what several of them ask for is computed once.
 
-    def __init__(self, ledger: Ledger) -> None:
-        self.ledger = ledger
+    With `every_convention` they are judged under all of them, else under the usual one only.
+    """
+
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger, self.every_convention = ledger, every_convention
         self._inferences: dict[tuple[str, bool], Inference] = {}
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
         self._explorations: dict[Any, Exploration] = {}
@@ -131,12 +139,15 @@ class Judge:
     def assess(self, claim: Claim) -> Assessment:
         """The verdict on a claim that a computation gives.
 
-        Raises ArithmeticError where a formula has no value at the inputs as printed.
+        A claim whose formula has no value at the inputs as printed does not follow from them.
         """
         if claim.computation is not None and claim.computation.restates:
             agrees = restates(self.ledger, claim, {})
             return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
-        readings = tuple(self._reading(claim, name) for name in claim.computations)
+        try:
+            readings = tuple(self._reading(claim, name) for name in claim.computations)
+        except (ArithmeticError, EquationError) as error:
+            return Assessment(claim, Verdict.NOT_REPRODUCED, reason=str(error))
         return Assessment(claim, readings[0].verdict, readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
@@ -168,14 +179,19 @@ class Judge:
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
         usual = Convention()
-        for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
+        schemes = (False, True) if claim.by_scheme else (False,)
+        for centered, rounding in product(schemes, Rounding):
             convention = replace(usual, rounding=rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
-                continue
-            for other in _input_conventions(self.ledger, claim, convention):
-                yield self._search(claim, name, other)
+            else:
+                for other in _input_conventions(self.ledger, claim, convention):
+                    yield self._search(claim, name, other)
+                    if not self.every_convention:
+                        return
+            if not self.every_convention:
+                return
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -225,14 +241,16 @@ class Judge:
             if known.inside is not None or closed.excludes(known.lower, known.upper):
                 return known
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        whole_sheet = claim.by_scheme and claim.entry.row is None
+        budget = _BUDGET // 10 if whole_sheet else _BUDGET
         found = None
         if not target.is_point:
             inside = Interval(target.lower, target.upper, False, False)
-            found = explore(function, box, inside, _BUDGET)
+            found = explore(function, box, inside, budget, sharp=not whole_sheet)
         if found is None or (
             found.inside is None and not target.excludes(found.lower, found.upper)
         ):
-            found = explore(function, box, target, _BUDGET)
+            found = explore(function, box, target, budget, sharp=not whole_sheet)
         self._explorations[key] = found
         return found
 
@@ -264,7 +282,13 @@ class Judge:
     ) -> dict[str, tuple[Fraction, Fraction]]:
         """Every printed entry that prints like the report's."""
         printed = (entry for entry in claim.entries if not entry.startswith(INFERRED))
-        return {name: self.ledger.claims[name].as_input(convention).ends for name in printed}
+        box = {name: self.ledger.claims[name].as_input(convention).ends for name in printed}
+        for unknown in (entry for entry in claim.entries if entry.startswith(INFERRED)):
+            # The printed mass and density tell the radius more closely than its own print does.
+            radius, ends = self.inference(unknown).radius
+            if radius in box and not convention.header_exact:
+                box[radius] = ends
+        return box
 
     def _inferred(self, claim: Claim, convention: Convention, which: str) -> Box:
         inferred = (entry for entry in claim.entries if entry.startswith(INFERRED))
@@ -300,15 +324,16 @@ def _exactly(function: Function, box: Box) -> Fraction | None:
         return None
 
 
-_BUDGET = 40
-"""Boxes that a search may try: a formula takes one, a sheet of a hundred rows 10 ms for each."""
+_BUDGET = 100
+"""Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:
     """The conventions on inputs that make a difference to the claim, the usual one first.
 
     Truncation of a sheet's result is judged with its inputs exact: which rounded inputs would do is
-    no question then, as the table, which the same sheet printed, is not truncated.
+    no question then, as the table, which the same sheet printed, is not truncated. Choices are
+    exact for a whole sheet: were the 5 of beta rounded to its one digit, any depth would do.
     """
     claims = [ledger.claims[entry] for entry in claim.entries if not entry.startswith(INFERRED)]
     chosen = any(entry.chosen for entry in claims)
@@ -318,7 +343,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    for choices, head in product(
-        (True, False) if chosen else (True,), (False, True) if header else (False,)
-    ):
+    whole_sheet = claim.by_scheme and claim.entry.row is None
+    choices_exact = (True, False) if chosen and not whole_sheet else (True,)
+    for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)
