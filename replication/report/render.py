@@ -95,7 +95,7 @@ def _context(record: Record) -> dict[str, Any]:
         "counted": counted(record),
         "verdicts": told.VERDICTS,
         "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
-        "between": told.between,
+        "inferred": _inferred(record),
         "quantity": told.quantity,
         "facts": lambda claim: told.facts(claim, names),
         "tables": tables,
@@ -163,6 +163,27 @@ def _touching(record: Record) -> dict[str, list[FindingRecord]]:
         for claim in finding.claims:
             touching.setdefault(claim, []).append(finding)
     return touching
+
+
+def _inferred(record: Record) -> dict[str, str]:
+    """By id, what is known of an input that the report never prints."""
+    velocities = {"published": "velocity with which a row begins", "centered": "middle velocity"}
+    texts = {
+        one.id: f"The {one.title} is printed nowhere. The audit computes with "
+        f"{told.quantity(number(one.assumed), one.unit)}: {one.nominal_source}."
+        for one in record.inferred
+    }
+    for one in record.inferred:
+        ends = told.quantity(told.between(one.interval, 7, inward=True), one.unit)
+        texts[one.id] += (
+            f" With the drag at the {velocities[one.scheme]} the header of Table A-1 exactly as "
+            f"printed admits {ends}"
+        )
+        if one.possible_with_rounded_inputs:
+            ends = told.quantity(told.between(one.possible_with_rounded_inputs, 7), one.unit)
+            texts[one.id] += f"; if its numbers are themselves rounded, none outside {ends} does"
+        texts[one.id] += "."
+    return texts
 
 
 def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
