@@ -394,8 +394,9 @@ class Audit:
         )
 
     def _culprit(self) -> r.CulpritRecord | None:
-        assessed = {**self._assessments, **self._equations}
-        failing = [name for name, a in assessed.items() if a.verdict.is_failure]
+        verdicts = {name: a.verdict for name, a in self._assessments.items()}
+        verdicts |= {name: a.verdict for name, a in self._equations.items()}
+        failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         culprit = self.explainer.culprit(failing)
         if culprit is None:
             return None
