@@ -9,8 +9,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from replication import frank_zook, midpoint, resistance, sphere, stream
-from replication.impact import Impact
+from replication.models import crater, frank_zook, resistance, stream
+from replication.models.impact import Impact
+from replication.models.sheet import deceleration, run
 
 __all__ = ["REPLICA"]
 
@@ -39,17 +40,22 @@ def _cell(column: str) -> Callable[..., float]:
     """The cell of one column in the given row of the sheet."""
 
     def cell(row: int, **inputs: float) -> float:
-        return float(getattr(midpoint.run(_impact(**inputs)).rows[row], column))
+        return float(getattr(run(_impact(**inputs)).rows[row], column))
 
     return cell
 
 
 def _depth(**inputs: float) -> float:
-    return midpoint.run(_impact(**inputs)).final_depth
+    return run(_impact(**inputs)).final_depth
 
 
 def _normalized_depth(**inputs: float) -> float:
-    return midpoint.run(_impact(**inputs)).normalized_depth
+    return run(_impact(**inputs)).normalized_depth
+
+
+def _deceleration_at_touch(impact: Impact) -> float:
+    target = impact.target_density, impact.target_resistance
+    return deceleration(0.0, impact.velocity, impact.radius, impact.mass, *target)
 
 
 def _betas(
@@ -69,24 +75,24 @@ REPLICA: dict[str, Callable[..., float]] = {
     "half": lambda value: value / 2,
     "twice": lambda value: 2 * value,
     "count": lambda **values: float(len(values)),
-    "cap_volume_factor": lambda: sphere.cap_volume(1.0, 1.0) / (2 * math.pi),
+    "cap_volume_factor": lambda: crater.cap_volume(1.0, 1.0) / (2 * math.pi),
     "cap_volume_power": lambda: math.log2(
-        sphere.cap_volume(0.25, 1.0) / 2.75 / (sphere.cap_volume(0.125, 1.0) / 2.875)
+        crater.cap_volume(0.25, 1.0) / 2.75 / (crater.cap_volume(0.125, 1.0) / 2.875)
     ),
-    "cap_volume_offset": lambda: 3 * sphere.cap_volume(1.0, 1.0) / math.pi + 1,
-    "sphere_volume_factor": lambda: sphere.volume(1.0) / math.pi,
-    "sphere_volume_power": lambda: math.log2(sphere.volume(2.0) / sphere.volume(1.0)),
+    "cap_volume_offset": lambda: 3 * crater.cap_volume(1.0, 1.0) / math.pi + 1,
+    "sphere_volume_factor": lambda: crater.volume(1.0) / math.pi,
+    "sphere_volume_power": lambda: math.log2(crater.volume(2.0) / crater.volume(1.0)),
     "contact_area_power": lambda: math.log2(_missing_area(0.25) / _missing_area(0.125)),
     "sphere_length_ratio": frank_zook.sphere_length_ratio,
-    "sphere_volume": lambda diameter: sphere.volume(diameter / 2),
-    "crater_normalized_depth": lambda volume_ratio: sphere.depth_from_volume_ratio(volume_ratio),
+    "sphere_volume": lambda diameter: crater.volume(diameter / 2),
+    "crater_normalized_depth": lambda volume_ratio: crater.depth_from_volume_ratio(volume_ratio),
     "crater_depth": lambda volume_ratio, diameter: (
-        sphere.depth_from_volume_ratio(volume_ratio) * diameter / 2
+        crater.depth_from_volume_ratio(volume_ratio) * diameter / 2
     ),
     "crater_depth_over_diameter": lambda volume_ratio: (
-        sphere.depth_from_volume_ratio(volume_ratio) / 2
+        crater.depth_from_volume_ratio(volume_ratio) / 2
     ),
-    "contact_diameter": sphere.contact_diameter,
+    "contact_diameter": crater.contact_diameter,
     "target_resistance": resistance.target_resistance,
     "goodier_beta": lambda q: resistance.goodier_beta(q),
     "walker_anderson_alpha": resistance.walker_anderson_alpha,
@@ -96,15 +102,13 @@ REPLICA: dict[str, Callable[..., float]] = {
     "least_beta": lambda **inputs: min(_betas(**inputs)),
     "greatest_beta": lambda **inputs: max(_betas(**inputs)),
     "strain_rate": stream.strain_rate,
-    "particle_mass": lambda radius, particle_density: sphere.volume(radius) * particle_density,
+    "particle_mass": lambda radius, particle_density: crater.volume(radius) * particle_density,
     "row_time": lambda row, step: row * step,
     "row_velocity_initial": _cell("velocity_initial"),
     "row_depth": _cell("depth"),
     "row_deceleration": _cell("deceleration"),
     "row_velocity_final": _cell("velocity_final"),
-    "deceleration_at_touch": lambda velocity, **inputs: midpoint.deceleration(
-        _impact(velocity=velocity, **inputs), 0.0, velocity
-    ),
+    "deceleration_at_touch": lambda **inputs: _deceleration_at_touch(_impact(**inputs)),
     "sheet_depth": _depth,
     "sheet_normalized_depth": _normalized_depth,
     "sheet_over_observed": lambda observed, **inputs: _normalized_depth(**inputs) / observed,
@@ -121,7 +125,7 @@ REPLICA: dict[str, Callable[..., float]] = {
 
 def _missing_area(x: float) -> float:
     """D x - a^2 of a unit sphere at depth x, from the contact circle's diameter."""
-    return 2 * x - float(sphere.contact_diameter(x, 2.0)) ** 2 / 4
+    return 2 * x - float(crater.contact_diameter(x, 2.0)) ** 2 / 4
 
 
 def _frank_zook_multiple(per_diameter: float) -> float:

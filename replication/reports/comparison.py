@@ -4,7 +4,6 @@ from dataclasses import asdict
 from typing import Any
 
 from reference.ledger import Ledger
-from replication import closed_form
 from replication.analysis.approaches import Approach
 from replication.analysis.scatter import (
     SHARES,
@@ -16,7 +15,8 @@ from replication.analysis.scatter import (
     tied_particles,
 )
 from replication.analysis.sensitivity import elasticities, stated_effects, ten_percent_effects
-from replication.impact import BETA_5, CASES
+from replication.cases import BETA_5, CASES
+from replication.models.depth import final_depth
 from replication.text import number
 
 __all__ = ["approach_record", "scatter_record", "sensitivity_record", "shown_range"]
@@ -51,7 +51,7 @@ def sensitivity_record(ledger: Ledger) -> dict[str, Any]:
     """By case: logarithmic derivatives, and what ranges of the inputs do to the exact depth."""
     return {
         name: {
-            "depth": float(closed_form.final_depth(**case.motion)),
+            "depth": float(final_depth(**case.motion)),
             "elasticities": elasticities(case),
             "ten_percent": [asdict(effect) for effect in ten_percent_effects(case)],
             "stated": [asdict(effect) for effect in stated_effects(case, ledger)],

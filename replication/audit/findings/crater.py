@@ -4,9 +4,9 @@ import math
 from fractions import Fraction
 from statistics import NormalDist
 
-from replication import sphere, stream
 from replication.audit.entries import rounding
 from replication.audit.findings.known import Computed, Known, model_ratio
+from replication.models import crater, stream
 
 __all__ = ["EVIDENCE"]
 
@@ -14,12 +14,12 @@ __all__ = ["EVIDENCE"]
 def _observed_digits(known: Known) -> Computed:
     line = known.number("volume-ratio-line")
     least, greatest = rounding(known.ledger, "volume-ratio")
-    from_line = float(sphere.depth_from_volume_ratio(line))
+    from_line = float(crater.depth_from_volume_ratio(line))
     return {
         "line": from_line,
         "line_depth": from_line * known.number("observed-depth-diameter") / 2,
-        "least": float(sphere.depth_from_volume_ratio(float(least))),
-        "greatest": float(sphere.depth_from_volume_ratio(float(greatest))),
+        "least": float(crater.depth_from_volume_ratio(float(least))),
+        "greatest": float(crater.depth_from_volume_ratio(float(greatest))),
         "check": _volume_ratio(known.exact("observed-depth-ratio")),
         "check_line": _volume_ratio(Fraction(round(from_line, 3)).limit_denominator(1000)),
     }

@@ -8,14 +8,14 @@ from reference.enclosure import explore
 from reference.exact import cap_volume
 from reference.printed import Interval
 from reference.slips import equation_16_ratio
-from replication import frank_zook
 from replication.audit.entries import rounding
 from replication.audit.explanations import Explanation, explain_claim
 from replication.audit.explanations.joint import consistency
 from replication.audit.findings.known import Computed, Known, model_ratio
 from replication.audit.inference import possible
 from replication.audit.verdict import Verdict
-from replication.impact import BETA_3, BETA_5
+from replication.cases import BETA_3, BETA_5
+from replication.models import frank_zook
 
 __all__ = ["EVIDENCE"]
 
@@ -181,9 +181,10 @@ def _sphere_equivalent(known: Known) -> Computed:
 def _derived(known: Known, resistance: float, length_ratio: float) -> float:
     """X/R from Eqs. 14 and 15."""
     names = ("a1-density", "inferred:target-density", "fz-k1", "fz-kt")
-    materials = [known.number(name) for name in names]
+    particle, target, k_1, k_t = (known.number(name) for name in names)
     velocity = known.number("a1-initial-velocity")
-    return float(frank_zook.depth_derived(length_ratio, *materials, resistance, velocity))
+    materials = particle, target, k_1, k_t, resistance
+    return frank_zook.depth_derived(length_ratio, *materials, velocity)
 
 
 def _two_resistances(known: Known) -> Computed:

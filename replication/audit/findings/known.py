@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from reference.ledger import Ledger
-from replication import closed_form
 from replication.audit.entries import value
 from replication.audit.verdict import Assessment, Reading
-from replication.impact import BETA_5
+from replication.cases import BETA_5
+from replication.models.depth import final_depth
 
 __all__ = ["Computed", "Known", "model_ratio"]
 
@@ -49,4 +49,4 @@ class Known:
 def model_ratio(**changed: float) -> float:
     """The model's exact X/R [1] for beta = 5, with some inputs of the motion changed."""
     motion = {**BETA_5.motion, **changed}
-    return float(closed_form.final_depth(**motion)) / motion["radius"]
+    return float(final_depth(**motion)) / motion["radius"]

@@ -3,34 +3,34 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from replication import closed_form, midpoint
 from replication.analysis.budget import exact_motion, split
 from replication.analysis.convergence import converge
 from replication.audit.findings.known import Computed, Known
-from replication.impact import BETA_3, BETA_5, Impact
+from replication.cases import BETA_3, BETA_5
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.sheet import SCHEMES, deceleration, run
 
 __all__ = ["EVIDENCE"]
 
 
 def _order(_: Known) -> Computed:
     steps = [BETA_5.step, BETA_5.step / 2]
-    orders = {
-        name: converge(BETA_5, steps, name).levels[-1].time_step_order for name in midpoint.SCHEMES
-    }
+    orders = {name: converge(BETA_5, steps, name).levels[-1].time_step_order for name in SCHEMES}
     found: dict[str, Fraction | float | bool] = {}
     for name, order in orders.items():
         assert order is not None
         found[name] = order
     for impact in (BETA_3, BETA_5):
-        exact = float(closed_form.final_depth(**impact.motion))
-        short = exact - midpoint.run(impact).final_depth
+        exact = float(final_depth(**impact.motion))
+        short = exact - run(impact).final_depth
         beta = f"{impact.beta:.0f}"
         found |= {f"short_{beta}": short, f"exact_{beta}": exact, f"share_{beta}": short / exact}
     return {**found, **_last_row()}
 
 
 def _last_row() -> Computed:
-    sheet = midpoint.run(BETA_5)
+    sheet = run(BETA_5)
     budget, last = split(sheet), sheet.rows[-1]
     assert last.velocity_final is not None
     assert budget.stop_rule is not None
@@ -45,7 +45,7 @@ def _last_row() -> Computed:
 def _coarse_step(known: Known) -> Computed:
     fine = {beta: known.computed(f"depth-beta-{beta}") for beta in (3, 5)}
     coarse = {beta: known.computed(f"coarse-step-beta-{beta}") for beta in (3, 5)}
-    exact = float(closed_form.final_depth(**BETA_5.motion))
+    exact = float(final_depth(**BETA_5.motion))
     y = exact / BETA_5.radius
     return {
         "change_3": coarse[3] / fine[3] - 1,
@@ -76,7 +76,7 @@ _ROUNDED = Impact(
 def _prints_all(known: Known, coarse: Impact) -> bool:
     """Whether rounded inputs print Table A-1 and, at its step and a coarser one, the same depth."""
     impact = replace(coarse, step=BETA_5.step)
-    sheet = midpoint.run(impact)
+    sheet = run(impact)
     shown: dict[str, float | None] = {
         "a1-radius": impact.radius,
         "a1-density": impact.particle_density,
@@ -84,7 +84,7 @@ def _prints_all(known: Known, coarse: Impact) -> bool:
         "a1-diameter": impact.diameter,
         "a1-resistance": impact.target_resistance,
         "depth-beta-5": sheet.final_depth,
-        "coarse-step-beta-5": midpoint.run(coarse).final_depth,
+        "coarse-step-beta-5": run(coarse).final_depth,
     }
     for number, row in enumerate(sheet.rows[:5]):
         cells = {name.replace("_", "-"): cell for name, cell in row._asdict().items()}
@@ -112,14 +112,15 @@ def _size_independence(known: Known) -> Computed:
 
 
 def _sheet_ratio(impact: Impact) -> float:
-    return midpoint.run(impact).normalized_depth
+    return run(impact).normalized_depth
 
 
 def _acceleration_sign(known: Known) -> Computed:
     x, v, dt = 0.0, BETA_5.velocity, BETA_5.step
+    case = BETA_5.radius, BETA_5.mass, BETA_5.target_density, BETA_5.target_resistance
     for row in range(3):
         x += v * (dt if row else dt / 2)
-        v += midpoint.deceleration(BETA_5, x, v) * dt
+        v += deceleration(x, v, *case) * dt
     printed = sum(known.exact(f"a1-deceleration-{row}") for row in (1, 2, 3))
     return {
         "printed": known.computed("a1-deceleration-1"),
@@ -130,7 +131,7 @@ def _acceleration_sign(known: Known) -> Computed:
 
 
 def _meaning_of_x(known: Known) -> Computed:
-    half_step = split(midpoint.run(BETA_5)).half_step
+    half_step = split(run(BETA_5)).half_step
     assert half_step is not None
     motion = exact_motion(BETA_5, digits=20)  # a time takes quadrature, in as many digits
     return {

@@ -3,9 +3,9 @@
 import math
 from fractions import Fraction
 
-from replication import resistance, sphere
 from replication.audit.findings.known import Computed, Known, model_ratio
-from replication.impact import BETA_5
+from replication.cases import BETA_5
+from replication.models import crater, resistance
 
 __all__ = ["EVIDENCE"]
 
@@ -39,7 +39,7 @@ def _prints_the_same(known: Known) -> bool:
 def _pressure_for(known: Known, y: float) -> float:
     """p = rho_t V^2 / 2 R_t at which the exact X/R is y <= 1: y^2 - y^3/3 = c."""
     densities = known.number("inferred:target-density") / known.number("a1-density")
-    return math.expm1(float(sphere.volume_ratio(y)) * densities)
+    return math.expm1(float(crater.volume_ratio(y)) * densities)
 
 
 def _dynamic_pressure(known: Known) -> float:

@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.ledger import load
-from replication import closed_form
-from replication.impact import CASES, Impact
-from replication.midpoint import run
+from replication.cases import CASES
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.motion import history, stop_time
+from replication.models.sheet import run
 from replication.reports.figures.drawing import BLUE, INK, VERMILION
 
 if TYPE_CHECKING:
@@ -21,8 +23,7 @@ SIZE = (5.0, 4.2)
 def describe(_: dict[str, Any]) -> str:
     """The two curves in words."""
     ends = {
-        f"beta = {case.beta:g}": (run(case), closed_form.final_depth(**case.motion))
-        for case in CASES.values()
+        f"beta = {case.beta:g}": (run(case), final_depth(**case.motion)) for case in CASES.values()
     }
     told = "; ".join(
         f"for {name} the sheet stops at {sheet.final_depth * 1e6:.4f} µm after "
@@ -58,6 +59,7 @@ def plot(figure: "Figure", _: dict[str, Any]) -> None:
 
 def _exact(case: Impact) -> tuple[Any, Any]:
     """Time [s] and depth [m] from touch to rest."""
-    times = np.linspace(0.0, float(closed_form.stop_time(**case.motion)), 101)
-    depths, _ = closed_form.history(times, **case.motion)
+    times = np.linspace(0.0, stop_time(**case.motion), 101)
+    depths, speeds = np.empty_like(times), np.empty_like(times)
+    history(times.tolist(), **case.motion, depth=depths, speed=speeds)
     return times, depths

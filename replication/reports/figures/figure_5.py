@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.ledger import load
-from replication import closed_form
 from replication.audit.entries import value
-from replication.impact import BETA_5
-from replication.midpoint import run
+from replication.cases import BETA_5
+from replication.models.depth import normalized_depth
+from replication.models.sheet import run
 from replication.reports.figures.drawing import BLUE, INK
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def plot(figure: "Figure", record: dict[str, Any]) -> None:
     low, high = _ends()
     axes = figure.subplots()
     line = np.linspace(low, high, 101)
-    axes.plot(line, _ratio(line), color=INK, linewidth=1.0, label="exact")
+    axes.plot(line, [_ratio(v) for v in line.tolist()], color=INK, linewidth=1.0, label="exact")
     points = np.linspace(low, high, 11)
     sheet = [run(replace(BETA_5, velocity=float(v))).normalized_depth for v in points]
     axes.plot(points, sheet, "s", color=BLUE, ms=5, label="the sheet, β = 5")
@@ -50,9 +50,9 @@ def _ends() -> tuple[float, float]:
     return float(value(ledger, low)), float(value(ledger, high))
 
 
-def _ratio(velocity: Any) -> Any:
+def _ratio(velocity: float) -> float:
     others = BETA_5.particle_density, BETA_5.target_density, BETA_5.target_resistance
-    return closed_form.normalized_depth(velocity, *others)
+    return normalized_depth(velocity, *others)
 
 
 def _observed(record: dict[str, Any]) -> float:

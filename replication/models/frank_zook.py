@@ -5,34 +5,40 @@ this is X/D = ((L/D) (rho_p/rho_t) + k_1) / (2 k_t) ln(1 + k_t rho_t V^2 / R_t):
 Eq. 16, but for the depth in *diameters*. Eq. 16 prints X/R in front of it. Both readings are here.
 """
 
-from typing import Any
-
-import numpy as np
+import math
 
 __all__ = ["depth_as_printed", "depth_derived", "sphere_length_ratio"]
 
 
 def depth_as_printed(
-    length_ratio: Any,
-    particle_density: Any,
-    target_density: Any,
-    k_1: Any,
-    k_t: Any,
-    resistance: Any,
-    velocity: Any,
-) -> Any:
+    length_ratio: float,
+    particle_density: float,
+    target_density: float,
+    k_1: float,
+    k_t: float,
+    resistance: float,
+    velocity: float,
+) -> float:
     """X/R [1] as Eq. 16 prints it.
 
-    length_ratio L/D [1], densities [kg/m^3], k_1 and k_t [1], R_t [Pa], V [m/s]; broadcast.
+    length_ratio L/D [1], densities [kg/m^3], k_1 and k_t [1], R_t [Pa], V [m/s].
 
     >>> f"{depth_as_printed(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.127'
     """
     inertia = (length_ratio * particle_density / target_density + k_1) / (2 * k_t)
-    return inertia * np.log(1 + k_t * target_density * velocity * velocity / resistance)
+    return inertia * math.log(1 + k_t * target_density * velocity * velocity / resistance)
 
 
-def depth_derived(*inputs: Any, **named: Any) -> Any:
+def depth_derived(
+    length_ratio: float,
+    particle_density: float,
+    target_density: float,
+    k_1: float,
+    k_t: float,
+    resistance: float,
+    velocity: float,
+) -> float:
     """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
 
     Arguments as for `depth_as_printed`.
@@ -40,7 +46,8 @@ def depth_derived(*inputs: Any, **named: Any) -> Any:
     >>> f"{depth_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.255'
     """
-    return 2 * depth_as_printed(*inputs, **named)
+    inputs = length_ratio, particle_density, target_density, k_1, k_t, resistance, velocity
+    return 2 * depth_as_printed(*inputs)
 
 
 def sphere_length_ratio() -> float:

@@ -1,8 +1,6 @@
 """Target resistance and its factor beta by three routes (Eqs. 7-11), and the centerline stress."""
 
-from typing import Any
-
-import numpy as np
+import math
 
 __all__ = [
     "brinell_beta",
@@ -14,7 +12,7 @@ __all__ = [
 ]
 
 
-def target_resistance(beta: Any, flow_stress: Any) -> Any:
+def target_resistance(beta: float, flow_stress: float) -> float:
     """R_t = beta Y_t [Pa] (Eqs. 7, A-2); beta [1], flow stress Y_t [Pa].
 
     >>> target_resistance(5.0, 700e6)
@@ -23,34 +21,34 @@ def target_resistance(beta: Any, flow_stress: Any) -> Any:
     return beta * flow_stress
 
 
-def goodier_beta(q_over_flow_stress: Any) -> Any:
+def goodier_beta(q_over_flow_stress: float) -> float:
     """Goodier: beta = 4 (q / Y_t) / pi [1], from F_r = q (2a)^2 = pi a^2 R_t (Eqs. 8-9 with n = 2).
 
     >>> f"{goodier_beta(2.77):.1f}"
     '3.5'
     """
-    return 4 * q_over_flow_stress / np.pi
+    return 4 * q_over_flow_stress / math.pi
 
 
-def walker_anderson_alpha(elastic_modulus: Any, flow_stress: Any) -> Any:
+def walker_anderson_alpha(elastic_modulus: float, flow_stress: float) -> float:
     """Extent of the plastic zone, alpha = (2 E_t / 3 Y_t)^(1/3) [1] (Eq. 11); both in [Pa].
 
     >>> f"{walker_anderson_alpha(200e9, 215e6):.1f}"
     '8.5'
     """
-    return np.cbrt(2 * elastic_modulus / (3 * flow_stress))
+    return math.cbrt(2 * elastic_modulus / (3 * flow_stress))
 
 
-def walker_anderson_beta(alpha: Any) -> Any:
+def walker_anderson_beta(alpha: float) -> float:
     """beta = 7/3 ln(alpha) [1] (Eq. 10).
 
     >>> f"{walker_anderson_beta(walker_anderson_alpha(200e9, 215e6)):.1f}"
     '5.0'
     """
-    return 7 / 3 * np.log(alpha)
+    return 7 / 3 * math.log(alpha)
 
 
-def brinell_beta(hardness_over_strength: Any) -> Any:
+def brinell_beta(hardness_over_strength: float) -> float:
     """beta [1] if the Brinell hardness is the target resistance (section 3): the ratio itself.
 
     >>> brinell_beta(3.0)
@@ -59,7 +57,7 @@ def brinell_beta(hardness_over_strength: Any) -> Any:
     return hardness_over_strength
 
 
-def centerline_stress(target_density: Any, velocity: Any, resistance: Any) -> Any:
+def centerline_stress(target_density: float, velocity: float, resistance: float) -> float:
     """Axial stress Sigma = rho_t v^2 / 2 + R_t [Pa] of a rigid particle (Eqs. 5-6, v = u).
 
     By Eq. 5 it is also the least particle strength Y_p [Pa] at which the particle stays rigid.
