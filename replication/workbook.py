@@ -10,9 +10,9 @@ from dataclasses import asdict, replace
 from functools import cache
 from pathlib import Path
 
-from replication import midpoint
-from replication.impact import BETA_3, BETA_5, Impact
-from replication.midpoint import Sheet
+from replication.cases import BETA_3, BETA_5
+from replication.models.impact import Impact
+from replication.models.sheet import Sheet, run
 from replication.workbook_report import report_values
 from replication.workbook_values import pressure_ratio, values_by_key
 from spreadsheets import emit
@@ -90,14 +90,14 @@ def build(
     """
     _require_shared_inputs(list(cases.values()))
     slugs = ("case",) if len(cases) == 1 else ("low", "high")
-    sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
+    sheets = {slug: run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
     names = dict(zip(slugs, cases, strict=True))
     sizing = list((cases if written_for is None else written_for).values())
     fine = _case_sheets(names, sheets, _rows(sizing))
     if list(cases) != list(REPORT):
         return workbook_plan(fine), values_by_key(sheets, fine[0].rows)
     step = INPUTS["dt_coarse"].si
-    again = {slug: midpoint.run(replace(s.impact, step=step)) for slug, s in sheets.items()}
+    again = {slug: run(replace(s.impact, step=step)) for slug, s in sheets.items()}
     rows = _rows([replace(impact, step=step) for impact in sizing])
     coarse = _case_sheets(names, again, rows, coarse=True)
     plan = workbook_plan(fine, coarse)
@@ -113,7 +113,7 @@ def report_plan() -> WorkbookPlan:
 
 def _rows(impacts: Sequence[Impact]) -> int:
     """The rows that every sheet of a workbook for these cases has, after row 0."""
-    return prepared_rows(max(midpoint.run(impact).steps for impact in impacts))
+    return prepared_rows(max(run(impact).steps for impact in impacts))
 
 
 def _case_sheets(

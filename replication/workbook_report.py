@@ -9,10 +9,10 @@ from typing import Any
 
 from reference.ledger import load
 from reference.printed import Interval, parse
-from replication import closed_form, midpoint
 from replication.analysis.convergence import ladder
-from replication.impact import Impact
-from replication.midpoint import Sheet
+from replication.models.depth import final_depth, normalized_depth
+from replication.models.impact import Impact
+from replication.models.sheet import Sheet, run
 from replication.workbook_values import pressure_ratio, sheet_values
 from spreadsheets.plan import Value
 from spreadsheets.sheets.audit import FAILED, REPRODUCED
@@ -77,9 +77,7 @@ def _figure_5(impact: Impact) -> dict[str, Any]:
     for point in range(POINTS):
         there = replace(impact, velocity=low + (high - low) * point / last)
         densities = there.particle_density, there.target_density
-        depth = float(
-            closed_form.normalized_depth(there.velocity, *densities, there.target_resistance)
-        )
+        depth = float(normalized_depth(there.velocity, *densities, there.target_resistance))
         held |= {
             f"figure_5.point[{point}]": point,
             f"figure_5.velocity[{point}]": there.velocity,
@@ -104,11 +102,11 @@ def _convergence(impacts: Mapping[str, Impact]) -> dict[str, Any]:
 
 def _levels(impact: Impact, steps: list[float]) -> dict[str, Any]:
     materials = impact.particle_density, impact.target_density, impact.target_resistance
-    rest = float(closed_form.final_depth(impact.velocity, impact.radius, *materials)) * 1e6
+    rest = float(final_depth(impact.velocity, impact.radius, *materials)) * 1e6
     held: dict[str, Any] = {"rest_um": rest, "rest_live_um": rest, "message": CURRENT}
     errors = []
     for k, step in enumerate(steps):
-        sheet = midpoint.run(replace(impact, step=step))
+        sheet = run(replace(impact, step=step))
         depth = sheet.final_depth * 1e6
         errors.append(depth - rest)
         held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": depth}

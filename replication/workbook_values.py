@@ -5,9 +5,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from replication import closed_form, frank_zook, resistance, sphere, stream
-from replication.impact import Impact
-from replication.midpoint import Row, Sheet
+from replication.models import crater, frank_zook, resistance, stream
+from replication.models.depth import final_depth, normalized_depth
+from replication.models.impact import Impact
+from replication.models.sheet import Row, Sheet
 from spreadsheets.plan import Value
 from spreadsheets.sheets.inputs import ALL_VALID, INPUTS, REPORT_INPUTS
 from spreadsheets.sheets.results import STOPPED
@@ -153,8 +154,8 @@ def _result(sheet: Sheet) -> dict[str, Any]:
         "stop_time": final.time,
         "final_velocity": v if final.velocity_final is None else final.velocity_final,
         "c": 4 * densities[0] / (3 * densities[1]) * math.log1p(pressure_ratio(impact)),
-        "exact_normalized_depth": closed_form.normalized_depth(v, *materials),
-        "exact_depth_um": closed_form.final_depth(v, impact.radius, *materials) * 1e6,
+        "exact_normalized_depth": normalized_depth(v, *materials),
+        "exact_depth_um": final_depth(v, impact.radius, *materials) * 1e6,
     }
 
 
@@ -179,8 +180,8 @@ def _frank_zook(impact: Impact) -> dict[str, Any]:
 
 
 def _crater(impact: Impact) -> dict[str, Any]:
-    volume, third = sphere.volume(impact.radius), 1 / 3
-    contact = sphere.contact_diameter(third, impact.diameter)
+    volume, third = crater.volume(impact.radius), 1 / 3
+    contact = crater.contact_diameter(third, impact.diameter)
     ratios = {"least": INPUTS["CV_PV"].si, "line": INPUTS["CV_PV_line"].si}
     held = {
         "volume": volume,
@@ -201,15 +202,15 @@ def _crater(impact: Impact) -> dict[str, Any]:
 
 
 def _cap(ratio: float, radius: float) -> dict[str, Any]:
-    y = sphere.depth_from_volume_ratio(ratio)
-    volume = sphere.cap_volume(y * radius, radius)
+    y = crater.depth_from_volume_ratio(ratio)
+    volume = crater.cap_volume(y * radius, radius)
     return {
         "normalized_depth": y,
         "depth": y * radius,
         "depth_um": y * radius * 1e6,
         "volume": volume,
         "volume_um3": _cubic_micrometers(volume),
-        "ratio": sphere.volume_ratio(y),
+        "ratio": crater.volume_ratio(y),
     }
 
 

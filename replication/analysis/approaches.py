@@ -4,10 +4,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from reference.ledger import Ledger
-from replication import closed_form, sphere
 from replication.audit.entries import value
 from replication.audit.verdict import Assessment
-from replication.impact import CASES, Impact
+from replication.cases import CASES
+from replication.models import crater
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
 
 __all__ = ["Approach", "approaches"]
 
@@ -49,7 +51,7 @@ def approaches(ledger: Ledger, assessments: Mapping[str, Assessment]) -> list[Ap
 
 def _observed(ledger: Ledger, assessments: Mapping[str, Assessment]) -> Iterator[Approach]:
     line, text = "volume-ratio-line", ledger.claims["volume-ratio-line"].text
-    depth = float(sphere.depth_from_volume_ratio(float(value(ledger, line))))
+    depth = float(crater.depth_from_volume_ratio(float(value(ledger, line))))
     yield Approach("observed", f"CV/PV = {text}, the line in Figure 1", depth)
     yield from _assessed(
         assessments,
@@ -73,7 +75,7 @@ def _assessed(
 
 
 def _exact(case: Impact) -> float:
-    return float(closed_form.final_depth(**case.motion)) / case.radius
+    return float(final_depth(**case.motion)) / case.radius
 
 
 def _quoted(ledger: Ledger, kind: str, claim: str, name: str) -> Approach:

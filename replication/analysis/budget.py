@@ -8,8 +8,8 @@ from itertools import islice
 from reference import exact
 from reference.exact import Number, Reals
 from reference.trajectory import Trajectory
-from replication.impact import Impact
-from replication.midpoint import Sheet
+from replication.models.impact import Impact
+from replication.models.sheet import Sheet
 
 __all__ = ["Budget", "exact_motion", "split"]
 
@@ -47,8 +47,8 @@ def _motion(inputs: tuple[float, ...], digits: int) -> Trajectory:
 def split(sheet: Sheet) -> Budget:
     """The error budget of a sheet.
 
-    >>> from replication.impact import BETA_5
-    >>> from replication.midpoint import run
+    >>> from replication.cases import BETA_5
+    >>> from replication.models.sheet import run
     >>> budget = split(run(BETA_5))
     >>> [f"{part * 1e6:.5f}" for part in (budget.total, budget.time_step, budget.stop_rule)]
     ['-0.00538', '-0.00548', '-0.00023']

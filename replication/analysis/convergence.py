@@ -5,15 +5,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from replication import closed_form
 from replication.analysis.budget import Budget, exact_motion, split
-from replication.impact import Impact
-from replication.midpoint import MAX_STEPS, run
+from replication.analysis.warnings import warnings
+from replication.models.impact import Impact
+from replication.models.motion import stop_time
+from replication.models.sheet import MAX_STEPS, run
 
 __all__ = ["Convergence", "Level", "StepForDigits", "converge", "ladder", "step_for_digits"]
 
 ORDER = {"published": 1, "centered": 2}
-"""Of the time-step error; why, in `replication.midpoint`."""
+"""Of the time-step error; why, in `replication.models.sheet`."""
 
 SAFETY, CAUTION = 1.25, 3.0
 """Factors of the grid convergence index (Roache): for three levels and more whose observed order is
@@ -77,7 +78,7 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
 
     Raises ValueError for less than two steps, for steps that do not fall, and as `midpoint.run`.
 
-    >>> from replication.impact import BETA_5
+    >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10]).levels[-1]
     >>> f"{finest.time_step_order:.2f}", finest.regime
     ('1.02', 'asymptotic')
@@ -106,7 +107,7 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
         depth=sheet.final_depth,
         error=budget.total,
         budget=budget,
-        warnings=tuple(sheet.warnings),
+        warnings=tuple(map(str, warnings(sheet))),
         order=order,
         time_step_order=time_step_order,
         regime=_regime(budget, time_step_order, ORDER[scheme]),
@@ -211,7 +212,7 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> S
     def keeps(step: float) -> bool:
         return all(abs(error(step / 2**k)) <= allowed for k in range(_HALVINGS + 1))
 
-    longest = 2 * closed_form.stop_time(**impact.motion)
+    longest = 2 * stop_time(**impact.motion)
     step = longest
     while not keeps(step):
         step /= 2

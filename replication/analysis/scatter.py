@@ -8,16 +8,18 @@ of a normal distribution it is sqrt(2 / pi) standard deviations.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 
 from reference.ledger import Ledger
-from replication import closed_form, stream
 from replication.analysis.sensitivity import elasticities
 from replication.audit.entries import value
-from replication.impact import Impact
+from replication.models import stream
+from replication.models.depth import normalized_depth
+from replication.models.impact import Impact
 
 __all__ = [
     "SHARES",
@@ -100,8 +102,9 @@ def tied_particles(impact: Impact, ledger: Ledger) -> list[Particle]:
     for average in ("a1-initial-velocity", "velocity-521"):
         for size in ("particle-size-least", "particle-size-greatest"):
             diameter, mean = float(value(ledger, size)), float(value(ledger, average))
-            velocity = float(stream.particle_velocity(mean, diameter**3, impact.diameter**3))
-            found.append(Particle(diameter, mean, velocity, float(_ratios(impact, velocity))))
+            velocity = stream.particle_velocity(mean, diameter**3, impact.diameter**3)
+            (ratio,) = _ratios(impact, np.array([velocity])).tolist()
+            found.append(Particle(diameter, mean, velocity, ratio))
     return found
 
 
@@ -123,7 +126,7 @@ def scatter(
     [1] below 1. Sizes and velocities of zero and less, which a normal distribution has, are left
     out: 4 in 100,000 of the report's sizes.
 
-    >>> from replication.impact import BETA_5
+    >>> from replication.cases import BETA_5
     >>> tied, independent = scatter(BETA_5, {"diameter": 5.6e-6, "velocity": 50.0}, 0.298)
     >>> f"{tied.velocity.deviation:.0f}, {independent.velocity.deviation:.0f}"
     '210, 50'
@@ -141,7 +144,8 @@ def _normal(mean: float, deviation: float, spacing: float = 0.02) -> tuple[Any, 
 
 def _tied(impact: Impact, deviation: float, needed: float) -> Scatter:
     diameter, weights = _normal(impact.diameter, deviation)
-    velocity = stream.particle_velocity(impact.velocity, diameter**3, impact.diameter**3)
+    by_mass = partial(stream.particle_velocity, impact.velocity, average_mass=impact.diameter**3)
+    velocity = np.array([by_mass(mass) for mass in (diameter**3).tolist()])
     ratio = _ratios(impact, velocity)
     of_size = deviation / impact.diameter
     steep = 1.5 * elasticities(impact)["velocity"]
@@ -178,7 +182,7 @@ def _independent(impact: Impact, deviations: Mapping[str, float], needed: float)
 def _ratios(impact: Impact, velocity: Any) -> Any:
     """The exact X/R at other velocities."""
     others = impact.particle_density, impact.target_density, impact.target_resistance
-    return closed_form.normalized_depth(velocity, *others)
+    return np.array([normalized_depth(v, *others) for v in velocity.tolist()])
 
 
 def _velocity_for(impact: Impact, ratio: float) -> float:

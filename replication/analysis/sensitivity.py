@@ -5,10 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from reference.ledger import Ledger
-from replication import closed_form
 from replication.audit.entries import value
 from replication.audit.inference import infer, possible
-from replication.impact import Impact
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
 
 __all__ = ["INPUTS", "Effect", "elasticities", "stated_effects", "ten_percent_effects"]
 
@@ -40,7 +40,7 @@ def elasticities(impact: Impact) -> dict[str, float]:
     dy = dc): d ln y = s d ln c, where s = c / (y^2 (2 - y)), c/y beyond R; and
     d ln ln(1 + p) = q d ln p, where q = p / ((1 + p) ln(1 + p)).
 
-    >>> from replication.impact import BETA_5
+    >>> from replication.cases import BETA_5
     >>> {name: round(x, 3) for name, x in elasticities(BETA_5).items()}["velocity"]
     1.044
     """
@@ -120,4 +120,4 @@ def _effect(
 
 
 def _depth(impact: Impact) -> float:
-    return float(closed_form.final_depth(**impact.motion))
+    return float(final_depth(**impact.motion))

@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 from flint import arb, ctx
 
-from replication import closed_form
 from replication.analysis.budget import exact_motion
-from replication.impact import BETA_5, Impact
-from replication.midpoint import Sheet, run
+from replication.analysis.warnings import warnings
+from replication.cases import BETA_5
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.sheet import Sheet, run
 
 __all__ = ["HARD_CASES", "HardCase", "Outcome", "Worst", "outcome", "random_cases", "worst_of"]
 
@@ -138,7 +140,7 @@ def outcome(case: HardCase) -> Outcome:
         return Outcome(case.name, case.changes, refused=str(error))
     motion = exact_motion(impact)
     exact = motion.final_depth
-    depth = float(closed_form.final_depth(**impact.motion))
+    depth = final_depth(**impact.motion)
     common: dict[str, Any] = {
         "closed_form": depth,
         "reference": motion.context.nstr(exact, 20),
@@ -156,7 +158,7 @@ def _of_sheet(sheet: Sheet, exact: float) -> dict[str, Any]:
         "steps": sheet.steps,
         "sheet": sheet.final_depth,
         "sheet_error": sheet.final_depth / exact - 1,
-        "warnings": tuple(sheet.warnings),
+        "warnings": tuple(map(str, warnings(sheet))),
     }
 
 
@@ -191,10 +193,9 @@ def random_cases(count: int, seed: int) -> dict[str, Any]:
 
 def worst_of(count: int, seed: int) -> Worst:
     """The worst of so many random cases. Depths that are no normal doubles are skipped, counted."""
-    inputs = random_cases(count, seed)
-    depths = closed_form.final_depth(**inputs)
     worst, skipped = Worst(count, 0, 0.0, {}), 0
-    for depth, case in zip(depths.tolist(), _rows(inputs), strict=True):
+    for case in _rows(random_cases(count, seed)):
+        depth = final_depth(**case)
         if not math.isfinite(depth) or depth < np.finfo(float).tiny:
             skipped += 1
             continue

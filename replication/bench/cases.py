@@ -12,7 +12,7 @@ from reference.exact import Number
 from reference.trajectory import Trajectory
 from replication.analysis.budget import exact_motion
 from replication.analysis.stability import HARD_CASES
-from replication.impact import Impact
+from replication.models.impact import Impact
 
 __all__ = ["CASES", "Case", "build", "relative_error"]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
-from replication.case import read_number
+from replication.cases import read_number
 from replication.commands import shared
 
 if TYPE_CHECKING:
@@ -34,10 +34,8 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure, print, and write the files if asked to."""
     from replication.bench.cases import CASES
+    from replication.bench.report import bench_record, bench_rows, bench_text, check, write
     from replication.bench.run import bench
-    from replication.reports.bench import bench_record, bench_rows
-    from replication.reports.bench_files import check, write
-    from replication.reports.bench_text import bench_text
     from replication.reports.plain import rows_csv
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
@@ -49,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         shared.print_json(bench_record(done))
     elif options.csv:
-        sys.stdout.write(rows_csv(bench_rows(bench_record(done))))
+        sys.stdout.write(rows_csv(bench_rows(done)))
     else:
         print(bench_text(done))
     return 0

@@ -2,7 +2,7 @@
 
 import argparse
 
-from replication.case import read_number
+from replication.cases import read_number
 from replication.commands import shared
 from replication.commands.sheet import scheme_option
 

@@ -2,7 +2,7 @@
 
 import argparse
 
-from replication.case import inputs_of
+from replication.cases import inputs_of
 from replication.commands import shared
 
 HELP = "final depth of a case, without time steps"
@@ -16,15 +16,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compute and print it."""
-    from replication.closed_form import normalized_depth
+    from replication.models.depth import final_depth, normalized_depth
 
     case = shared.case(options)
-    ratio = float(
-        normalized_depth(
-            case.velocity, case.particle_density, case.target_density, case.target_resistance
-        )
-    )
-    depth, beyond = case.radius * ratio, ratio > 1
+    target = case.target_density, case.target_resistance
+    ratio = normalized_depth(case.velocity, case.particle_density, *target)
+    depth, beyond = final_depth(**case.motion), ratio > 1
     if options.json:
         shared.print_json(
             {

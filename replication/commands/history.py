@@ -5,8 +5,9 @@ import math
 import sys
 from typing import Any
 
-from replication.case import inputs_of, read_number
+from replication.cases import inputs_of, read_number
 from replication.commands import shared
+from replication.models.impact import Impact
 
 HELP = "depth and velocity of a case against time, without small steps"
 
@@ -31,12 +32,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compute the history and print it."""
-    from replication.closed_form import history, stop_time
+    from replication.models.motion import stop_time
 
     case = shared.case(options)
-    stop = float(stop_time(**case.motion))
+    stop = stop_time(**case.motion)
     times = _times(options, stop)
-    depth, velocity = (values.tolist() for values in history(times, **case.motion))
+    depth, velocity = _history(times, case)
     if options.json:
         shared.print_json(
             {
@@ -57,6 +58,20 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(_table(times, depth, velocity)))
         print(f"\nstop time  {stop * 1e9:.8g} ns")
     return 0
+
+
+def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]]:
+    """Depth [m] and velocity [m/s]; for many times compiled, of which the start takes a second."""
+    if len(times) > 50_000:
+        from replication.models import arrays
+
+        depth, velocity = arrays.history(times, **case.motion)
+        return depth.tolist(), velocity.tolist()
+    from replication.models.motion import history
+
+    depths, velocities = [0.0] * len(times), [0.0] * len(times)
+    history(times, **case.motion, depth=depths, speed=velocities)
+    return depths, velocities
 
 
 def _times(options: argparse.Namespace, stop: float) -> list[float]:

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from replication.case import inputs_of
+from replication.cases import inputs_of
 from replication.commands import shared
 
 HELP = "the Excel scheme's rows for a case"
@@ -25,7 +25,8 @@ def scheme_option(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the sheet and print it."""
-    from replication.midpoint import run
+    from replication.analysis.warnings import warnings
+    from replication.models.sheet import run
 
     sheet = run(shared.case(options), options.scheme)
     if options.json:
@@ -37,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
                 "final_depth": sheet.final_depth,
                 "normalized_depth": sheet.normalized_depth,
                 "steps": sheet.steps,
-                "warnings": sheet.warnings,
+                "warnings": [warning.text for warning in warnings(sheet)],
             }
         )
         return 0
@@ -49,5 +50,5 @@ def run(options: argparse.Namespace) -> int:
         from replication.reports.sheet import sheet_table
 
         print(sheet_table(sheet))
-    shared.warn(options, sheet.warnings)
+    shared.warn(options, (warning.text for warning in warnings(sheet)))
     return 0

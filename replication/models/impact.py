@@ -135,7 +135,7 @@ def check_range(
     """
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
-        raise InputError("particle mass", f"is {mass!r}: no double can hold it")
+        raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
     pressure = 0.5 * target_density * velocity * velocity
     formed = {
         "target resistance": resistance,

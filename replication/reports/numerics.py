@@ -14,9 +14,8 @@ from replication.analysis.convergence import (
     ladder,
 )
 from replication.analysis.stability import HARD_CASES, Outcome, Worst, outcome, worst_of
-from replication.case import inputs_of
-from replication.impact import BETA_5, CASES
-from replication.midpoint import SCHEMES, Sheet, run
+from replication.cases import BETA_5, CASES, inputs_of
+from replication.models.sheet import SCHEMES, Sheet, run
 from replication.text import aligned, number
 
 __all__ = [

@@ -1,6 +1,6 @@
 """The sheet of a case as `coldspray sheet` prints it for a person."""
 
-from replication.midpoint import Row, Sheet
+from replication.models.sheet import Row, Sheet
 from replication.text import number
 
 __all__ = ["sheet_table"]

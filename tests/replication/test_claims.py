@@ -12,8 +12,8 @@ from replication.audit.explain import explanation
 from replication.audit.inference import infer
 from replication.audit.replica import REPLICA
 from replication.audit.verdict import assess
-from replication.impact import BETA_5
-from replication.midpoint import run
+from replication.cases import BETA_5
+from replication.models.sheet import run
 
 LEDGER = load()
 

@@ -20,7 +20,7 @@ from replication.audit.explanations.edits import KINDS, edits
 from replication.audit.explanations.joint import JointAnswer, consistency
 from replication.audit.explanations.misprints import misprints
 from replication.audit.verdict import Verdict
-from replication.frank_zook import depth_derived
+from replication.models.frank_zook import depth_derived
 
 LEDGER, CONJECTURES = load(), load_conjectures()
 FAILING = [

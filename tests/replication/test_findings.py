@@ -10,8 +10,8 @@ from reference import findings as texts
 from replication.audit import Audit, audit
 from replication.audit.findings import Evidence, Finding
 from replication.audit.findings.scheme import EVIDENCE as SCHEME
-from replication.impact import BETA_5
-from replication.midpoint import run
+from replication.cases import BETA_5
+from replication.models.sheet import run
 from replication.reports.markdown import markdown
 from replication.reports.records import audit_record, finding_record
 from replication.reports.terminal import audit_summary
@@ -82,7 +82,7 @@ def test_the_pair_could_be_met_only_beyond_the_proven_velocity(evidence: dict) -
 def test_back_solved_inputs_give_the_printed_values(
     name: str, printed: float, evidence: dict
 ) -> None:
-    from replication.frank_zook import depth_derived
+    from replication.models.frank_zook import depth_derived
 
     strength = {"rha": 9.13e9, "stainless": 7.6e9}[name]
     solved = evidence["frank-zook-values", f"{name}_resistance"] * 1e9
@@ -93,7 +93,7 @@ def test_back_solved_inputs_give_the_printed_values(
 
 
 def test_the_observed_depth_comes_with_the_found_beta(evidence: dict) -> None:
-    from replication.closed_form import normalized_depth
+    from replication.models.depth import normalized_depth
 
     beta, velocity = (evidence["observed-beta", key] for key in ("beta", "velocity"))
     assert normalized_depth(500.0, 8900.0, 7850.0, beta * 700e6) == pytest.approx(0.3, rel=1e-12)

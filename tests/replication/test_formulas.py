@@ -1,7 +1,6 @@
 """Every closed formula of the replica against the reference, over its whole sensible range."""
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -12,8 +11,8 @@ from hypothesis import strategies as st
 
 from reference import exact
 from reference.computations import COMPUTATIONS
-from replication import closed_form, frank_zook, resistance, sphere, stream
 from replication.audit.replica import REPLICA
+from replication.models import arrays, crater, frank_zook, resistance, stream
 
 REALS = exact.Reals(50)
 
@@ -91,16 +90,16 @@ def test_final_depth_agrees_with_the_energy_integral(
     inputs = (velocity, radius, *densities, strength)
     numbers = [REALS.number(Fraction(value)) for value in inputs]
     expected = float(exact.final_depth(REALS, *numbers))
-    assert abs(closed_form.final_depth(*inputs) - expected) <= 4 * math.ulp(expected)
+    assert abs(arrays.final_depth(*inputs) - expected) <= 4 * math.ulp(expected)
 
 
 def test_final_depth_takes_arrays_of_any_shape() -> None:
     velocities = np.array([[1.0], [500.0], [5000.0]])
     resistances = np.array([2.1e9, 3.5e9])
-    depths = closed_form.final_depth(velocities, 11e-6, 8900.0, 7850.0, resistances)
+    depths = arrays.final_depth(velocities, 11e-6, 8900.0, 7850.0, resistances)
     assert depths.shape == (3, 2)
     one_by_one = [
-        [closed_form.final_depth(v, 11e-6, 8900.0, 7850.0, r) for r in resistances]
+        [arrays.final_depth(v, 11e-6, 8900.0, 7850.0, r) for r in resistances]
         for v in velocities[:, 0]
     ]
     np.testing.assert_array_equal(depths, one_by_one)
@@ -108,7 +107,7 @@ def test_final_depth_takes_arrays_of_any_shape() -> None:
 
 def test_normalized_depth_does_not_know_the_particles_size() -> None:
     small, large = (
-        closed_form.final_depth(500.0, r, 8900.0, 7850.0, 3.5e9) / r for r in (2.0**-20, 2.0**10)
+        arrays.final_depth(500.0, r, 8900.0, 7850.0, 3.5e9) / r for r in (2.0**-20, 2.0**10)
     )
     assert small == large
 
@@ -117,7 +116,7 @@ def test_depth_is_continuous_where_the_sphere_is_half_buried() -> None:
     # c = 2/3 exactly where rho_p = rho_t / 2 and the logarithm is 1.
     pressure = math.expm1(1.0)
     depths = [
-        closed_form.normalized_depth(1.0, 1.0, 2.0, 1.0 / (pressure * (1 + e)))
+        arrays.normalized_depth(1.0, 1.0, 2.0, 1.0 / (pressure * (1 + e)))
         for e in (-1e-12, 0.0, 1e-12)
     ]
     assert depths == sorted(depths)
@@ -127,22 +126,22 @@ def test_depth_is_continuous_where_the_sphere_is_half_buried() -> None:
 
 @given(st.floats(0, 0.5))
 def test_crater_volume_and_its_inverse(ratio: float) -> None:
-    depth = sphere.depth_from_volume_ratio(ratio)
+    depth = crater.depth_from_volume_ratio(ratio)
     assert 0 <= depth <= 1 + ULP
-    assert sphere.volume_ratio(depth) == pytest.approx(ratio, rel=FEW_ROUNDINGS, abs=1e-300)
-    assert sphere.cap_volume(depth, 1.0) / sphere.volume(1.0) == pytest.approx(
+    assert crater.volume_ratio(depth) == pytest.approx(ratio, rel=FEW_ROUNDINGS, abs=1e-300)
+    assert crater.cap_volume(depth, 1.0) / crater.volume(1.0) == pytest.approx(
         ratio, rel=FEW_ROUNDINGS, abs=1e-300
     )
 
 
 @pytest.mark.parametrize("ratio", [-0.1, 0.6, math.nan])
 def test_no_cap_has_such_a_volume(ratio: float) -> None:
-    assert math.isnan(sphere.depth_from_volume_ratio(ratio))
+    assert math.isnan(crater.depth_from_volume_ratio(ratio))
 
 
 def test_lighter_particles_are_faster() -> None:
-    velocities = stream.particle_velocity(521.0, np.array([0.25, 1.0, 4.0]), 1.0)
-    assert velocities.tolist() == [1042.0, 521.0, 260.5]
+    velocities = [stream.particle_velocity(521.0, mass, 1.0) for mass in (0.25, 1.0, 4.0)]
+    assert velocities == [1042.0, 521.0, 260.5]
 
 
 def test_a_rigid_particle_needs_fifty_times_coppers_strength() -> None:
@@ -154,9 +153,3 @@ def test_a_rigid_particle_needs_fifty_times_coppers_strength() -> None:
 def test_equation_16_as_printed_is_half_of_what_it_follows_from() -> None:
     inputs = (2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0)
     assert frank_zook.depth_derived(*inputs) == 2 * frank_zook.depth_as_printed(*inputs)
-
-
-@pytest.mark.parametrize("formula", [resistance.goodier_beta, resistance.walker_anderson_beta])
-def test_formulas_take_arrays(formula: Callable[[Any], Any]) -> None:
-    values = np.array([1.5, 2.77, 8.5])
-    assert formula(values).tolist() == [formula(value) for value in values]

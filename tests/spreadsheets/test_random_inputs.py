@@ -17,9 +17,10 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from replication import midpoint, workbook
-from replication.closed_form import final_depth
-from replication.impact import Impact
+from replication import workbook
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.sheet import run
 from replication.workbook import REPORT, Cases
 from spreadsheets import emit
 from spreadsheets.compare import Difference, compare
@@ -119,7 +120,7 @@ def fits(cases: Cases, step: float | None) -> bool:
     def runs(those: Cases) -> list[Impact]:
         return [c if step is None else replace(c, step=step) for c in those.values()]
 
-    steps = [max(midpoint.run(impact).steps for impact in runs(those)) for those in (cases, REPORT)]
+    steps = [max(run(impact).steps for impact in runs(those)) for those in (cases, REPORT)]
     return steps[0] <= prepared_rows(steps[1])
 
 
@@ -144,8 +145,8 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
     found = usable(name).recalculate(path)
     assert emitted.differences(cases, found) == []
     for slug, case in zip(("low", "high"), cases.values(), strict=True):
-        run = midpoint.run(case)
-        for key, value in (("final_depth", run.final_depth), ("steps", run.steps)):
+        alone = run(case)
+        for key, value in (("final_depth", alone.final_depth), ("steps", alone.steps)):
             sheet, address = emitted.plan.where[f"{slug}.{key}"]
             assert found[sheet][address] == value
 

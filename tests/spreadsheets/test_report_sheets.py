@@ -12,7 +12,7 @@ from openpyxl import load_workbook
 from reference.ledger import load
 from replication import workbook
 from replication.audit import Verdict, assess_claim
-from replication.impact import BETA_5
+from replication.cases import BETA_5
 from spreadsheets import emit
 from spreadsheets.engines import Engine
 from spreadsheets.plan import Limits, Value

@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from replication import workbook
-from replication.closed_form import final_depth
-from replication.impact import BETA_3, BETA_5, Impact
+from replication.cases import BETA_3, BETA_5
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
 from replication.workbook import REPORT, Cases
 from spreadsheets import emit
 from spreadsheets.compare import Difference, compare
