@@ -95,7 +95,10 @@ class Explainer:
         return self._solved[claim.id]
 
     def _may_vary(self, name: str) -> bool:
-        return name.startswith(INFERRED) or not self.ledger.claims[name].is_exact
+        if name.startswith(INFERRED):
+            return True
+        claim = self.ledger.claims[name]
+        return not claim.is_exact or claim.entry.quantity is not None
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
         solutions = self.solved(claim, reading, name)
@@ -293,8 +296,8 @@ class Explainer:
 _BISECTIONS = 40
 """Down to 1e-12 of the search, beyond what any page shows."""
 
-_BUDGET = 30
-"""Parts of a search, beyond those on which the function is proven to rise or fall."""
+_BUDGET = 250
+"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""
