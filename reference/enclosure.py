@@ -102,7 +102,7 @@ def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fra
     if not slopes:
         return low, high
     middle = _middle(box)
-    value = _plain(function, {name: (x, x) for name, x in middle.items()})
+    value = _plain(function, _points(middle))
     reach = Fraction(0)
     for name, slope in slopes.items():
         steepest = max(map(abs, _INTERVALS.ends(slope)))
@@ -153,49 +153,67 @@ def _sign(slope: Span) -> int:
 class Exploration:
     """What is proven of a function's values over a box, against a target interval.
 
-    `lower`, `upper`: a range that holds all values. `inside`, `outside`: a point of the box whose
-    value is proven inside or outside the target, if one is known. `decided`: no part of the box
-    was left open.
+    `lower`, `upper`: a range that holds all values. `inside`: a point of the box whose value is
+    proven inside the target, if one is known. `never`: no value in the box is, which is proven.
     """
 
     lower: Fraction
     upper: Fraction
     inside: Mapping[str, Fraction] | None
-    outside: Mapping[str, Fraction] | None
-    decided: bool
-
-    @property
-    def always(self) -> bool:
-        """Every value in the box is inside the target."""
-        return self.decided and self.outside is None
-
-    @property
-    def never(self) -> bool:
-        """No value in the box is inside the target."""
-        return self.decided and self.inside is None
+    never: bool = False
 
 
-def explore(function: Function, box: Box, target: Interval, budget: int = 500) -> Exploration:
+def explore(function: Function, box: Box, target: Interval, budget: int = 250) -> Exploration:
     """Decide whether values over the box fall inside the target interval.
 
     Where every input acts in one direction, the way from the least to the greatest value is
     searched. Else by branch and bound: the part whose middle comes nearest to the target is cut
-    first, along its relatively widest side. It ends when points inside and outside are both known,
-    when every part is decided, or after `budget` evaluations.
+    first, along its relatively widest side. It ends with the first point that is proven inside,
+    when every part is proven outside, or after `budget` parts.
+
+    >>> box = {"x": (Fraction(0), Fraction(1))}
+    >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
+    True
     """
     whole = enclose(function, box)
     if target.encloses(*whole.ends):
-        return Exploration(*whole.ends, _middle(box), None, decided=True)
+        return Exploration(*whole.ends, _middle(box))
     if target.excludes(*whole.ends):
-        return Exploration(*whole.ends, None, _middle(box), decided=True)
-    if whole.signs and whole.is_monotone:
+        return Exploration(*whole.ends, None, never=True)
+    if not whole.signs:  # a point, whose enclosure straddles an end of the target
+        return Exploration(*whole.ends, None)
+    if whole.is_monotone:
         return _along_the_diagonal(function, box, whole, target)
-    search, scales = _Search(function, target), _scales(box)
-    search.add(dict(box), whole)
-    while search.open and search.evaluations < budget and not search.split():
-        for part in _halves(search.nearest(), scales):
-            search.add(part, enclose(function, part))
-    return search.result(whole)
+    return _by_branch_and_bound(function, box, whole, target, budget)
+
+
+def _by_branch_and_bound(
+    function: Function, box: Box, whole: Range, target: Interval, budget: int
+) -> Exploration:
+    scales, inside, parts = _scales(box), None, 0
+    waiting = [(Fraction(0), 0, dict(box), whole.ends)]
+    closed: list[tuple[Fraction, Fraction]] = []
+    while waiting and inside is None and parts < budget:
+        for part in _halves(heapq.heappop(waiting)[2], scales):
+            parts += 1
+            ends = enclose(function, part).ends
+            if target.excludes(*ends):
+                closed.append(ends)
+                continue
+            middle = _middle(part)
+            at_middle = _plain(function, _points(middle))
+            if target.encloses(*at_middle):
+                inside = middle
+            heapq.heappush(waiting, (_distance(at_middle, target), parts, part, ends))
+    lows, highs = zip(*closed, *(ends for *_, ends in waiting), strict=True)
+    lower, upper = max(whole.lower, min(lows)), min(whole.upper, max(highs))
+    return Exploration(lower, upper, inside, never=not waiting)
+
+
+def _distance(ends: tuple[Fraction, Fraction], target: Interval) -> Fraction:
+    above = Fraction(0) if target.upper is None else ends[0] - target.upper
+    below = Fraction(0) if target.lower is None else target.lower - ends[1]
+    return max(above, below)
 
 
 _STEPS = 80
@@ -214,90 +232,22 @@ def _along_the_diagonal(
         }
 
     def value(share: Fraction) -> tuple[Fraction, Fraction]:
-        return _plain(function, {name: (x, x) for name, x in at(share).items()})
+        return _plain(function, _points(at(share)))
 
-    inside = outside = None
     low, high = Fraction(0), Fraction(1)
     for share in (low, high):
-        ends = value(share)
-        inside = at(share) if target.encloses(*ends) else inside
-        outside = at(share) if target.excludes(*ends) else outside
+        if target.encloses(*value(share)):
+            return Exploration(*whole.ends, at(share))
     for _ in range(_STEPS):
-        if inside is not None:
-            break
         middle = (low + high) / 2
         ends = value(middle)
         if target.encloses(*ends):
-            inside = at(middle)
-        elif target.lower is not None and ends[0] <= target.lower:
+            return Exploration(*whole.ends, at(middle))
+        if target.lower is not None and ends[0] <= target.lower:
             low = middle
         else:
             high = middle
-    return Exploration(*whole.ends, inside, outside, decided=inside is not None)
-
-
-class _Search:
-    """The open parts of a box, and what the closed ones have proven."""
-
-    def __init__(self, function: Function, target: Interval) -> None:
-        self.function, self.target = function, target
-        self.evaluations = 0
-        self.stuck = False
-        self.inside: dict[str, Fraction] | None = None
-        self.outside: dict[str, Fraction] | None = None
-        self.open: list[tuple[Fraction, int, Part]] = []
-        self._open_ranges: dict[int, tuple[Fraction, Fraction]] = {}
-        self._closed_ranges: list[tuple[Fraction, Fraction]] = []
-
-    def split(self) -> bool:
-        return self.inside is not None and self.outside is not None
-
-    def add(self, part: Part, range_: Range) -> None:
-        self.evaluations += 1
-        middle = _middle(part)
-        if self._note(range_.ends, middle):
-            self._closed_ranges.append(range_.ends)
-            return
-        if all(low == high for low, high in part.values()):
-            # Its enclosure straddles an end of the target: no cut can decide it.
-            self.stuck = True
-            self._closed_ranges.append(range_.ends)
-            return
-        self.evaluations += 1
-        at_middle = _plain(self.function, {name: (x, x) for name, x in middle.items()})
-        self._note(at_middle, middle)
-        self._open_ranges[self.evaluations] = range_.ends
-        heapq.heappush(self.open, (self._distance(at_middle), self.evaluations, part))
-
-    def _note(self, ends: tuple[Fraction, Fraction], point: dict[str, Fraction]) -> bool:
-        """Record a proof for the point; whether there was one."""
-        if self.target.encloses(*ends):
-            self.inside = self.inside or point
-            return True
-        if self.target.excludes(*ends):
-            self.outside = self.outside or point
-            return True
-        return False
-
-    def _distance(self, ends: tuple[Fraction, Fraction]) -> Fraction:
-        above = Fraction(0) if self.target.upper is None else ends[0] - self.target.upper
-        below = Fraction(0) if self.target.lower is None else self.target.lower - ends[1]
-        return max(above, below)
-
-    def nearest(self) -> Part:
-        _, number, part = heapq.heappop(self.open)
-        del self._open_ranges[number]
-        return part
-
-    def result(self, whole: Range) -> Exploration:
-        ranges = self._closed_ranges + list(self._open_ranges.values())
-        return Exploration(
-            max(whole.lower, min(low for low, _ in ranges)),
-            min(whole.upper, max(high for _, high in ranges)),
-            self.inside,
-            self.outside,
-            not self.open and not self.stuck,
-        )
+    return Exploration(*whole.ends, None)
 
 
 def _middle(box: Box) -> dict[str, Fraction]:
