@@ -52,12 +52,13 @@ class Range:
     """A proven range of a function over a box.
 
     `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
-    (-1) with it all over the box, or not (0).
+    (-1) with it all over the box, or not (0); on the `idle` ones it is proven not to depend.
     """
 
     lower: Fraction
     upper: Fraction
     signs: Mapping[str, int]
+    idle: frozenset[str] = frozenset()
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
@@ -80,6 +81,7 @@ def enclose(function: Function, box: Box) -> Range:
     wide = [name for name, (low, high) in box.items() if low != high]
     slopes = _slopes(function, box, wide) if wide else {}
     signs = {name: _sign(slope) for name, slope in slopes.items()}
+    idle = frozenset(name for name, slope in slopes.items() if slope.low == 0 == slope.high)
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
         return Range(*_best(function, box, slopes), signs or dict.fromkeys(wide, 0))
@@ -91,9 +93,9 @@ def enclose(function: Function, box: Box) -> Range:
         for top in (0, 1)
     )  # fmt: skip
     if len(fixed) == len(wide):
-        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs)
+        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs, idle)
     # An input that is put at an end may free another's sign.
-    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs)
+    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
 
 
 def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fraction, Fraction]:
@@ -234,10 +236,8 @@ def _along_the_diagonal(
     def value(share: Fraction) -> tuple[Fraction, Fraction]:
         return _plain(function, _points(at(share)))
 
+    # Not at the corners: an open end of an input's interval does not belong to it.
     low, high = Fraction(0), Fraction(1)
-    for share in (low, high):
-        if target.encloses(*value(share)):
-            return Exploration(*whole.ends, at(share))
     for _ in range(_STEPS):
         middle = (low + high) / 2
         ends = value(middle)

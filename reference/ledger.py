@@ -371,6 +371,16 @@ class Claim:
         """The entries that it rests on, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
 
+    @property
+    def inferred(self) -> list[str]:
+        """Those of them that the report does not print."""
+        return [name for name in self.entries if name.startswith(INFERRED)]
+
+    @property
+    def stated(self) -> list[str]:
+        """Those of them that it prints."""
+        return [name for name in self.entries if not name.startswith(INFERRED)]
+
     def resting_on(self, inputs: Mapping[str, tuple[str, ...]]) -> "Claim":
         """The claim with other entries as its inputs."""
         return replace(self, inputs=inputs)

@@ -12,7 +12,7 @@ from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.equations import MATHML, PLAIN, Node, Notation, evaluate, rendered
-from reference.ledger import INFERRED, Claim, Ledger, Source
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
 from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
@@ -455,6 +455,7 @@ class _Audit:
         inference = self.judge.inference(INFERRED + name, centered=centered)
         entry, si = inference.entry, to_si(inference.entry.unit)
         inner = inference.inner.ends
+        rounded = None if centered else inference.admitted(Convention())
         return r.InferredRecord(
             id=name,
             title=entry.title,
@@ -465,12 +466,10 @@ class _Audit:
             interval=_inward(*(end / si for end in inner)),
             interval_exact=(str(inner[0] / si), str(inner[1] / si)),
             with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
-            attained_with_rounded_inputs=None
-            if centered
-            else _inward(*(e / si for e in inference.attained.ends)),
-            possible_with_rounded_inputs=None
-            if centered
-            else _outward(*(e / si for e in inference.possible.ends)),
+            attained_with_rounded_inputs=rounded
+            and _inward(*(end / si for end in rounded[0].ends)),
+            possible_with_rounded_inputs=rounded
+            and _outward(*(end / si for end in rounded[1].ends)),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[

@@ -59,7 +59,7 @@ class Culprit:
 class TriedSlip:
     """What a slip makes of one claim: its proven range (in the claim's unit), and whether it fits.
 
-    `fits` is "as printed", "within rounding" or "".
+    `fits` is "as printed", "not excluded within rounding" or "".
     """
 
     slip: Slip
@@ -170,7 +170,7 @@ class Explainer:
         if name in self.ledger.equations:
             return [name, *self.ledger.constants_of(name)]
         claim = self.ledger.claims[name]
-        entries = [entry for entry in claim.entries if not entry.startswith(INFERRED)]
+        entries = claim.stated
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
             # Its evidence has moved it: what the evidence rests on may be wrong.
             for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
@@ -279,16 +279,11 @@ class Explainer:
         function = ledger.function(changed)
         printed = {name: (self.judge.value(name),) * 2 for name in changed.entries}
         at_print = enclose(function, printed).ends
-        box = {
-            name: self.judge.inference(name).possible.ends
-            if name.startswith(INFERRED)
-            else self.ledger.claims[name].as_input(Convention(choices_exact=False)).ends
-            for name in changed.entries
-        }
-        target = claim.target()
+        target, rounded = claim.target(), Convention(choices_exact=False)
         fits = "as printed" if target.encloses(*at_print) else ""
-        if not fits and not target.excludes(*enclose(function, box).ends):
-            fits = "within rounding"
+        everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+        if not fits and not target.excludes(*everywhere):
+            fits = "not excluded within rounding"
         low, high = (end / claim.si for end in at_print)
         return TriedSlip(slip, low, high, fits)
 

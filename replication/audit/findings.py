@@ -151,7 +151,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     rounded = Convention(choices_exact=choices_exact)
     claims = known.judge.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(_DENSITY).possible.ends
+    box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
     return enclose(ratio, box).lower
 
 
@@ -277,7 +277,7 @@ def _sphere_equivalent(known: Known) -> Evidence:
 def _target_density(known: Known) -> Evidence:
     inference = known.judge.inference(_DENSITY)
     (least, greatest), (possible_least, possible_greatest) = (
-        interval.ends for interval in (inference.inner, inference.possible)
+        interval.ends for interval in (inference.inner, inference.admitted(Convention())[1])
     )
     centered = known.judge.inference(_DENSITY, centered=True).inner.ends
     sources = known.judge.ledger.sources

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
 from replication.audit.equations import Constant, EquationAssessment
@@ -18,6 +18,7 @@ __all__ = [
     "holds",
     "quantity",
 ]
+
 
 def quantity(text: str, unit: str) -> str:
     """Text with its unit, as a page shows it.
@@ -50,7 +51,7 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
     low, high = judgement.lower, judgement.upper
     match judgement.verdict:
         case Verdict.REPRODUCED:
-            if any(entry.startswith(INFERRED) for entry in claim.entries):
+            if claim.inferred:
                 return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
             return []
         case Verdict.WITHIN_ROUNDING:
@@ -138,7 +139,7 @@ def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     assumed = [] if claim.entry.assumes is None else [claim.entry.assumes]
-    for name in (entry for entry in claim.entries if entry.startswith(INFERRED)):
+    for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
         admitted = inward(*judge.inference(name).inner.ends)
         assumed.append(
