@@ -131,7 +131,6 @@ class Inferred(_Table, frozen=True):
     unit: str
     quantity: str
     search: tuple[Fraction, Fraction]
-    resolution: Fraction
     nominal: Fraction
     nominal_source: str
     mass: str

@@ -98,8 +98,11 @@ def _other(claim: Claim, reading: Reading) -> str:
 def holds(claim: Claim, reading: Reading) -> str:
     """Under which conventions the verdict holds, and which would change it."""
     scope = "every convention of rounding"
-    tried = {(j.convention.choices_exact, j.convention.header_exact) for j in reading.judgements}
-    scope += ", with choices and header exact or rounded" if len(tried) > 1 else ""
+    tried = [judgement.convention for judgement in reading.judgements]
+    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    varied = ["choices"] if len({c.choices_exact for c in usual}) > 1 else []
+    varied += ["header"] if len({c.header_exact for c in usual}) > 1 else []
+    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
@@ -188,14 +191,17 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
 
 def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
     """Why a constant of an equation has its verdict."""
-    source = ledger.equations[claim.within or ""].entry.follows_from
+    entry = ledger.equations[claim.within or ""].entry
+    passes = f"the equation follows from {entry.follows_from}"
+    if entry.kind == "taken over":
+        passes = "the equation has the right dimensions, limits and signs"
     match constant.verdict:
         case Verdict.REPRODUCED:
-            return f"The equation follows from {source} with this number, and no other tried."
+            return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
             needed = " or ".join(str(value) for value in constant.needed)
-            return f"The equation follows from {source} with {needed}, not with {claim.shown}."
+            return f"With {needed} instead of {claim.shown} {passes}."
         case Verdict.UNDECIDED:
-            return f"The equation does not follow from {source}, whatever this number is."
+            return f"With no number that was tried in its place {passes}."
     reason = f": {claim.given}" if claim.given else ""
     return f"Dimensions, limits and signs do not decide it{reason}."
