@@ -6,7 +6,6 @@ over the box is put at its ends, so that the bound is sharp. Where it is too wid
 question, the box is cut in halves until it decides, or the question stays undecided: never a guess.
 """
 
-import heapq
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -169,85 +168,67 @@ def explore(function: Function, box: Box, target: Interval, budget: int = 250) -
     """Decide whether values over the box fall inside the target interval.
 
     Where every input acts in one direction, the way from the least to the greatest value is
-    searched. Else by branch and bound: the part whose middle comes nearest to the target is cut
-    first, along its relatively widest side. It ends with the first point that is proven inside,
-    when every part is proven outside, or after `budget` parts.
+    searched; other boxes are cut in halves along the relatively widest side, the largest first. It
+    ends with a point that is proven inside, when every part is proven outside, or after `budget`
+    parts.
 
     >>> box = {"x": (Fraction(0), Fraction(1))}
     >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
     True
     """
-    whole = enclose(function, box)
-    if target.encloses(*whole.ends):
-        return Exploration(*whole.ends, _middle(box))
-    if target.excludes(*whole.ends):
-        return Exploration(*whole.ends, None, never=True)
-    if not whole.signs:  # a point, whose enclosure straddles an end of the target
-        return Exploration(*whole.ends, None)
-    if whole.is_monotone:
-        return _along_the_diagonal(function, box, whole, target)
-    return _by_branch_and_bound(function, box, whole, target, budget)
-
-
-def _by_branch_and_bound(
-    function: Function, box: Box, whole: Range, target: Interval, budget: int
-) -> Exploration:
-    scales, inside, parts = _scales(box), None, 0
-    waiting = [(Fraction(0), 0, dict(box), whole.ends)]
-    closed: list[tuple[Fraction, Fraction]] = []
-    while waiting and inside is None and parts < budget:
-        for part in _halves(heapq.heappop(waiting)[2], scales):
-            parts += 1
-            ends = enclose(function, part).ends
-            if target.excludes(*ends):
-                closed.append(ends)
-                continue
+    whole, scales = enclose(function, box), _scales(box)
+    queue, closed = deque([(dict(box), whole)]), list[tuple[Fraction, Fraction]]()
+    inside, undecided = None, False
+    while queue and inside is None and budget > 0:
+        (part, range_), budget = queue.popleft(), budget - 1
+        if target.excludes(*range_.ends):
+            closed.append(range_.ends)
+        elif target.encloses(*range_.ends):
+            inside = _middle(part)
+            closed.append(range_.ends)
+        elif range_.is_monotone:
+            inside = _on_the_way(function, part, range_, target) if range_.signs else None
+            undecided |= inside is None
+            closed.append(range_.ends)
+        else:
             middle = _middle(part)
-            at_middle = _plain(function, _points(middle))
-            if target.encloses(*at_middle):
-                inside = middle
-            heapq.heappush(waiting, (_distance(at_middle, target), parts, part, ends))
-    lows, highs = zip(*closed, *(ends for *_, ends in waiting), strict=True)
-    lower, upper = max(whole.lower, min(lows)), min(whole.upper, max(highs))
-    return Exploration(lower, upper, inside, never=not waiting)
-
-
-def _distance(ends: tuple[Fraction, Fraction], target: Interval) -> Fraction:
-    above = Fraction(0) if target.upper is None else ends[0] - target.upper
-    below = Fraction(0) if target.lower is None else target.lower - ends[1]
-    return max(above, below)
+            inside = middle if target.encloses(*_plain(function, _points(middle))) else None
+            queue += [(half, enclose(function, half)) for half in _halves(part, scales)]
+    lows, highs = zip(*closed, *(range_.ends for _, range_ in queue), strict=True)
+    return Exploration(
+        max(whole.lower, min(lows)),
+        min(whole.upper, max(highs)),
+        inside,
+        never=not queue and inside is None and not undecided,
+    )
 
 
 _STEPS = 80
 """Halvings of a way through a box: down to parts that no printed digit and no double could tell."""
 
 
-def _along_the_diagonal(
-    function: Function, box: Box, whole: Range, target: Interval
-) -> Exploration:
-    """Of a function that only rises on the way from the box's one corner to the opposite one."""
+def _on_the_way(
+    function: Function, box: Box, range_: Range, target: Interval
+) -> dict[str, Fraction] | None:
+    """A point inside the target on the way from the box's least value to its greatest, if found.
 
-    def at(share: Fraction) -> dict[str, Fraction]:
-        return {
-            name: low + (high - low) * (share if whole.signs.get(name, 1) > 0 else 1 - share)
-            for name, (low, high) in box.items()
-        }
-
-    def value(share: Fraction) -> tuple[Fraction, Fraction]:
-        return _plain(function, _points(at(share)))
-
-    # Not at the corners: an open end of an input's interval does not belong to it.
+    Not at the corners themselves: an open end of an input's interval does not belong to it.
+    """
     low, high = Fraction(0), Fraction(1)
     for _ in range(_STEPS):
-        middle = (low + high) / 2
-        ends = value(middle)
+        share = (low + high) / 2
+        point = {
+            name: a + (b - a) * (share if range_.signs.get(name, 1) > 0 else 1 - share)
+            for name, (a, b) in box.items()
+        }
+        ends = _plain(function, _points(point))
         if target.encloses(*ends):
-            return Exploration(*whole.ends, at(middle))
+            return point
         if target.lower is not None and ends[0] <= target.lower:
-            low = middle
+            low = share
         else:
-            high = middle
-    return Exploration(*whole.ends, None)
+            high = share
+    return None
 
 
 def _middle(box: Box) -> dict[str, Fraction]:
@@ -315,10 +296,11 @@ def solve(
             inner.append(part)
             outer.append(part)
         elif range_.is_monotone:
-            low, high = _crossings(function, name, part, target, range_.signs[name] > 0)
-            outer.append((low[0], high[1]))
-            if low[1] <= high[0]:
-                inner.append((low[1], high[0]))
+            first, last = _crossings(function, name, part, target, range_.signs[name] > 0)
+            outer.append((first[0], last[1]))
+            ends = [_plain(function, {name: (x, x)}) for x in (first[1], last[0])]
+            if first[1] <= last[0] and all(target.encloses(*values) for values in ends):
+                inner.append((first[1], last[0]))
         elif budget > 0:
             middle = (part[0] + part[1]) / 2
             queue += [(part[0], middle), (middle, part[1])]
@@ -360,10 +342,10 @@ def _bracket(
     (the Illinois method), and by halving where that does not help.
     """
     (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
-    at_low, at_high = (float((a + b) / 2 - goal) for a, b in ends)
+    at_low, at_high = (0.0 if a <= goal <= b else float((a + b) / 2 - goal) for a, b in ends)
     rises, last = at_low < at_high, 0
     for count in range(_STEPS):
-        if high - low <= width or at_low * at_high >= 0:
+        if high - low <= width or at_low == at_high or at_low * at_high > 0:
             break
         share = Fraction(at_low / (at_low - at_high)) if count % 4 != 3 else Fraction(1, 2)
         # A little beyond the guess, so that the bracket closes from both sides.

@@ -8,7 +8,7 @@ x = X (1 - s^2), which removes the square root singularity at rest. SI units thr
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
 
