@@ -160,7 +160,7 @@ def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
             raise LedgerError(f"finding {entry.id!r} stands there twice")
         try:
             findings[entry.id] = _finding(entry, ledger)
-        except ValueError as error:
+        except (ValueError, ArithmeticError) as error:
             raise LedgerError(f"finding {entry.id!r}: {error}") from error
     return findings
 

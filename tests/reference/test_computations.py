@@ -1,0 +1,128 @@
+"""Each computation by name: its units, its values, the printed equations that it uses."""
+
+from fractions import Fraction as F
+from inspect import Parameter, signature
+from math import isclose, log, pi, sqrt
+from typing import Any
+
+import pytest
+
+from reference.arithmetic import Floats, Reals
+from reference.computations import COMPUTATIONS, EXPONENT, SAME
+from reference.enclosure import enclose
+from reference.ledger import Claim, load
+from reference.units import to_si
+
+LEDGER = load()
+COMPUTED = [
+    claim
+    for claim in LEDGER.claims.values()
+    if claim.computation and not claim.computation.restates
+]
+
+
+@pytest.mark.parametrize("name", COMPUTATIONS)
+def test_what_is_said_of_a_computation_is_true(name: str) -> None:
+    computation = COMPUTATIONS[name]
+    assert computation.name == name
+    assert computation.summary
+    assert not computation.summary.endswith(".")
+    assert set(computation.equations) <= set(LEDGER.equations)
+    for unit in (computation.unit, *computation.inputs.values()):
+        assert unit in (SAME, EXPONENT) or to_si(unit)
+    _, _, *rest = signature(computation.function).parameters.values()
+    named = {p.name for p in rest if p.kind is not Parameter.VAR_KEYWORD}
+    assert computation.by_row == ("row" in named)
+    assert computation.by_scheme == ("centered" in named)
+    assert named - {"row", "centered"} <= set(computation.inputs)
+    used = {c.name for claim in LEDGER.claims.values() for c in claim.computations.values()}
+    assert name in used
+
+
+@pytest.mark.parametrize("claim", COMPUTED, ids=lambda claim: claim.id)
+def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
+    ar = Reals(50)
+    point = {name: LEDGER.value(name) for name in claim.entries}
+    for reading in claim.computations:
+        for centered in (False, True) if claim.by_scheme else (False,):
+            function = LEDGER.function(claim, reading=reading, centered=centered)
+            real = function(ar, **{name: ar.number(x) for name, x in point.items()})
+            value = real if isinstance(real, F) else F(*real.as_integer_ratio())
+            low, high = enclose(function, {name: (x, x) for name, x in point.items()}).ends
+            assert low <= value <= high
+            # 30 digits, of which the sheet's many rows and the verified root's margin leave 15.
+            assert high - low <= abs(value) * F(1, 10**15)
+
+
+FZ = {"length_ratio": 2 / 3, "particle_density": 8900, "target_density": 7850, "k_1": 0.557,
+      "k_t": 1.046, "resistance": 9.13e9, "velocity": 500}  # fmt: skip
+EQ_16 = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + 1.046 * 7850 * 500**2 / 9.13e9)
+ALPHA = (2 * 200e9 / (3 * 215e6)) ** (1 / 3)
+STEEL = {"elastic_modulus": 200e9, "flow_stress": 215e6}
+BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "inputs", "expected"),
+    [
+        ("count", {"a": 5, "b": 5, "c": 9}, 3),
+        ("half", {"value": 7}, 3.5),
+        ("ratio", {"numerator": 98, "denominator": 30}, 98 / 30),
+        ("excess", {"numerator": 7, "denominator": 2}, 2.5),
+        ("radius_of", {"diameter": 22}, 11),
+        ("diameter_of", {"radius": 11}, 22),
+        ("sphere_length_ratio", {"length_ratio": 1}, 2 / 3),
+        ("sphere_volume", {"diameter": 22}, 4 / 3 * pi * 11**3),
+        ("particle_mass", {"radius": 2, "particle_density": 3}, 4 / 3 * pi * 8 * 3),
+        ("crater_normalized_depth", {"volume_ratio": 0.5}, 1),
+        ("crater_depth", {"volume_ratio": 0.5, "diameter": 22}, 11),
+        ("crater_depth_over_diameter", {"volume_ratio": 0.5}, 0.5),
+        ("contact_diameter", {"normalized_depth": 1 / 3, "diameter": 22}, 22 * sqrt(5) / 3),
+        ("target_resistance", {"beta": 5, "flow_stress": 700}, 3500),
+        ("force_power", {}, 2),
+        ("goodier_beta", {"q": 2.77, "power": F(2)}, 4 * 2.77 / pi),
+        ("goodier_beta", {"q": 2.77, "power": F(3)}, 8 * 2.77 / pi),
+        ("walker_anderson_alpha", STEEL, ALPHA),
+        ("walker_anderson_beta", STEEL, 7 / 3 * log(ALPHA)),
+        ("least_beta", BETAS, 3),
+        ("greatest_beta", BETAS, 5),
+        ("least_beta", {**BETAS, "goodier": 1}, 1),
+        ("greatest_beta", {**BETAS, "brinell": 9}, 9),
+        ("strain_rate", {"velocity": 500, "length": 2e-5}, 2.5e7),
+        ("row_time", {"row": 3, "step": 2}, 6),
+        ("frank_zook_as_printed", FZ, EQ_16),
+        ("frank_zook_derived", FZ, 2 * EQ_16),
+    ],
+)
+def test_values_by_hand(name: str, inputs: dict[str, Any], expected: float) -> None:
+    value = COMPUTATIONS[name].function(Floats(), LEDGER.sides, **inputs)
+    assert isclose(value, expected, rel_tol=1e-14)  # a dozen roundings
+
+
+def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
+    """dx/dv = v / (dv/dt), by quadrature over v, with D = 1; X/R is twice X/D."""
+    ar = Reals(30)
+    case = {
+        name: ar.number(F(str(x)) if name != "length_ratio" else F(2, 3)) for name, x in FZ.items()
+    }
+    inertia = case["length_ratio"] * case["particle_density"] + case["k_1"] * case["target_density"]
+    depth = ar.context.quad(
+        lambda v: inertia * v / (case["k_t"] * case["target_density"] * v * v + case["resistance"]),
+        [0, case["velocity"] / 2, case["velocity"]],
+    )
+    derived = COMPUTATIONS["frank_zook_derived"].function(ar, LEDGER.sides, **case)
+    assert abs(derived / (2 * depth) - 1) < 1e-27
+
+
+@pytest.mark.parametrize("claim", COMPUTED, ids=lambda claim: claim.id)
+def test_a_computation_uses_the_equations_that_it_names_and_no_others(claim: Claim) -> None:
+    """Another equation in the place of a printed one changes the value, or it is not named."""
+    point = {name: float(LEDGER.value(name)) for name in claim.entries}
+    for reading, computation in claim.computations.items():
+        value = LEDGER.function(claim, reading=reading)(Floats(), **point)
+        for equation in LEDGER.equations:
+            left, _, right = LEDGER.equation_text(equation).rpartition("=")
+            changed = LEDGER.misprint_equation(equation, f"{left}= 3 ({right})")
+            other = changed.function(claim, reading=reading)(Floats(), **point)
+            if value:
+                assert (other != value) == (equation in computation.equations), equation
