@@ -27,13 +27,13 @@ from replication.text import number, powers_of_ten
 __all__ = ["audit", "audit_claim"]
 
 
-def audit() -> r.Record:
-    """Audit every number and equation of the report.
+def audit(ledger: Ledger | None = None) -> r.Record:
+    """Audit every number and equation of the report, or of a copy of its ledger with a misprint.
 
-    >>> audit().claim("depth-beta-5").verdict
-    'reproduced'
+    >>> print(audit().claim("depth-beta-5").verdict)
+    reproduced
     """
-    return _Audit(ledgers.load()).record()
+    return _Audit(ledger or ledgers.load()).record()
 
 
 def audit_claim(name: str) -> r.ClaimRecord:
@@ -222,11 +222,7 @@ class _Audit:
             if claim.id in constants:
                 return wording.constant_explanation(self.ledger, claim, constants[claim.id])
         if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
-            texts = [
-                f"{wording.quantity(s.says, s.unit)} ({s.title})"
-                for s in self._sources(claim.id, claim.target())
-            ]
-            return f"The report names no source. Public ones print {'; '.join(texts)}."
+            return wording.sources(self._sources(claim.id, claim.target()))
         if claim.entry.shown_by:
             ends = self._shown(claim)
             if ends is None:

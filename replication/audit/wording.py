@@ -7,6 +7,7 @@ from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
 from replication.audit.equations import Constant, EquationAssessment
+from replication.audit.record import SourceRecord
 from replication.audit.verdict import Judge, Judgement, Reading, Verdict
 from replication.text import inward, number, outward
 
@@ -17,6 +18,7 @@ __all__ = [
     "explanation",
     "holds",
     "quantity",
+    "sources",
 ]
 
 
@@ -166,6 +168,22 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
     }
     depends = "depends" if len(inside) > 1 else "does not depend"
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
+
+
+def sources(records: Sequence[SourceRecord]) -> str:
+    """How a number stands to the public sources for it."""
+    texts = {
+        agrees: "; ".join(
+            f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees
+        )
+        for agrees in (True, False)
+    }
+    if not texts[True]:
+        return (
+            f"The report names no source. It agrees with none of the public ones: {texts[False]}."
+        )
+    but = f", not with {texts[False]}" if texts[False] else ""
+    return f"The report names no source. It agrees with {texts[True]}{but}."
 
 
 # Equations

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from reference.trajectory import Trajectory
+
 from replication import closed_form
 from replication.analysis import convergence, stability
 from replication.analysis.budget import Budget, exact_motion, split

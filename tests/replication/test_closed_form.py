@@ -14,8 +14,8 @@ import pytest
 import xarray
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from reference.trajectory import Trajectory
+
 from replication import closed_form
 from replication.closed_form.checked import ElementError, checked
 from replication.impact import BETA_5, Impact

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from reference.exact import Reals, final_depth
+
 from reference.ledger import load
 from replication import closed_form
 from replication.analysis.approaches import Approach, approaches
