@@ -172,18 +172,14 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
 
 def sources(records: Sequence[SourceRecord]) -> str:
     """How a number stands to the public sources for it."""
-    texts = {
-        agrees: "; ".join(
-            f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees
-        )
-        for agrees in (True, False)
-    }
-    if not texts[True]:
-        return (
-            f"The report names no source. It agrees with none of the public ones: {texts[False]}."
-        )
-    but = f", not with {texts[False]}" if texts[False] else ""
-    return f"The report names no source. It agrees with {texts[True]}{but}."
+    texts: dict[bool | None, list[str]] = {True: [], False: []}
+    for record in records:
+        texts[record.agrees].append(f"{quantity(record.says, record.unit)} ({record.title})")
+    agreeing, others = "; ".join(texts[True]), "; ".join(texts[False])
+    if not agreeing:
+        return f"The report names no source. It agrees with no public one: {others}."
+    but = f", not with {others}" if others else ""
+    return f"The report names no source. It agrees with {agreeing}{but}."
 
 
 # Equations
