@@ -17,6 +17,7 @@ from reference.arithmetic import Arithmetic, Number
 from reference.derivations import Sides
 from reference.equations import evaluate
 from reference.motion import Row, sheet_depth, sheet_rows
+from reference.units import unit_dimension
 
 __all__ = ["COMPUTATIONS", "EXPONENT", "SAME", "Computation"]
 
@@ -203,7 +204,7 @@ def target_resistance(ar: Arithmetic, printed: Sides, beta: Number, flow_stress:
 @_computes("1")
 def force_power(ar: Arithmetic, printed: Sides) -> Fraction:
     """the power of a length that makes a force of a stress, for Eq. 8"""
-    return Fraction(2)
+    return (unit_dimension("N") / unit_dimension("Pa")).powers[1]
 
 
 @_computes("1", "eq8", "eq9", q="1", power=EXPONENT)

@@ -6,7 +6,6 @@ over the box is put at its ends, so that the bound is sharp. Where it is too wid
 question, the box is cut in halves until it decides, or the question stays undecided: never a guess.
 """
 
-import heapq
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -52,12 +51,13 @@ class Range:
     """A proven range of a function over a box.
 
     `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
-    (-1) with it all over the box, or not (0).
+    (-1) with it all over the box, or not (0); on the `idle` ones it is proven not to depend.
     """
 
     lower: Fraction
     upper: Fraction
     signs: Mapping[str, int]
+    idle: frozenset[str] = frozenset()
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
@@ -80,6 +80,7 @@ def enclose(function: Function, box: Box) -> Range:
     wide = [name for name, (low, high) in box.items() if low != high]
     slopes = _slopes(function, box, wide) if wide else {}
     signs = {name: _sign(slope) for name, slope in slopes.items()}
+    idle = frozenset(name for name, slope in slopes.items() if slope.low == 0 == slope.high)
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
         return Range(*_best(function, box, slopes), signs or dict.fromkeys(wide, 0))
@@ -91,9 +92,9 @@ def enclose(function: Function, box: Box) -> Range:
         for top in (0, 1)
     )  # fmt: skip
     if len(fixed) == len(wide):
-        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs)
+        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs, idle)
     # An input that is put at an end may free another's sign.
-    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs)
+    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
 
 
 def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fraction, Fraction]:
@@ -102,7 +103,7 @@ def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fra
     if not slopes:
         return low, high
     middle = _middle(box)
-    value = _plain(function, {name: (x, x) for name, x in middle.items()})
+    value = _plain(function, _points(middle))
     reach = Fraction(0)
     for name, slope in slopes.items():
         steepest = max(map(abs, _INTERVALS.ends(slope)))
@@ -153,158 +154,81 @@ def _sign(slope: Span) -> int:
 class Exploration:
     """What is proven of a function's values over a box, against a target interval.
 
-    `lower`, `upper`: a range that holds all values. `inside`, `outside`: a point of the box whose
-    value is proven inside or outside the target, if one is known. `decided`: no part of the box
-    was left open.
+    `lower`, `upper`: a range that holds all values. `inside`: a point of the box whose value is
+    proven inside the target, if one is known. `never`: no value in the box is, which is proven.
     """
 
     lower: Fraction
     upper: Fraction
     inside: Mapping[str, Fraction] | None
-    outside: Mapping[str, Fraction] | None
-    decided: bool
-
-    @property
-    def always(self) -> bool:
-        """Every value in the box is inside the target."""
-        return self.decided and self.outside is None
-
-    @property
-    def never(self) -> bool:
-        """No value in the box is inside the target."""
-        return self.decided and self.inside is None
+    never: bool = False
 
 
-def explore(
-    function: Function, box: Box, target: Interval, budget: int = 500, *, sharp: bool = True
-) -> Exploration:
+def explore(function: Function, box: Box, target: Interval, budget: int = 250) -> Exploration:
     """Decide whether values over the box fall inside the target interval.
 
-    Not `sharp`: a range that is wider than need be will do where it decides.
-
     Where every input acts in one direction, the way from the least to the greatest value is
-    searched. Else by branch and bound: the part whose middle comes nearest to the target is cut
-    first, along its relatively widest side. It ends when points inside and outside are both known,
-    when every part is decided, or after `budget` evaluations.
+    searched; other boxes are cut in halves along the relatively widest side, the largest first. It
+    ends with a point that is proven inside, when every part is proven outside, or after `budget`
+    parts.
+
+    >>> box = {"x": (Fraction(0), Fraction(1))}
+    >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
+    True
     """
-    plain = _plain(function, box)
-    if target.excludes(*plain) and not sharp:
-        return Exploration(*plain, None, _middle(box), decided=True)
-    whole = enclose(function, box)
-    if target.encloses(*whole.ends):
-        return Exploration(*whole.ends, _middle(box), None, decided=True)
-    if target.excludes(*whole.ends):
-        return Exploration(*whole.ends, None, _middle(box), decided=True)
-    if whole.signs and whole.is_monotone:
-        return _along_the_diagonal(function, box, whole, target)
-    search, scales = _Search(function, target), _scales(box)
-    search.add(dict(box), whole)
-    while search.open and search.evaluations < budget and not search.split():
-        for part in _halves(search.nearest(), scales):
-            search.add(part, enclose(function, part))
-    return search.result(whole)
+    whole, scales = enclose(function, box), _scales(box)
+    queue, closed = deque([(dict(box), whole)]), list[tuple[Fraction, Fraction]]()
+    inside, undecided = None, False
+    while queue and inside is None and budget > 0:
+        (part, range_), budget = queue.popleft(), budget - 1
+        if target.excludes(*range_.ends):
+            closed.append(range_.ends)
+        elif target.encloses(*range_.ends):
+            inside = _middle(part)
+            closed.append(range_.ends)
+        elif range_.is_monotone:
+            inside = _on_the_way(function, part, range_, target) if range_.signs else None
+            undecided |= inside is None
+            closed.append(range_.ends)
+        else:
+            middle = _middle(part)
+            inside = middle if target.encloses(*_plain(function, _points(middle))) else None
+            queue += [(half, enclose(function, half)) for half in _halves(part, scales)]
+    lows, highs = zip(*closed, *(range_.ends for _, range_ in queue), strict=True)
+    return Exploration(
+        max(whole.lower, min(lows)),
+        min(whole.upper, max(highs)),
+        inside,
+        never=not queue and inside is None and not undecided,
+    )
 
 
 _STEPS = 80
 """Halvings of a way through a box: down to parts that no printed digit and no double could tell."""
 
 
-def _along_the_diagonal(
-    function: Function, box: Box, whole: Range, target: Interval
-) -> Exploration:
-    """Of a function that only rises on the way from the box's one corner to the opposite one."""
+def _on_the_way(
+    function: Function, box: Box, range_: Range, target: Interval
+) -> dict[str, Fraction] | None:
+    """A point inside the target on the way from the box's least value to its greatest, if found.
 
-    def at(share: Fraction) -> dict[str, Fraction]:
-        return {
-            name: low + (high - low) * (share if whole.signs.get(name, 1) > 0 else 1 - share)
-            for name, (low, high) in box.items()
-        }
-
-    def value(share: Fraction) -> tuple[Fraction, Fraction]:
-        return _plain(function, {name: (x, x) for name, x in at(share).items()})
-
-    inside = outside = None
+    Not at the corners themselves: an open end of an input's interval does not belong to it.
+    """
     low, high = Fraction(0), Fraction(1)
-    for share in (low, high):
-        ends = value(share)
-        inside = at(share) if target.encloses(*ends) else inside
-        outside = at(share) if target.excludes(*ends) else outside
     for _ in range(_STEPS):
-        if inside is not None:
-            break
-        middle = (low + high) / 2
-        ends = value(middle)
+        share = (low + high) / 2
+        point = {
+            name: a + (b - a) * (share if range_.signs.get(name, 1) > 0 else 1 - share)
+            for name, (a, b) in box.items()
+        }
+        ends = _plain(function, _points(point))
         if target.encloses(*ends):
-            inside = at(middle)
-        elif target.lower is not None and ends[0] <= target.lower:
-            low = middle
+            return point
+        if target.lower is not None and ends[0] <= target.lower:
+            low = share
         else:
-            high = middle
-    return Exploration(*whole.ends, inside, outside, decided=inside is not None)
-
-
-class _Search:
-    """The open parts of a box, and what the closed ones have proven."""
-
-    def __init__(self, function: Function, target: Interval) -> None:
-        self.function, self.target = function, target
-        self.evaluations = 0
-        self.stuck = False
-        self.inside: dict[str, Fraction] | None = None
-        self.outside: dict[str, Fraction] | None = None
-        self.open: list[tuple[Fraction, int, Part]] = []
-        self._open_ranges: dict[int, tuple[Fraction, Fraction]] = {}
-        self._closed_ranges: list[tuple[Fraction, Fraction]] = []
-
-    def split(self) -> bool:
-        return self.inside is not None and self.outside is not None
-
-    def add(self, part: Part, range_: Range) -> None:
-        self.evaluations += 1
-        middle = _middle(part)
-        if self._note(range_.ends, middle):
-            self._closed_ranges.append(range_.ends)
-            return
-        if all(low == high for low, high in part.values()):
-            # Its enclosure straddles an end of the target: no cut can decide it.
-            self.stuck = True
-            self._closed_ranges.append(range_.ends)
-            return
-        self.evaluations += 1
-        at_middle = _plain(self.function, {name: (x, x) for name, x in middle.items()})
-        self._note(at_middle, middle)
-        self._open_ranges[self.evaluations] = range_.ends
-        heapq.heappush(self.open, (self._distance(at_middle), self.evaluations, part))
-
-    def _note(self, ends: tuple[Fraction, Fraction], point: dict[str, Fraction]) -> bool:
-        """Record a proof for the point; whether there was one."""
-        if self.target.encloses(*ends):
-            self.inside = self.inside or point
-            return True
-        if self.target.excludes(*ends):
-            self.outside = self.outside or point
-            return True
-        return False
-
-    def _distance(self, ends: tuple[Fraction, Fraction]) -> Fraction:
-        above = Fraction(0) if self.target.upper is None else ends[0] - self.target.upper
-        below = Fraction(0) if self.target.lower is None else self.target.lower - ends[1]
-        return max(above, below)
-
-    def nearest(self) -> Part:
-        _, number, part = heapq.heappop(self.open)
-        del self._open_ranges[number]
-        return part
-
-    def result(self, whole: Range) -> Exploration:
-        ranges = self._closed_ranges + list(self._open_ranges.values())
-        return Exploration(
-            max(whole.lower, min(low for low, _ in ranges)),
-            min(whole.upper, max(high for _, high in ranges)),
-            self.inside,
-            self.outside,
-            not self.open and not self.stuck,
-        )
+            high = share
+    return None
 
 
 def _middle(box: Box) -> dict[str, Fraction]:
@@ -372,10 +296,11 @@ def solve(
             inner.append(part)
             outer.append(part)
         elif range_.is_monotone:
-            low, high = _crossings(function, name, part, target, range_.signs[name] > 0)
-            outer.append((low[0], high[1]))
-            if low[1] <= high[0]:
-                inner.append((low[1], high[0]))
+            first, last = _crossings(function, name, part, target, range_.signs[name] > 0)
+            outer.append((first[0], last[1]))
+            ends = [_plain(function, {name: (x, x)}) for x in (first[1], last[0])]
+            if first[1] <= last[0] and all(target.encloses(*values) for values in ends):
+                inner.append((first[1], last[0]))
         elif budget > 0:
             middle = (part[0] + part[1]) / 2
             queue += [(part[0], middle), (middle, part[1])]
@@ -417,10 +342,10 @@ def _bracket(
     (the Illinois method), and by halving where that does not help.
     """
     (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
-    at_low, at_high = (float((a + b) / 2 - goal) for a, b in ends)
+    at_low, at_high = (0.0 if a <= goal <= b else float((a + b) / 2 - goal) for a, b in ends)
     rises, last = at_low < at_high, 0
     for count in range(_STEPS):
-        if high - low <= width or at_low * at_high >= 0:
+        if high - low <= width or at_low == at_high or at_low * at_high > 0:
             break
         share = Fraction(at_low / (at_low - at_high)) if count % 4 != 3 else Fraction(1, 2)
         # A little beyond the guess, so that the bracket closes from both sides.
@@ -514,7 +439,7 @@ def _at(function: Function, corner: Mapping[str, Fraction]) -> Function:
 
 
 def satisfying(
-    constraints: Sequence[Constraint], box: Box, budget: int = 60
+    constraints: Sequence[Constraint], box: Box, budget: int = 1000
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
     """Whether some point of the box satisfies every constraint, with such a point if one is known.
 

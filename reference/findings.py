@@ -21,7 +21,7 @@ from reference.equations import evaluate, read_expression
 from reference.ledger import Ledger, LedgerError
 from reference.ledger import load as load_ledger
 from reference.printed import parse
-from reference.units import to_si, written
+from reference.units import to_si
 
 __all__ = ["Assertion", "Finding", "Findings", "load", "read"]
 
@@ -160,7 +160,7 @@ def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
             raise LedgerError(f"finding {entry.id!r} stands there twice")
         try:
             findings[entry.id] = _finding(entry, ledger)
-        except ValueError as error:
+        except (ValueError, ArithmeticError) as error:
             raise LedgerError(f"finding {entry.id!r}: {error}") from error
     return findings
 
@@ -215,8 +215,3 @@ def _step(text: str) -> Step:
     value = evaluate(read_expression(expression.strip(), {}), _REALS, {})
     computed = Fraction(str(_REALS.context.nstr(value, 25)))
     return Step(text, parse(right.strip()).interval().contains(computed))
-
-
-def unit_text(assertion: Assertion) -> str:
-    """The unit of a piece of evidence as a page shows it."""
-    return written(assertion.unit)

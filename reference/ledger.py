@@ -131,7 +131,6 @@ class Inferred(_Table, frozen=True):
     unit: str
     quantity: str
     search: tuple[Fraction, Fraction]
-    resolution: Fraction
     nominal: Fraction
     nominal_source: str
     mass: str
@@ -370,6 +369,16 @@ class Claim:
     def entries(self) -> list[str]:
         """The entries that it rests on, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
+
+    @property
+    def inferred(self) -> list[str]:
+        """Those of them that the report does not print."""
+        return [name for name in self.entries if name.startswith(INFERRED)]
+
+    @property
+    def stated(self) -> list[str]:
+        """Those of them that it prints."""
+        return [name for name in self.entries if not name.startswith(INFERRED)]
 
     def resting_on(self, inputs: Mapping[str, tuple[str, ...]]) -> "Claim":
         """The claim with other entries as its inputs."""
@@ -644,6 +653,8 @@ def read(
         raise LedgerError("the ledger is empty: it has no [[claim]]")
     equations = {}
     for entry in tables.equation:
+        if entry.id in equations:
+            raise LedgerError(f"{entry.id!r} stands in the ledger twice")
         place = _place(text, f"equation {entry.id!r}", entry.quote)
         equations[entry.id] = Equation(entry, place)
     claims: dict[str, Claim] = {}
@@ -800,6 +811,8 @@ def _completed(claim: Claim, claims: Mapping[str, Claim]) -> Claim:
     if (name := claim.entry.against) is not None:
         if name not in claims or (other := claims[name]).printed is None:
             raise LedgerError(f"claim {claim.id!r}: there is no number {name!r} to compare with")
+        if other.unit != claim.unit:
+            raise LedgerError(f"claim {claim.id!r}: is in {claim.unit}, but {name} in {other.unit}")
         return replace(claim, bound=other.printed.value)
     return replace(claim, chosen=_is_chosen(claim, claims))
 
@@ -821,14 +834,11 @@ def _check(ledger: Ledger) -> None:
         named = (*inferred.evidence, *inferred.header, *inferred.results, *own)
         if unknown := set(named) - set(ledger.claims):
             raise LedgerError(f"inferred {name!r}: there is no claim {min(unknown)!r}")
-    for equation in ledger.equations.values():
-        if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
-            raise LedgerError(f"equation {equation.id!r}: nothing derives it")
+        if inferred.quantity not in ledger.quantities:
+            raise LedgerError(f"inferred {name!r}: there is no quantity {inferred.quantity!r}")
     for source in ledger.sources.values():
         _check_source(source, ledger)
-    for slip in ledger.slips:
-        if slip.equation not in ledger.equations:
-            raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")
+    _check_equations(ledger)
     try:
         TopologicalSorter({c.id: c.entries for c in ledger.claims.values()}).prepare()
     except CycleError as error:
@@ -841,6 +851,23 @@ def _check_claim(claim: Claim, ledger: Ledger) -> None:
     for name in claim.entry.shown_by:
         if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
             raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
+
+
+def _check_equations(ledger: Ledger) -> None:
+    try:
+        _ = ledger.sides, ledger.dimensions
+        for text in (slip.text for slip in ledger.slips if slip.text is not None):
+            ledger.read(text)
+    except ValueError as error:
+        raise LedgerError(f"[[equation]], [[slip]] or [symbols]: {error}") from error
+    for equation in ledger.equations.values():
+        if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
+            raise LedgerError(f"equation {equation.id!r}: nothing derives it")
+    for slip in ledger.slips:
+        if slip.equation not in ledger.equations:
+            raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")
+        if unknown := set(slip.inputs.values()) - set(ledger.claims):
+            raise LedgerError(f"slip {slip.name!r}: there is no number {min(unknown)!r}")
 
 
 def _check_source(source: Source, ledger: Ledger) -> None:

@@ -1,22 +1,18 @@
 """One impact to any precision: the report's sheet, and the motion without time steps (Eqs. 12-13).
 
-`sheet_rows` is the appendix's scheme over any arithmetic. The exact motion is found by two routes,
-written apart. `Trajectory` separates Eq. 13: the energy integral gives velocity and depth in closed
-form, and time by quadrature of dx/v with x = X (1 - s^2), which removes the square root singularity
-at rest. `Integration` follows the differential equation itself by mpmath's Taylor series
-integrator, restarted where the sphere is half buried and Eq. 13 changes its branch; it is a check
-on the other, for depths, velocities and times within the motion. SI units throughout.
+`sheet_rows` is the appendix's scheme over any arithmetic. `Trajectory` separates Eq. 13: the energy
+integral gives velocity and depth in closed form, and time by quadrature of dx/v with
+x = X (1 - s^2), which removes the square root singularity at rest. SI units throughout.
 """
 
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
 
 __all__ = [
-    "Integration",
     "Row",
     "Trajectory",
     "contact_share",
@@ -122,15 +118,18 @@ def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> N
     return ar.hull([r.depth for r in rows if ar.may_be_below(r.velocity_final, stop_velocity)])
 
 
-class _Motion:
-    """Inputs of one impact as mpmath numbers, and the two groups that Eq. 13 depends on.
+class Trajectory:
+    """The motion by the separated equation.
 
     With y = x/R and the time in units of R/V, the acceleration is -(drag u^2 + push) (2y - y^2) for
     the velocity u = v/V; the area factor is 1 beyond y = 1.
-    """
 
-    guard = 20
-    """Digits carried beyond those asked for."""
+    >>> motion = Trajectory(*map(Fraction, ("500", "11e-6", "8900", "7850", "35e8")), digits=20)
+    >>> print(motion.context.nstr(motion.final_depth * 10**6, 12))
+    7.67493292603
+    >>> print(motion.context.nstr(motion.stop_time() * 10**9, 12))
+    26.0792337824
+    """
 
     def __init__(
         self,
@@ -142,22 +141,11 @@ class _Motion:
         *,
         digits: int = 50,
     ) -> None:
-        self.reals = Reals(digits + self.guard)
+        self.reals = Reals(digits + _GUARD)
         self.context = self.reals.context
         self.velocity, self.radius = self.reals.number(velocity), self.reals.number(radius)
         self.drag = self.reals.number(3 * target_density / (8 * particle_density))
         self.push = self.reals.number(3 * resistance / (4 * particle_density * velocity**2))
-
-
-class Trajectory(_Motion):
-    """The motion by the separated equation.
-
-    >>> from fractions import Fraction as F
-    >>> motion = Trajectory(F(500), F(11, 10**6), F(8900), F(7850), F(35 * 10**8), digits=20)
-    >>> motion.context.nstr(motion.final_depth * 10**6, 12), motion.context.nstr(
-    ...     motion.stop_time() * 10**9, 12)
-    ('7.67493292603', '26.0792337824')
-    """
 
     @cached_property
     def _c(self) -> Number:
@@ -250,75 +238,5 @@ class Trajectory(_Motion):
         return self.final_depth * (1 - s * s)
 
 
-class Integration(_Motion):
-    """The same by integrating the differential equation; methods as those of `Trajectory`."""
-
-    guard = 0  # the integrator keeps a reserve of its own
-
-    @cached_property
-    def _shallow(self) -> Any:
-        def slope(_: Number, state: list[Number]) -> list[Number]:
-            y, u = state
-            return [u, -(self.drag * u * u + self.push) * (2 * y - y * y)]
-
-        return self.context.odefun(slope, 0, [self.context.zero, self.context.one])
-
-    @cached_property
-    def _crossing(self) -> Number | None:
-        """Time at which y = 1, or None if the particle rests before."""
-        # The first branch is not followed far beyond y = 1, where it would turn nonsensical.
-        time = self.context.one
-        while True:
-            y, u = self._shallow(time)
-            if u <= 0:
-                return None
-            if y >= 1:
-                return self._refined(lambda t: self._shallow(t)[0] - 1, time * 7 / 8, time)
-            time = time * 9 / 8
-
-    @cached_property
-    def _deep(self) -> Any:
-        def slope(_: Number, state: list[Number]) -> list[Number]:
-            return [state[1], -(self.drag * state[1] * state[1] + self.push)]
-
-        return self.context.odefun(slope, self._crossing, self._shallow(self._crossing))
-
-    def _state(self, time: Number) -> list[Number]:
-        past = self._crossing is not None and time > self._crossing
-        state: list[Number] = self._deep(time) if past else self._shallow(time)
-        return state
-
-    def _root(self, function: Any) -> Number:
-        """The time at which an increasing or decreasing function of the motion vanishes."""
-        # Small steps: soon after rest the equation, which runs back in time, may blow up.
-        low, high = self.context.zero, self.context.one / 8
-        falling = function(low) > 0
-        while (function(high) > 0) == falling:
-            low, high = high, high * 9 / 8
-        return self._refined(function, low, high)
-
-    def _refined(self, function: Any, low: Number, high: Number) -> Number:
-        return self.context.findroot(function, (low, high), solver="anderson")
-
-    def stop_time(self, stop_velocity: Number = 0) -> Number:
-        u = self.context.convert(stop_velocity) / self.velocity
-        return self._root(lambda t: self._state(t)[1] - u) * self.radius / self.velocity
-
-    def depth_at_time(self, time: Number) -> Number:
-        state = self._state(self.context.convert(time) * self.velocity / self.radius)
-        return self.radius * state[0]
-
-    def depth_at_velocity(self, velocity: Number) -> Number:
-        return self.depth_at_time(self.stop_time(velocity))
-
-    @property
-    def final_depth(self) -> Number:
-        return self.depth_at_velocity(0)
-
-    def time_to_depth(self, depth: Number) -> Number:
-        y = self.context.convert(depth) / self.radius
-        return self._root(lambda t: self._state(t)[0] - y) * self.radius / self.velocity
-
-    def velocity_at_depth(self, depth: Number) -> Number:
-        time = self.time_to_depth(depth) * self.velocity / self.radius
-        return self.velocity * self._state(time)[1]
+_GUARD = 20
+"""Digits carried beyond those asked for."""

@@ -220,7 +220,7 @@ _WORDS = {
     "one-fifth": "1/5",
 }
 _DECIMAL = re.compile(
-    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:\.(?P<part>\d+))?
+    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?
         (?:[Ee](?P<e>[-+]?\d{1,4})
         |\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\}))?""",
     re.VERBOSE,
@@ -232,7 +232,7 @@ _POWER = re.compile(r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})")
 def parse(text: str) -> Printed:
     """Read one printed number.
 
-    Decimals ("7.67", "10.0", "5,575"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
+    Decimals ("7.67", "5,575", "8·9"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
     as its number, at its fewest digits by the ledger), powers of ten ("10^7"), fractions ("7/3")
     and number words ("three"), the last three exact. Raises ValueError for anything else.
 

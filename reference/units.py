@@ -49,7 +49,7 @@ _UNITS = {name: (factor, powers) for name, (factor, powers, _) in _BASES.items()
     for prefix in prefixes.split()
 }
 _FACTOR = re.compile(
-    r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1)(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
+    r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1(?![\s\d]*\d))(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
 )
 _SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "³": "3", "⁻": "-"})
 _LONGEST = 40

@@ -13,7 +13,7 @@ from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.equations import MATHML, PLAIN, Node, Notation, evaluate, rendered
-from reference.ledger import INFERRED, Claim, Ledger, Source
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
 from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
@@ -28,13 +28,13 @@ from replication.text import number, powers_of_ten, rounded
 __all__ = ["Audit", "audit", "audit_claim"]
 
 
-def audit() -> r.Record:
-    """Audit every number and equation of the report.
+def audit(ledger: Ledger | None = None) -> r.Record:
+    """Audit every number and equation of the report, or of a copy of its ledger with a misprint.
 
     >>> print(audit().claim("depth-beta-5").verdict)
     reproduced
     """
-    return Audit(ledgers.load()).record()
+    return Audit(ledger or ledgers.load()).record()
 
 
 def audit_claim(name: str) -> r.ClaimRecord:
@@ -230,11 +230,7 @@ class Audit:
             if claim.id in constants:
                 return wording.constant_explanation(self.ledger, claim, constants[claim.id])
         if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
-            texts = [
-                f"{wording.quantity(s.says, s.unit)} ({s.title})"
-                for s in self._sources(claim.id, claim.target())
-            ]
-            return f"The report names no source. Public ones print {'; '.join(texts)}."
+            return wording.sources(self._sources(claim.id, claim.target()))
         if claim.entry.shown_by:
             ends = self._shown(claim)
             if ends is None:
@@ -466,6 +462,7 @@ class Audit:
         inference = self.judge.inference(INFERRED + name, centered=centered)
         entry, si = inference.entry, to_si(inference.entry.unit)
         inner = inference.inner.ends
+        rounded = None if centered else inference.admitted(Convention())
         return r.InferredRecord(
             id=name,
             title=entry.title,
@@ -476,12 +473,10 @@ class Audit:
             interval=_inward(*(end / si for end in inner)),
             interval_exact=(str(inner[0] / si), str(inner[1] / si)),
             with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
-            attained_with_rounded_inputs=None
-            if centered
-            else _inward(*(e / si for e in inference.attained.ends)),
-            possible_with_rounded_inputs=None
-            if centered
-            else _outward(*(e / si for e in inference.possible.ends)),
+            attained_with_rounded_inputs=rounded
+            and _inward(*(end / si for end in rounded[0].ends)),
+            possible_with_rounded_inputs=rounded
+            and _outward(*(end / si for end in rounded[1].ends)),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[

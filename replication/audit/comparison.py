@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from statistics import NormalDist
 
+from reference.ledger import Convention
 from replication.audit.findings import Known, case, constant_pressure_ratio
 from replication.audit.record import (
     Approach,
@@ -104,7 +105,7 @@ def _elasticities(impact: Impact) -> dict[str, float]:
 def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
     """What each input's own uncertainty does, as far as the report or its evidence states one."""
     density = "inferred:target-density"
-    possible = known.judge.inference(density).possible.ends
+    possible = known.judge.inference(density).admitted(Convention())[1].ends
     rounding = known.judge.ledger.claims["a1-density"].target().ends
     spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
     yield _effect(impact, "velocity", impact.velocity - spread, impact.velocity + spread,

@@ -60,7 +60,7 @@ class Culprit:
 class TriedSlip:
     """What a slip makes of one claim: its proven range (in the claim's unit), and whether it fits.
 
-    `fits` is "as printed", "within rounding" or "".
+    `fits` is "as printed", "not excluded within rounding" or "".
     """
 
     slip: Slip
@@ -96,7 +96,10 @@ class Explainer:
         return self._solved[claim.id]
 
     def _may_vary(self, name: str) -> bool:
-        return name.startswith(INFERRED) or not self.ledger.claims[name].is_exact
+        if name.startswith(INFERRED):
+            return True
+        claim = self.ledger.claims[name]
+        return not claim.is_exact or claim.entry.quantity is not None
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
         solutions = self.solved(claim, reading, name)
@@ -174,7 +177,7 @@ class Explainer:
             equations = [name, *PREMISES.get(name, ())]
             return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
         claim = self.ledger.claims[name]
-        entries = [entry for entry in claim.entries if not entry.startswith(INFERRED)]
+        entries = claim.stated
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
             # Its evidence has moved it: what the evidence rests on may be wrong.
             for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
@@ -331,16 +334,11 @@ class Explainer:
         function = ledger.function(changed)
         printed = {name: (self.judge.value(name),) * 2 for name in changed.entries}
         at_print = enclose(function, printed).ends
-        box = {
-            name: self.judge.inference(name).possible.ends
-            if name.startswith(INFERRED)
-            else self.ledger.claims[name].as_input(Convention(choices_exact=False)).ends
-            for name in changed.entries
-        }
-        target = claim.target()
+        target, rounded = claim.target(), Convention(choices_exact=False)
         fits = "as printed" if target.encloses(*at_print) else ""
-        if not fits and not target.excludes(*enclose(function, box).ends):
-            fits = "within rounding"
+        everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+        if not fits and not target.excludes(*everywhere):
+            fits = "not excluded within rounding"
         low, high = (end / claim.si for end in at_print)
         return TriedSlip(slip, low, high, fits)
 
@@ -348,8 +346,8 @@ class Explainer:
 _BISECTIONS = 40
 """Down to 1e-12 of the search, beyond what any page shows."""
 
-_BUDGET = 30
-"""Parts of a search, beyond those on which the function is proven to rise or fall."""
+_BUDGET = 250
+"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""

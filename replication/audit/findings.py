@@ -8,8 +8,9 @@ from statistics import NormalDist
 from typing import Any
 
 from reference.arithmetic import Number
-from reference.enclosure import enclose
+from reference.enclosure import enclose, solve
 from reference.ledger import INFERRED, Convention
+from reference.units import to_si
 from replication.audit.equations import EquationAssessment
 from replication.audit.explain import BackSolved, Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict
@@ -151,7 +152,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     rounded = Convention(choices_exact=choices_exact)
     claims = known.judge.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(_DENSITY).possible.ends
+    box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
     return enclose(ratio, box).lower
 
 
@@ -174,8 +175,8 @@ def _pair(known: Known) -> Evidence:
 def _equation_16(known: Known) -> Evidence:
     eq16 = known.equations["eq16"]
     (must,) = eq16.constants["eq16-denominator"].needed
-    off = {
-        name: known.computed(f"frank-zook-{name}", _DERIVED) / known[f"frank-zook-{name}"] - 1
+    over = {
+        name: known[f"frank-zook-{name}"] / known.computed(f"frank-zook-{name}", _DERIVED)
         for name in ("rha", "stainless")
     }
     return {
@@ -185,8 +186,8 @@ def _equation_16(known: Known) -> Evidence:
         "printed_stainless": known.computed("frank-zook-stainless"),
         "derived_rha": known.computed("frank-zook-rha", _DERIVED),
         "derived_stainless": known.computed("frank-zook-stainless", _DERIVED),
-        "off_rha": off["rha"],
-        "off_stainless": off["stainless"],
+        "above_rha": over["rha"] - 1,
+        "below_stainless": 1 - over["stainless"],
         "far_printed": known["observed-depth-ratio"] - known.computed("frank-zook-rha"),
         "far_cth": known.exact("cth-ratio") - known.exact("observed-depth-ratio"),
         "far_derived": known["observed-depth-ratio"] - known.computed("frank-zook-rha", _DERIVED),
@@ -194,29 +195,30 @@ def _equation_16(known: Known) -> Evidence:
 
 
 def _values(known: Known) -> Evidence:
-    explainer = known.explainer
-    claims = {
-        name: known.judge.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")
-    }
+    explainer, ledger = known.explainer, known.judge.ledger
+    claims = {name: ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")}
     solved = {name: explainer.back_solved(claim) for name, claim in claims.items()}
     stainless = known.reading("frank-zook-stainless", _DERIVED).judgements
     exact = [j for j in stainless if j.convention.choices_exact]
     rounded = [j for j in stainless if not j.convention.choices_exact]
-    grid = known.exact("fz-resistance-stainless") + 100_000_000
+    strength = ledger.claims["fz-resistance-stainless"]
+    assert strength.printed is not None
+    grid = strength.printed.quantum * strength.si
+    nearest = min(
+        (grid * k for k in range(1, 200)),
+        key=lambda r_t: abs(_derived(known, float(r_t)) - known["observed-depth-ratio"]),
+    )
     ratio = known["frank-zook-stainless"]
-    observed = known["observed-depth-ratio"]
     return {
         "derived": known.computed("frank-zook-stainless", _DERIVED),
         "off": known.computed("frank-zook-stainless", _DERIVED) / ratio - 1,
         "least_exact": min(j.lower for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
         "needed": _middle(solved["stainless"], "fz-resistance-stainless"),
-        "next": _derived(known, float(grid)),
-        "nearest": min(
-            (_derived(known, k * 1e8), k) for k in range(60, 100)
-            if abs(_derived(known, k * 1e8) - observed)
-            == min(abs(_derived(known, n * 1e8) - observed) for n in range(60, 100))
-        )[1] * 1e8,
+        "grid": grid,
+        "nearest": nearest,
+        "next": _derived(known, float(nearest)),
+        "least_admitted": _least_admitted(known),
         "back": _resistance_for(known, known.computed("frank-zook-stainless", _DERIVED), 3),
         "rha_resistance": _middle(solved["rha"], "fz-resistance-rha"),
         "rha_velocity": _middle(solved["rha"], "a1-initial-velocity"),
@@ -234,6 +236,18 @@ def _values(known: Known) -> Evidence:
         "inertia": _inertia(known),
         "z": _drag(known),
     }  # fmt: skip
+
+
+def _least_admitted(known: Known) -> Fraction:
+    """The least X/R for stainless steel, by Eqs. 14 and 15, proven.
+
+    All inputs are rounded but the velocity; the density is one that the header as printed admits.
+    """
+    claim = known.judge.ledger.claims["frank-zook-stainless"]
+    box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
+    box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
+    box[_DENSITY] = known.judge.inference(_DENSITY).outer.ends
+    return enclose(known.judge.ledger.function(claim, reading=_DERIVED), box).lower
 
 
 def _resistance_for(known: Known, ratio: float, digits: int) -> float:
@@ -277,7 +291,7 @@ def _sphere_equivalent(known: Known) -> Evidence:
 def _target_density(known: Known) -> Evidence:
     inference = known.judge.inference(_DENSITY)
     (least, greatest), (possible_least, possible_greatest) = (
-        interval.ends for interval in (inference.inner, inference.possible)
+        interval.ends for interval in (inference.inner, inference.admitted(Convention())[1])
     )
     centered = known.judge.inference(_DENSITY, centered=True).inner.ends
     sources = known.judge.ledger.sources
@@ -293,6 +307,8 @@ def _target_density(known: Known) -> Evidence:
         "centered_least": centered[0],
         "centered_greatest": centered[1],
         "mass_greatest": inference.with_mass.ends[1],
+        "assumed": known.exact(_DENSITY),
+        "edge": known.judge.ledger.claims["a1-deceleration-1"].target().ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
         "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",
         "kinslow": said["304-density-kinslow"] == "admitted only if the other inputs are rounded",
@@ -315,10 +331,12 @@ def _two_schemes(known: Known) -> Evidence:
         found |= {
             f"short_{beta}": exact - fine,
             f"coarse_short_{beta}": exact - coarse,
-            f"nm_{beta}": coarse - fine,
-            f"change_{beta}": coarse / fine - 1,
+            f"nm_{beta}": fine - coarse,
+            f"change_{beta}": 1 - coarse / fine,
         }
-    found["middle_change_5"] = float(found["middle_coarse_5"]) / float(found["middle_fine_5"]) - 1
+    found["middle_change_5"] = 1 - float(found["middle_coarse_5"]) / float(found["middle_fine_5"])
+    found["reprinted"] = Fraction(f"{float(found['plain_coarse_5']):.2e}")
+    found["middle_density"] = _middle_density(known)
     row, plain, middle = _first_difference(known)
     table = [a for a in known.assessments.values() if a.claim.entry.cell and a.claim.by_scheme]
     found |= {"row": Fraction(row), "row_plain": plain, "row_middle": middle}
@@ -331,6 +349,15 @@ def _two_schemes(known: Known) -> Evidence:
     found["order_plain"] = _order(known, "published")
     found["order_middle"] = _order(known, "centered")
     return found
+
+
+def _middle_density(known: Known) -> Fraction:
+    """The least target density at which the drag at the middle velocity gives the depth."""
+    ledger = known.judge.ledger
+    claim = ledger.claims["depth-beta-5"]
+    function = ledger.function(claim, frozenset({_DENSITY}), centered=True)
+    admitted = known.judge.inference(_DENSITY, centered=True).outer.ends
+    return solve(function, _DENSITY, admitted, claim.target()).outer[0][0]
 
 
 def _first_difference(known: Known) -> tuple[int, float, float]:
@@ -435,6 +462,7 @@ def _strengths(known: Known) -> Evidence:
         "like_most": feathery / tensile,
         "unlike": clear / known.exact("strength-bulk"),
         "bulk": known.exact("strength-bulk"),
+        "ksi": to_si("ksi"),
     }
 
 
@@ -561,6 +589,7 @@ def _scatter(known: Known) -> Evidence:
         "eq1_mean": float(power) * relative * velocity * _MEAN_DEVIATION,
         "drag_standard": float(drag) * relative * velocity,
         "drag_mean": float(drag) * relative * velocity * _MEAN_DEVIATION,
+        "gaussian": _MEAN_DEVIATION,
         "drag_exact": _mean_deviation(float(drag), relative) * velocity,
         **{
             name: stream.particle_velocity(known["figure-1-velocity"], known[d] ** 3, mean**3)

@@ -1,12 +1,12 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Constraint, Solutions, enclose, extent, satisfying, solve
+from reference.enclosure import Constraint, Solutions, extent, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
@@ -19,9 +19,7 @@ class Inference:
 
     `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
     `agreeing` is the largest set of evidence that one value can serve; `odd` the rest. Each value
-    of `inner` is proven to serve the agreeing evidence, none outside `outer` does. With the other
-    inputs anywhere within their rounding, and the printed mass and diameter as evidence, too:
-    `attained` is the hull of values that were found, `possible` holds all that there are.
+    of `inner` is proven to serve the agreeing evidence, none outside `outer` does.
     """
 
     ledger: Ledger
@@ -31,6 +29,7 @@ class Inference:
     agreeing: tuple[str, ...]
     inner: Interval
     outer: Interval
+    _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = field(default_factory=dict)
 
     @property
     def entry(self) -> Inferred:
@@ -43,43 +42,66 @@ class Inference:
         return tuple(name for name in self.each if name not in self.agreeing)
 
     @cached_property
+    def inputs(self) -> set[str]:
+        """What the evidence rests on besides."""
+        claims = (self.ledger.claims[name] for name in self.agreeing)
+        return {name for claim in claims for name in claim.entries} - {self.name}
+
+    @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
         mass = {"mass": self.ledger.value(self.entry.mass)}
         return _infer(self.ledger, self.name, self.centered, self.entry.evidence, mass).inner
 
-    @property
-    def attained(self) -> Interval:
-        """The hull of the values that were found with rounded inputs."""
-        return Interval(*self._extent[0])
+    def admitted(self, convention: Convention) -> tuple[Interval, Interval]:
+        """The values that serve the evidence where inputs are rounded as a convention says.
 
-    @property
-    def possible(self) -> Interval:
-        """An interval that holds every value that rounded inputs admit."""
-        return Interval(*self._extent[1])
+        The printed mass and diameter are evidence, too. The first interval is the hull of values
+        that were found, the second holds all that there are. How the evidence itself is rounded is
+        no question: cut off, no value would serve it.
+        """
+        key = convention.choices_exact, convention.header_exact
+        if key == (True, True):
+            return self.inner, self.outer
+        if key not in self._admitted:
+            start = sum(self.inner.ends, Fraction(0)) / 2
+            by_mass = not convention.header_exact
+            box = self._box(convention, by_mass=by_mass)
+            found, bounds = extent(self._joint(convention, by_mass=by_mass), self.name, box, start)
+            self._admitted[key] = Interval(*found), Interval(*bounds)
+        return self._admitted[key]
 
-    @cached_property
-    def _extent(self) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
-        start = sum(self.inner.ends, Fraction(0)) / 2
-        return extent(self._joint(by_mass=True), self.name, self._box(by_mass=True), start)
-
-    def _box(self, *, by_mass: bool) -> dict[str, tuple[Fraction, Fraction]]:
+    def _box(
+        self, convention: Convention, *, by_mass: bool
+    ) -> dict[str, tuple[Fraction, Fraction]]:
         """The inputs that the evidence rests on and that may be other than printed.
 
         The printed mass and density tell the radius more closely than its own print does: with
         `by_mass` the mass is free in its place.
         """
-        claims = [self.ledger.claims[name] for name in self.entry.evidence]
-        names = {name for claim in claims for name in claim.entries} - {self.name}
+        names = self.inputs
         radius, mass = self.entry.radius, self.entry.mass
         if by_mass and radius in names:
             names = names - {radius} | {mass}
-        ends = {name: self.ledger.claims[name].as_input(Convention()).ends for name in names}
-        rounded = {name: both for name, both in sorted(ends.items()) if both[0] != both[1]}
+        ends = {name: self._ends(name, convention) for name in sorted(names)}
+        rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
         return {**rounded, self.name: self.entry.search}
 
-    def _joint(self, *, by_mass: bool) -> list[Constraint]:
-        free = frozenset(self._box(by_mass=False))
+    def _ends(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
+        """The values of an input that print like it, and for which what shows it alone does so.
+
+        The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
+        """
+        claim = self.ledger.claims[name]
+        low, high = claim.as_input(convention).ends
+        for shown in (self.ledger.claims[other] for other in claim.entry.shown_by):
+            if low != high and shown.entries == [name]:
+                found = solve(self.ledger.function(shown), name, (low, high), shown.target()).outer
+                low, high = (found[0][0], found[-1][1]) if found else (low, high)
+        return low, high
+
+    def _joint(self, convention: Convention, *, by_mass: bool) -> list[Constraint]:
+        free = frozenset(self._box(convention, by_mass=False))
         claims = [self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing)]
         constraints: list[Constraint] = [
             (self.ledger.function(claim, free, centered=self.centered), claim.target())
@@ -97,48 +119,34 @@ class Inference:
 
             return by_radius
 
-        own = self.ledger.claims[radius].as_input(Convention())
+        own = self.ledger.claims[radius].as_input(convention)
         constraints.append((lambda _, **entries: entries[radius], own))
         return [(of_mass(function), target) for function, target in constraints]
 
-    @cached_property
-    def radius(self) -> tuple[str, tuple[Fraction, Fraction]]:
-        """The radius, by name, and the values of it that its print and the printed mass admit."""
-        name, mass, density = self.entry.radius, self.entry.mass, self.entry.density
-        box = {key: self.ledger.claims[key].as_input(Convention()).ends for key in (mass, density)}
-
-        def of_mass(ar: Arithmetic, **entries: Number) -> Number:
-            volume = entries[mass] / entries[density]
-            return ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
-
-        low, high = self.ledger.claims[name].as_input(Convention()).ends
-        least, greatest = enclose(of_mass, box).ends
-        if greatest < low or high < least:  # the mass contradicts it
-            return name, (low, high)
-        return name, (max(low, least), min(high, greatest))
-
-    def holds_at(self, point: Mapping[str, Fraction]) -> bool:
+    def holds_at(self, point: Mapping[str, Fraction], convention: Convention) -> bool:
         """Whether the evidence can hold at a point; other inputs are within their rounding."""
-        by_mass = self.entry.radius not in point
-        box = self._box(by_mass=by_mass)
+        by_mass = not convention.header_exact and self.entry.radius not in point
+        box = self._box(convention, by_mass=by_mass)
         fixed = {name: (x, x) for name, x in point.items() if name in box}
-        return satisfying(self._joint(by_mass=by_mass), {**box, **fixed})[0] is True
+        joint = self._joint(convention, by_mass=by_mass)
+        return satisfying(joint, {**box, **fixed})[0] is True
 
     def admits(self, value: Fraction, range_: Interval) -> str:
         """What the evidence says of a value that is printed, with its range, somewhere else."""
+        usual = Convention()
         if self.inner.contains(value):
             return "admitted"
         if not self.inner.excludes(*range_.ends):
             return "admitted only as a number that was rounded"
-        if self.possible.excludes(*range_.ends):
+        if self.admitted(usual)[1].excludes(*range_.ends):
             return "excluded"
         words = {
             True: "admitted only if the other inputs are rounded",
             False: "excluded",
             None: "undecided",
         }
-        box = {**self._box(by_mass=True), self.name: range_.ends}
-        return words[satisfying(self._joint(by_mass=True), box)[0]]
+        box = {**self._box(usual, by_mass=True), self.name: range_.ends}
+        return words[satisfying(self._joint(usual, by_mass=True), box)[0]]
 
 
 def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
@@ -167,11 +175,10 @@ def _infer(
     if not agreeing:
         nominal = Interval.point(ledger.value(name))
         return Inference(ledger, name, centered, each, (), nominal, nominal)
-    inner, outer = (
-        _intersection([getattr(each[claim], which) for claim in agreeing])
-        for which in ("inner", "outer")
-    )
-    return Inference(ledger, name, centered, each, agreeing, inner, outer)
+    inner = _intersection([each[claim].inner for claim in agreeing])[0]
+    outer = _intersection([each[claim].outer for claim in agreeing])
+    whole = Interval(outer[0][0], outer[-1][1])
+    return Inference(ledger, name, centered, each, agreeing, Interval(*inner), whole)
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
@@ -186,10 +193,12 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
     return best
 
 
-def _intersection(parts: list[tuple[tuple[Fraction, Fraction], ...]]) -> Interval:
-    """What the unions of intervals have in common, around one stretch of it."""
-    common = [(low, high) for low, high in parts[0]]
-    for others in parts[1:]:
-        pairs = ((max(a, c), min(b, d)) for a, b in common for c, d in others)
+def _intersection(
+    unions: list[tuple[tuple[Fraction, Fraction], ...]],
+) -> list[tuple[Fraction, Fraction]]:
+    """What unions of intervals have in common, in order."""
+    common = list(unions[0])
+    for union in unions[1:]:
+        pairs = ((max(a, c), min(b, d)) for a, b in common for c, d in union)
         common = [(low, high) for low, high in pairs if low <= high]
-    return Interval(*common[0])
+    return common

@@ -1,6 +1,6 @@
 """The verdict on one claim: whether the printed number follows from what the report prints."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -10,10 +10,10 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
-from reference.enclosure import Box, Exploration, enclose, explore
+from reference.enclosure import Box, enclose, explore
 from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Interval, Rounding
+from reference.printed import Rounding
 from replication.audit.inference import Inference, infer
 from replication.audit.replica import replica
 from replication.audit.screen import restates
@@ -108,8 +108,6 @@ class Judge:
         self.ledger, self.every_convention = ledger, every_convention
         self._inferences: dict[tuple[str, bool], Inference] = {}
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
-        self._explorations: dict[Any, Exploration] = {}
-        self._held: dict[Any, bool] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
@@ -179,15 +177,14 @@ class Judge:
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
         usual = Convention()
-        schemes = (False, True) if claim.by_scheme else (False,)
-        for centered, rounding in product(schemes, Rounding):
+        for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
             convention = replace(usual, rounding=rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
             else:
-                for other in _input_conventions(self.ledger, claim, convention):
-                    yield self._search(claim, name, other)
+                for rounded in _input_conventions(self.ledger, claim, convention):
+                    yield self._search(claim, name, rounded)
                     if not self.every_convention:
                         return
             if not self.every_convention:
@@ -200,67 +197,57 @@ class Judge:
         at_print = self._range(claim, name, convention, printed)
         if target.excludes(*at_print):
             return None
-        inferred = self._inferred(claim, convention, "inner")
+        inferred = {
+            entry: self.inference(entry, centered=convention.centered).inner.ends
+            for entry in claim.inferred
+        }
         everywhere = self._range(claim, name, convention, {**printed, **inferred})
-        verdict = Verdict.UNDECIDED
-        witness = None
         if target.encloses(*everywhere):
-            verdict = Verdict.REPRODUCED
-        elif target.encloses(*at_print):
+            return _judgement(claim, convention, Verdict.REPRODUCED, everywhere)
+        if target.encloses(*at_print):
             # Only some admitted values do: the printed evidence does not tell which is meant.
-            verdict = Verdict.WITHIN_ROUNDING
             witness = {entry: value for entry, (value, _) in printed.items()}
-        lower, upper = (end / claim.si for end in everywhere)
-        return Judgement(convention, verdict, lower, upper, witness)
+            return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
+        return _judgement(claim, convention, Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
         target = claim.target(convention.rounding)
-        printed = self._rounded(claim, convention)
-        ranges = ("inner", "outer") if convention.header_exact else ("attained", "possible")
-        for which in ranges:
-            box = {**printed, **self._inferred(claim, convention, which)}
-            found = self._explored(claim, name, convention, box, target)
-            if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
-                return self._judgement(claim, convention, Verdict.WITHIN_ROUNDING, found)
-        verdict = Verdict.NOT_REPRODUCED if found.never else Verdict.UNDECIDED
-        return self._judgement(claim, convention, verdict, found)
-
-    def _explored(
-        self, claim: Claim, name: str, convention: Convention, box: Box, target: Interval
-    ) -> Exploration:
-        """What is proven over a box, computed once for targets that differ in closed ends only.
-
-        What lies inside an open target lies in the closed one, what lies outside a closed one lies
-        outside the open one.
-        """
-        key = claim.id, name, convention.centered, tuple(box.items()), target.lower, target.upper
-        if key in self._explorations:
-            known = self._explorations[key]
-            closed = Interval(target.lower, target.upper)
-            if known.inside is not None or closed.excludes(known.lower, known.upper):
-                return known
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         whole_sheet = claim.by_scheme and claim.entry.row is None
-        budget = _BUDGET // 10 if whole_sheet else _BUDGET
-        found = None
-        if not target.is_point:
-            inside = Interval(target.lower, target.upper, False, False)
-            found = explore(function, box, inside, budget, sharp=not whole_sheet)
-        if found is None or (
-            found.inside is None and not target.excludes(found.lower, found.upper)
-        ):
-            found = explore(function, box, target, budget, sharp=not whole_sheet)
-        self._explorations[key] = found
-        return found
+        for box in self.box(claim, convention):
+            found = explore(function, box, target, _BUDGET // 10 if whole_sheet else _BUDGET)
+            if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
+                ends = enclose(function, self.box(claim, convention)[1]).ends
+                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
+        verdict = Verdict.NOT_REPRODUCED if found.never else Verdict.UNDECIDED
+        return _judgement(claim, convention, verdict, (found.lower, found.upper))
 
-    def _judgement(
-        self, claim: Claim, convention: Convention, verdict: Verdict, found: Exploration
-    ) -> Judgement:
-        witness = found.inside if verdict is Verdict.WITHIN_ROUNDING else None
-        return Judgement(
-            convention, verdict, found.lower / claim.si, found.upper / claim.si, witness
-        )
+    def box(self, claim: Claim, convention: Convention) -> tuple[Box, Box]:
+        """Inputs that print like the report's: a narrow box, to search first, and one with all.
+
+        An inferred input has the values that were found, or all that its evidence admits. In the
+        narrow box what this evidence rests on is exact where the author chose it.
+        """
+        claims, exact = self.ledger.claims, replace(convention, choices_exact=True)
+        inferred = {e: self.inference(e, centered=convention.centered) for e in claim.inferred}
+        evidence = {name for inference in inferred.values() for name in inference.inputs}
+        narrow = {
+            entry: claims[entry].as_input(exact if entry in evidence else convention).ends
+            for entry in claim.stated
+        }
+        whole = {entry: claims[entry].as_input(convention).ends for entry in claim.stated}
+        for entry, inference in inferred.items():
+            narrow[entry] = inference.admitted(exact)[0].ends
+            whole[entry] = inference.admitted(convention)[1].ends
+        return narrow, whole
+
+    def _evidence_holds(
+        self, claim: Claim, convention: Convention, witness: Mapping[str, Fraction]
+    ) -> bool:
+        """Whether the witness reproduces the evidence of the inferred inputs, too."""
+        inferences = (self.inference(e, centered=convention.centered) for e in claim.inferred)
+        return all(inference.holds_at(witness, convention) for inference in inferences)
 
     def _range(
         self, claim: Claim, name: str, convention: Convention, box: Box
@@ -273,50 +260,29 @@ class Judge:
         if key not in self._ranges:
             function = self.ledger.function(claim, reading=name, centered=convention.centered)
             whole_sheet = computation.by_scheme and not computation.by_row
-            exact = None if whole_sheet else _exactly(function, box)
-            self._ranges[key] = enclose(function, box).ends if exact is None else (exact, exact)
+            range_ = enclose(function, box)
+            exact = None if whole_sheet else _exactly(function, box, range_.idle)
+            self._ranges[key] = range_.ends if exact is None else (exact, exact)
         return self._ranges[key]
 
-    def _rounded(
-        self, claim: Claim, convention: Convention
-    ) -> dict[str, tuple[Fraction, Fraction]]:
-        """Every printed entry that prints like the report's."""
-        printed = (entry for entry in claim.entries if not entry.startswith(INFERRED))
-        box = {name: self.ledger.claims[name].as_input(convention).ends for name in printed}
-        for unknown in (entry for entry in claim.entries if entry.startswith(INFERRED)):
-            # The printed mass and density tell the radius more closely than its own print does.
-            radius, ends = self.inference(unknown).radius
-            if radius in box and not convention.header_exact:
-                box[radius] = ends
-        return box
 
-    def _inferred(self, claim: Claim, convention: Convention, which: str) -> Box:
-        inferred = (entry for entry in claim.entries if entry.startswith(INFERRED))
-        ranges: dict[str, Interval] = {
-            name: getattr(self.inference(name, centered=convention.centered), which)
-            for name in inferred
-        }
-        return {name: interval.ends for name, interval in ranges.items()}
-
-    def _evidence_holds(
-        self, claim: Claim, convention: Convention, witness: Mapping[str, Fraction]
-    ) -> bool:
-        """Whether the witness reproduces the evidence of the inferred inputs, too."""
-        if convention.header_exact:
-            return True  # the admitted values are those of the header as printed
-        inferred = [entry for entry in claim.entries if entry.startswith(INFERRED)]
-        key = tuple(inferred), convention.centered, tuple(witness.items())
-        if key not in self._held:
-            self._held[key] = all(
-                self.inference(name, centered=convention.centered).holds_at(witness)
-                for name in inferred
-            )
-        return self._held[key]
+def _judgement(
+    claim: Claim,
+    convention: Convention,
+    verdict: Verdict,
+    ends: tuple[Fraction, Fraction],
+    witness: Mapping[str, Fraction] | None = None,
+) -> Judgement:
+    lower, upper = (end / claim.si for end in ends)
+    return Judgement(convention, verdict, lower, upper, witness)
 
 
-def _exactly(function: Function, box: Box) -> Fraction | None:
-    """The function's value at a point if that is a fraction, so that an end of a print is met."""
-    if any(low != high for low, high in box.values()):
+def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
+    """The function's only value, if it has one and that is a fraction: an end of a print is met.
+
+    `idle` inputs are proven to make no difference.
+    """
+    if any(low != high and name not in idle for name, (low, high) in box.items()):
         return None
     try:
         return Fraction(function(_RATIONALS, **{name: low for name, (low, _) in box.items()}))
@@ -335,9 +301,9 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     no question then, as the table, which the same sheet printed, is not truncated. Choices are
     exact for a whole sheet: were the 5 of beta rounded to its one digit, any depth would do.
     """
-    claims = [ledger.claims[entry] for entry in claim.entries if not entry.startswith(INFERRED)]
+    claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
-    header = len(claims) < len(claim.entries) or any(
+    header = bool(claim.inferred) or any(
         (entry.entry.cell or "").startswith("B") for entry in claims
     )
     if claim.by_scheme and usual.rounding is Rounding.CUT:

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
 from replication.audit.equations import Constant, EquationAssessment
+from replication.audit.record import SourceRecord
 from replication.audit.verdict import Judge, Judgement, Reading, Verdict
 from replication.text import inward, number, outward
 
@@ -17,6 +18,7 @@ __all__ = [
     "explanation",
     "holds",
     "quantity",
+    "sources",
 ]
 
 
@@ -52,7 +54,7 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
     low, high = judgement.lower, judgement.upper
     match judgement.verdict:
         case Verdict.REPRODUCED:
-            if any(entry.startswith(INFERRED) for entry in claim.entries):
+            if claim.inferred:
                 return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
             return []
         case Verdict.WITHIN_ROUNDING:
@@ -99,8 +101,11 @@ def _other(claim: Claim, reading: Reading) -> str:
 def holds(claim: Claim, reading: Reading) -> str:
     """Under which conventions the verdict holds, and which would change it."""
     scope = "every convention of rounding"
-    tried = {(j.convention.choices_exact, j.convention.header_exact) for j in reading.judgements}
-    scope += ", with choices and header exact or rounded" if len(tried) > 1 else ""
+    tried = [judgement.convention for judgement in reading.judgements]
+    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    varied = ["choices"] if len({c.choices_exact for c in usual}) > 1 else []
+    varied += ["header"] if len({c.header_exact for c in usual}) > 1 else []
+    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
@@ -140,7 +145,7 @@ def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     assumed = [] if claim.entry.assumes is None else [claim.entry.assumes]
-    for name in (entry for entry in claim.entries if entry.startswith(INFERRED)):
+    for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
         admitted = inward(*judge.inference(name).inner.ends)
         assumed.append(
@@ -166,6 +171,18 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
 
 
+def sources(records: Sequence[SourceRecord]) -> str:
+    """How a number stands to the public sources for it."""
+    texts: dict[bool | None, list[str]] = {True: [], False: []}
+    for record in records:
+        texts[record.agrees].append(f"{quantity(record.says, record.unit)} ({record.title})")
+    agreeing, others = "; ".join(texts[True]), "; ".join(texts[False])
+    if not agreeing:
+        return f"The report names no source. It agrees with no public one: {others}."
+    but = f", not with {others}" if others else ""
+    return f"The report names no source. It agrees with {agreeing}{but}."
+
+
 # Equations
 
 
@@ -189,14 +206,17 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
 
 def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
     """Why a constant of an equation has its verdict."""
-    source = ledger.equations[claim.within or ""].entry.follows_from
+    entry = ledger.equations[claim.within or ""].entry
+    passes = f"the equation follows from {entry.follows_from}"
+    if entry.kind == "taken over":
+        passes = "the equation has the right dimensions, limits and signs"
     match constant.verdict:
         case Verdict.REPRODUCED:
-            return f"The equation follows from {source} with this number, and no other tried."
+            return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
             needed = " or ".join(str(value) for value in constant.needed)
-            return f"The equation follows from {source} with {needed}, not with {claim.shown}."
+            return f"With {needed} instead of {claim.shown} {passes}."
         case Verdict.UNDECIDED:
-            return f"The equation does not follow from {source}, whatever this number is."
+            return f"With no number that was tried in its place {passes}."
     reason = f": {claim.given}" if claim.given else ""
     return f"Dimensions, limits and signs do not decide it{reason}."

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from reference.exact import Reals, final_depth
+
 from reference.ledger import load
 from replication.analysis.approaches import Approach, approaches
 from replication.analysis.scatter import SHARES, scatter, stated_deviations, tied_particles
