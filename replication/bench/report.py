@@ -12,7 +12,7 @@ from typing import Any
 from replication.bench.methods import MEASURES, OURS, TITLES, Measure
 from replication.bench.run import DIGITS, Bench, Point, Result, error_for, fastest
 from replication.cases import inputs_of
-from replication.reports.plain import json_text, rows_csv
+from replication.plain import json_text, rows_csv
 from replication.text import aligned, number
 from spreadsheets.safely import check_folder, write_folder
 

@@ -190,17 +190,21 @@ def run_many(
 
 
 def _sheets(centered: bool, **inputs: Any) -> Any:
+    import numpy as np
+
     cases = _numbers(inputs)
     _check(cases)
     if set(map(type, cases.values())) == {float}:
         depths, steps = sheet.last_row(*[*cases.values(), centered])
-        if steps <= sheet.MAX_STEPS:
+        if steps <= sheet.MAX_STEPS and depths < math.inf:
             return depths, steps
     else:
         depths, steps = _by_rows(_sheet_loop, {**cases, "centered": float(centered)}, (float, int))
     for index, case in _elements(steps > sheet.MAX_STEPS, cases):
         problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
         raise ElementError("the sheet", problem, index)
+    for index, case in _elements(np.isinf(depths), cases):
+        raise ElementError("the sheet", sheet.out_of_range(case["step"]), index)
     return depths, steps
 
 

@@ -2,9 +2,7 @@
 
 import csv
 import io
-import os
 from collections.abc import Mapping
-from errno import EACCES, ENOTDIR
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -12,37 +10,20 @@ from typing import Any
 import msgspec
 
 from replication.audit.record import ClaimRecord, Record
+from replication.plain import json_text
+from spreadsheets.safely import write_folder
 
-__all__ = ["check_folder", "contents", "json_bytes", "write"]
+__all__ = ["contents", "write"]
 
 
 def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     """Write the record, and the files `beside` it by name, into a folder that is made if needed.
 
-    Each file is written beside its place first; they take their names when all are there. Returns
-    what was written. Raises OSError, naming the file, and leaves nothing behind.
+    All or none. Returns what was written. Raises OSError, naming the file.
     """
     files = contents(record, beside)
-    drafts = {name: (folder / name).with_name(f".{Path(name).name}.part") for name in files}
-    try:
-        for name, draft in drafts.items():
-            draft.parent.mkdir(parents=True, exist_ok=True)
-            draft.write_bytes(files[name])
-        for name, draft in drafts.items():
-            draft.replace(folder / name)
-    finally:
-        for draft in drafts.values():
-            draft.unlink(missing_ok=True)
+    write_folder(folder, files)
     return files
-
-
-def check_folder(folder: Path) -> None:
-    """Raise OSError, naming it, if a folder cannot be written to; it need not be there yet."""
-    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-    if not there.is_dir():
-        raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(there))
-    if not os.access(there, os.W_OK):
-        raise PermissionError(EACCES, "cannot be written to", str(there))
 
 
 def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -61,12 +42,7 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
         **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
     }
     files = {name: text.encode() for name, text in texts.items()}
-    return {**beside, **files, "audit.json": json_bytes(record)}
-
-
-def json_bytes(document: Any) -> bytes:
-    """A JSON document with every digit of its doubles, indented."""
-    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+    return {**beside, **files, "audit.json": json_text(record).encode()}
 
 
 _COLUMNS = (

@@ -7,8 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from replication.cases import CASES, INPUTS, parse_toml, read_number
+from replication.cases import CASES, INPUTS
 from replication.models.impact import check
+from replication.reading import parse_toml, quoted, read_file, read_number
 from replication.sweep.plan import EXTRAS, Plan
 from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
 
@@ -16,14 +17,17 @@ __all__ = ["place", "read_plan", "read_source"]
 
 Table = dict[str, Any]
 
+MOST_CASES = 10**12
+"""Days of work for many cores."""
+
 
 def read_plan(path: Path) -> Plan:
     """The plan that a TOML file describes.
 
     Raises OSError, or ValueError that names the file, the table, the key and what would be right.
     """
-    content = path.read_bytes()
-    with place(str(path)):
+    content = read_file(path)
+    with place(quoted(path)):
         document = parse_toml(content)
         _check_keys(document, ["inputs"], ["sweep"])
         for name, table in document.items():
@@ -37,7 +41,10 @@ def read_plan(path: Path) -> Plan:
             sources = _sources(document["inputs"], base)
         with place("[sweep]"):
             samples, seed = _sampling(settings, sources)
-        return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
+        plan = Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
+        if plan.count > MOST_CASES:
+            raise ValueError(f"has more than {MOST_CASES:,} cases: split it into several plans")
+        return plan
 
 
 @contextmanager
@@ -69,7 +76,7 @@ def _sampling(settings: Table, sources: dict[str, Source]) -> tuple[int, int]:
         if "samples" not in settings:
             raise ValueError("samples is missing: how many cases to draw")
         seed = _whole_number("seed", settings.get("seed", 0), 0, 2**64 - 1)
-        return _whole_number("samples", settings["samples"], 1), seed
+        return _whole_number("samples", settings["samples"], 1, MOST_CASES), seed
     for key in ("samples", "seed"):
         if key in settings:
             raise ValueError(f"{key} is for distributions, and no input has one")
@@ -130,7 +137,7 @@ def _spaced(name: str, table: Table) -> Spaced:
     first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
     if scale == "log" and min(first, last) <= 0:
         raise ValueError("a log scale wants from and to greater than zero")
-    return Spaced(first, last, _whole_number("points", table["points"], 2), scale == "log")
+    return Spaced(first, last, _whole_number("points", table["points"], 2, MOST_CASES), scale == "log")
 
 
 NORMAL, UNIFORM = ("normal", "lognormal"), ("uniform", "loguniform")
@@ -178,11 +185,10 @@ def _check_keys(table: Table, wanted: Collection[str], allowed: Collection[str])
             raise ValueError(f"{key!r} is missing")
 
 
-def _whole_number(key: str, value: Any, least: int, greatest: float = math.inf) -> int:
+def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
     if type(value) is not int or not least <= value <= greatest:
-        end = "or more" if greatest == math.inf else f"to {greatest}"
         raise ValueError(
-            f"{key} is {value!r}: it must be a whole number, {least} {end}, "
+            f"{key} is {quoted(value)}: it must be a whole number from {least} to {greatest:,}, "
             "without point or exponent"
         )
     return value
@@ -190,14 +196,11 @@ def _whole_number(key: str, value: Any, least: int, greatest: float = math.inf) 
 
 def _number(table: Table, key: str, unit: str) -> float:
     with place(key):
-        number = _read(table[key], unit)
-        if not math.isfinite(number):
-            raise ValueError(f"{number!r} is not finite")
-    return number
+        return _read(table[key], unit)
 
 
 def _read(value: Any, unit: str) -> float:
     """A number of TOML, or one in a text with its unit, as SI."""
     if not isinstance(value, str | int):
-        raise ValueError(f"{value} is no finite number, such as 1.1e-5 or '11 um'")
+        raise ValueError(f"{quoted(value)} is no finite number, such as 1.1e-5 or '11 um'")
     return read_number(str(value), unit)

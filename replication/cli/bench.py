@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
-from replication.cases import read_number
-from replication.commands import shared
+from replication.reading import read_number
+from replication.cli import options as shared
 
 if TYPE_CHECKING:
     from replication.bench.run import Trial, Watch
@@ -23,7 +23,9 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--quick", action="store_true", help="beta-5 unless --case is given, 1 repeat, 1 s"
     )
-    command.add_argument("--repeat", type=int, metavar="N", help="repeats (7)")
+    command.add_argument(
+        "--repeat", type=shared.whole(1, 10_000), metavar="N", help="repeats (7)"
+    )
     command.add_argument("--limit", metavar="X", help="for each task, in s or with its unit (5 s)")
     command.add_argument(
         "--out", type=shared.path, metavar="DIR", help="also write JSON, CSV, text and figures"
@@ -36,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.bench.cases import CASES
     from replication.bench.report import bench_record, bench_rows, bench_text, check, write
     from replication.bench.run import bench
-    from replication.reports.plain import rows_csv
+    from replication.plain import rows_csv
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:

@@ -5,12 +5,22 @@ import io
 import json
 from typing import Any
 
+import msgspec
+
 __all__ = ["json_text", "rows_csv"]
 
 
 def json_text(record: Any) -> str:
-    """One JSON document; every float with the digits that make it the same double again."""
-    return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    r"""One JSON document; every float with the digits that make it the same double again.
+
+    Raises ValueError for a float that is not finite, which JSON cannot hold.
+
+    >>> json_text({"depth": 1e-06})
+    '{\n  "depth": 1e-06\n}\n'
+    """
+    compact = json.dumps(msgspec.to_builtins(record), ensure_ascii=False, allow_nan=False)
+    # A file's name may hold what no encoding has; escaped, it is JSON again.
+    return msgspec.json.format(compact.encode(errors="backslashreplace"), indent=2).decode() + "\n"
 
 
 def rows_csv(rows: list[dict[str, Any]]) -> str:

@@ -4,12 +4,13 @@ import argparse
 import os
 import shutil
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 from replication.cases import INPUTS, read_case
 from replication.models.impact import Impact
+from replication.reading import one_line, quoted
 
 __all__ = [
     "case",
@@ -19,16 +20,38 @@ __all__ = [
     "output_options",
     "path",
     "print_json",
+    "scheme_option",
     "warn",
+    "whole",
     "width",
 ]
 
 
 def path(text: str) -> Path:
     """A path from the command line; an unset variable must not mean this folder."""
-    if not text:
-        raise argparse.ArgumentTypeError("a path is wanted, not an empty text")
+    if not text or "\0" in text:
+        raise argparse.ArgumentTypeError(f"a path is wanted, not {quoted(text)}")
     return Path(text)
+
+
+def whole(least: int, most: int) -> Callable[[str], int]:
+    """A reader of whole numbers within bounds, for argparse.
+
+    >>> whole(1, 40)("8")
+    8
+    """
+
+    def read(text: str) -> int:
+        digits = text.strip()
+        if digits.isascii() and digits.isdigit() and len(digits) <= 20:
+            number = int(digits)
+            if least <= number <= most:
+                return number
+        raise argparse.ArgumentTypeError(
+            f"a whole number from {least:,} to {most:,} is wanted, not {quoted(text)}"
+        )
+
+    return read
 
 
 def output_options(
@@ -53,6 +76,13 @@ def input_options(command: argparse.ArgumentParser, default: str = "beta-5") -> 
         command.add_argument(flag, dest=name, metavar="X", help=help_text)
 
 
+def scheme_option(command: argparse.ArgumentParser) -> None:
+    """--scheme."""
+    command.add_argument(
+        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
+    )
+
+
 def given(options: argparse.Namespace) -> dict[str, str]:
     """The inputs that stand on the command line."""
     values = {name: getattr(options, name) for name in INPUTS}
@@ -67,7 +97,7 @@ def case(options: argparse.Namespace) -> Impact:
 
 def print_json(record: Any) -> None:
     """One JSON document on standard output."""
-    from replication.reports.plain import json_text
+    from replication.plain import json_text
 
     sys.stdout.write(json_text(record))
 
@@ -84,8 +114,8 @@ def may_emphasize() -> bool:
     )
 
 
-def warn(options: argparse.Namespace, warnings: Iterable[str]) -> None:
+def warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:
     """Warnings on standard error, unless quiet."""
     if not options.quiet:
         for warning in warnings:
-            print(f"coldspray {options.command}: warning: {warning}", file=sys.stderr)
+            print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)

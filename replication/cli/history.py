@@ -1,13 +1,14 @@
 """`coldspray history`: depth and velocity of a case against time, without small steps."""
 
 import argparse
-import math
 import sys
 from typing import Any
 
-from replication.cases import inputs_of, read_number
-from replication.commands import shared
+from replication.cases import inputs_of
+from replication.cli import options as shared
 from replication.models.impact import Impact
+from replication.reading import quoted, read_number
+from replication.reading import quoted, read_number
 
 HELP = "depth and velocity of a case against time, without small steps"
 
@@ -22,7 +23,7 @@ def options(command: argparse.ArgumentParser) -> None:
     at.add_argument(
         "--points",
         metavar="N",
-        type=int,
+        type=shared.whole(2, MAX_POINTS),
         default=101,
         help="so many times, equally spaced from touch to rest (default: 101)",
     )
@@ -49,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
             }
         )
     elif options.csv:
-        from replication.reports.plain import rows_csv
+        from replication.plain import rows_csv
 
         names = ("time", "depth", "velocity")
         rows = zip(times, depth, velocity, strict=True)
@@ -77,8 +78,6 @@ def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]
 def _times(options: argparse.Namespace, stop: float) -> list[float]:
     if options.times is not None:
         return [_time(k, text) for k, text in enumerate(options.times.split(","), 1)]
-    if not 2 <= options.points <= MAX_POINTS:
-        raise ValueError(f"--points wants 2 to {MAX_POINTS:,}, not {options.points}")
     last = options.points - 1
     return [stop * (k / last) for k in range(options.points)]
 
@@ -87,8 +86,8 @@ def _time(place: int, text: str) -> float:
     """The time [s] that stands at a place, from 1 on, in --times."""
     try:
         time = read_number(text.strip(), "s")
-        if not 0 <= time < math.inf:
-            raise ValueError(f"{text.strip()!r} is not finite and zero or more")
+        if not 0 <= time <= 1e250:
+            raise ValueError(f"{quoted(text.strip())} is not from 0 to 1e250 s")
     except ValueError as error:
         wanted = 'times such as "0 ns,5 ns" are wanted'
         raise ValueError(f"--times, value {place}: {error}: {wanted}") from error

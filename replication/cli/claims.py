@@ -1,11 +1,11 @@
 """`coldspray claims`: the ledger, or one claim with its proof."""
 
 import argparse
-import sys
 from collections.abc import Iterable
 from typing import Any
 
-from replication.commands import shared
+from replication.cli import options as shared
+from replication.reading import quoted
 
 HELP = "list the claims, or prove one"
 
@@ -23,30 +23,25 @@ def run(options: argparse.Namespace) -> int:
     ledger = load()
     if options.id is None:
         if options.json:
-            _print_json([_listed(claim) for claim in ledger.claims.values()])
+            shared.print_json([_listed(claim) for claim in ledger.claims.values()])
         else:
             from replication.report.terminal import ledger_table
 
             print(ledger_table(ledger.claims.values(), shared.width(piped=10_000)))
         return 0
     if options.id not in ledger.claims:
-        raise ValueError(f"there is no claim {options.id!r}{_nearest(options.id, ledger.claims)}")
+        near = _nearest(options.id, ledger.claims)
+        raise ValueError(f"there is no claim {quoted(options.id)}{near}")
     from replication.audit.audit import audit_claim
 
     claim = audit_claim(options.id)
     if options.json:
-        _print_json(claim)
+        shared.print_json(claim)
     else:
         from replication.report.terminal import proof
 
         print(proof(claim, ledger, shared.width(), shared.may_emphasize()))
     return 0
-
-
-def _print_json(document: Any) -> None:
-    from replication.report.files import json_bytes
-
-    sys.stdout.write(json_bytes(document).decode())
 
 
 def _listed(claim: Any) -> dict[str, Any]:
@@ -68,5 +63,5 @@ def _listed(claim: Any) -> dict[str, Any]:
 def _nearest(name: str, known: Iterable[str]) -> str:
     from difflib import get_close_matches
 
-    near = get_close_matches(name, list(known), n=3, cutoff=0.4)
+    near = get_close_matches(name[:80], list(known), n=3, cutoff=0.4)
     return f"; near it: {', '.join(near)}" if near else "; `coldspray claims` lists them"

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from replication.commands import shared
+from replication.cli import options as shared
 
 if TYPE_CHECKING:
     from replication.workbook import Cases

@@ -1,17 +1,50 @@
-"""The command `coldspray`: reads the command line, runs one command, says what went wrong."""
+"""The command `coldspray`: reads the command line, runs one command, says what went wrong.
+
+The commands are one module each: HELP, `options` for its parser, `run` for its work. Each imports
+what it needs when it runs, so that a light command starts fast.
+"""
 
 import argparse
 import io
 import os
+import re
 import signal
 import sys
 from collections.abc import Sequence
-from types import FrameType
+from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
-from replication.commands import COMMANDS
+from replication.cli import (
+    audit,
+    bench,
+    claims,
+    converge,
+    depth,
+    history,
+    power,
+    sheet,
+    stability,
+    sweep,
+    workbook,
+)
+from replication.reading import one_line, quoted
 
-__all__ = ["main"]
+__all__ = ["COMMANDS", "main"]
+
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    history,
+    converge,
+    stability,
+    sweep,
+    bench,
+    power,
+)
+"""In the order in which `coldspray --help` lists them."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -20,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
             stream.reconfigure(errors="backslashreplace")
-    options = _parser().parse_args(arguments)
+    options = _options(sys.argv[1:] if arguments is None else arguments)
     if arguments is None:
         _end_as_interrupted()
     try:
@@ -35,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"coldspray {options.command}: interrupted, nothing written", file=sys.stderr)
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except (ValueError, OSError) as error:
-        print(f"coldspray {options.command}: {_one_line(error)}", file=sys.stderr)
+        print(f"coldspray {options.command}: {one_line(_message(error))}", file=sys.stderr)
         return 2
     assert isinstance(status, int)
     return status
@@ -56,21 +89,25 @@ def _interrupt(number: int, _: FrameType | None) -> NoReturn:
     raise KeyboardInterrupt(number)
 
 
-def _one_line(error: Exception) -> str:
+def _message(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         name = error.filename2 or error.filename
         return f"{name}: {error.strerror}" if name else error.strerror
-    return " ".join(str(error).split())
+    return str(error)
 
 
 class _Parser(argparse.ArgumentParser):
     """An argument parser that says what is wrong in one line."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
 
 
-def _parser() -> argparse.ArgumentParser:
+_DASHES = re.compile(r"(-\w|--[\w-]+=)--")
+"""Two dashes as an option's value: argparse drops them (CPython issue 59317)."""
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser = _Parser(
         prog="coldspray",
         description="Re-run and audit W. S. de Rosset's 2006 cold-spray penetration model.",
@@ -86,7 +123,10 @@ def _parser() -> argparse.ArgumentParser:
         )
         module.options(command)
         command.set_defaults(run=module.run)
-    return parser
+    for argument in arguments:
+        if _DASHES.fullmatch(argument):
+            parser.error(f"{quoted(argument)}: two dashes are no value")
+    return parser.parse_args(arguments)
 
 
 class _Version(argparse.Action):

@@ -3,7 +3,7 @@
 import argparse
 
 from replication.cases import inputs_of
-from replication.commands import shared
+from replication.cli import options as shared
 
 HELP = "final depth of a case, without time steps"
 

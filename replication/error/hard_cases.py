@@ -4,22 +4,33 @@ And the closed form against the reference over random cases that span all sensib
 """
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from flint import arb, ctx
 
-from replication.analysis.budget import exact_motion
-from replication.analysis.warnings import warnings
 from replication.cases import BETA_5
+from replication.error.budget import exact_motion
+from replication.error.warnings import warnings
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet, run
+from replication.text import aligned
 
-__all__ = ["HARD_CASES", "HardCase", "Outcome", "Worst", "outcome", "random_cases", "worst_of"]
+__all__ = [
+    "HARD_CASES",
+    "HardCase",
+    "Outcome",
+    "Worst",
+    "outcome",
+    "random_cases",
+    "record",
+    "text",
+    "worst_of",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +98,7 @@ HARD_CASES = (
     HardCase("slow, 1 m/s", _shallow(1.0)),
     HardCase("hypervelocity, 1e4 m/s", {"velocity": 1e4}),
     HardCase("hypervelocity, 1e5 m/s", {"velocity": 1e5}),
-    HardCase("resistance 1 Pa", {"resistance": 1.0}),
+    HardCase("resistance 1 Pa, step 2 ns", {"resistance": 1.0, "step": 2e-9}),
     HardCase("resistance 1 Pa, stop at 100 m/s", {"resistance": 1.0, "stop_velocity": 100.0}),
     HardCase("resistance 1e6 Pa", {"resistance": 1e6}),
     HardCase("resistance 1e12 Pa", {"resistance": 1e12}),
@@ -225,3 +236,44 @@ def _ulps(depth: float, case: dict[str, float]) -> float:
     else:
         distance = y - (work + arb(1) / 3)
     return float(distance * radius / math.ulp(depth))
+
+
+def record(outcomes: Sequence[Outcome], worst: Worst) -> dict[str, Any]:
+    """As JSON. Inputs that are no finite numbers are given as text."""
+    return {"cases": [_record(outcome) for outcome in outcomes], "random": asdict(worst)}
+
+
+def _record(outcome: Outcome) -> dict[str, Any]:
+    changes = {k: v if math.isfinite(v) else str(v) for k, v in outcome.changes.items()}
+    return {**asdict(outcome), "changes": changes}
+
+
+def text(outcomes: Sequence[Outcome], worst: Worst) -> str:
+    """The hard cases as a table, notes under it, and the worst of the random cases."""
+    heads = ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
+    inputs = ", ".join(f"{name} {value!r}" for name, value in worst.inputs.items())
+    return "\n".join(
+        [
+            *aligned([heads, *map(_line, outcomes)]),
+            "",
+            *(f"{outcome.name}: {note}" for outcome in outcomes for note in _notes(outcome)),
+            "",
+            f"Closed form over {worst.cases} random cases ({worst.skipped} without a normal double "
+            f"for an answer): at worst {worst.ulps:.2f} ulp, at {inputs}.",
+        ]
+    )
+
+
+def _line(outcome: Outcome) -> tuple[str, ...]:
+    if outcome.refused:
+        return outcome.name, "-", "refused", "", "", "", ""
+    closed = (f"{outcome.closed_form:.9g}", f"{outcome.ulps:+.2f}", outcome.reference)
+    if outcome.sheet is None or outcome.sheet_error is None:
+        return outcome.name, "-", "refused", "", *closed
+    off = f"{100 * outcome.sheet_error:+.3g} %"
+    return outcome.name, str(outcome.steps), f"{outcome.sheet:.9g}", off, *closed
+
+
+def _notes(outcome: Outcome) -> list[str]:
+    refused = [note for note in (outcome.refused, outcome.sheet_refused) if note]
+    return [*(f"refused: {note}" for note in refused), *outcome.warnings]

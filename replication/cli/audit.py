@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from textwrap import fill
 
-from replication.commands import shared
+from replication.cli import options as shared
 
 HELP = "audit every number the report prints"
 
@@ -26,13 +26,13 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Audit, write, summarize."""
-    from replication.report import files
-
     if options.schema:
         from replication.audit.record import schema
 
-        sys.stdout.write(files.json_bytes(schema()).decode())
+        shared.print_json(schema())
         return 0
+    from replication.report import files
+
     files.check_folder(options.out)
     from replication.audit.audit import audit
     from replication.workbook import to_bytes

@@ -5,9 +5,8 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import islice
 
-from reference import exact
-from reference.exact import Number, Reals
-from reference.trajectory import Trajectory
+from reference.arithmetic import Number, Reals
+from reference.motion import Trajectory, sheet_rows
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet
 
@@ -75,11 +74,12 @@ def _last_row(reals: Reals, sheet: Sheet) -> tuple[Number, Number, Number]:
     if sheet.steps == 0:
         return reals.number(0), reals.number(Fraction(impact.velocity)), reals.number(0)
     step = reals.number(Fraction(impact.step))
-    rows = exact.midpoint(
+    rows = sheet_rows(
         reals,
         **{name: reals.number(Fraction(value)) for name, value in impact.motion.items()},
         step=step,
         centered=sheet.scheme == "centered",
+        most_rows=sheet.steps,
     )
     last = next(islice(rows, sheet.steps - 1, None))
     return last.depth, last.velocity_final, last.velocity_final * step / 2

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from replication.analysis.budget import Budget, exact_motion, split
-from replication.analysis.warnings import warnings
+from replication.error.budget import Budget, exact_motion, split
+from replication.error.warnings import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, run

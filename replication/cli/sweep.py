@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from replication.commands import shared
+from replication.cli import options as shared
+from replication.reading import quoted
 
 HELP = "many cases by a TOML plan, to CSV or Parquet"
 
@@ -36,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError(f"{output} is the plan itself: give another -o")
     # Without a terminal (None) there is no bar.
     bar = tqdm(total=plan.count, unit=" cases", unit_scale=True, disable=options.quiet or None)
-    with bar, place(str(options.plan)):
+    with bar, place(quoted(options.plan)):
         write(plan, output, done=bar.update)
     if options.json:
         units = {name: unit for name, (unit, _) in plan.columns.items()}
