@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from replication.case import INPUTS, read_case
-from replication.impact import Impact
+from replication.cases import INPUTS, read_case
+from replication.models.impact import Impact
 
 __all__ = ["case", "given", "input_options", "output_options", "path", "print_json", "warn"]
 
