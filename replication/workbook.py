@@ -30,8 +30,9 @@ from spreadsheets.engines import ENGINES
 from spreadsheets.plan import Value, WorkbookPlan, place_of
 from spreadsheets.sheets import About, workbook_plan
 from spreadsheets.sheets import inputs as inputs_sheet
-from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE, Failing, Findings, computed_claims
+from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE, Findings, computed_claims
 from spreadsheets.sheets.figures import (
+    COMPLETE,
     CURRENT,
     LEVELS,
     NO_ORDER,
@@ -44,6 +45,7 @@ from spreadsheets.sheets.lines import NOT_COMPUTED
 from spreadsheets.sheets.steps import (
     DOUBTFUL,
     DOUBTS,
+    KEPT_NAME,
     MAX_ROWS,
     STOPPED,
     WARNED,
@@ -183,18 +185,13 @@ def _findings(record: "Record", scheme: str) -> Findings:
             if usual == (Rounding.AWAY.value, "exact", "rounded", scheme):
                 verdicts[claim.id] = str(judged.verdict)
     counts = Counter(verdicts.values())
-    said = [v for v in Verdict if v.is_failure or v is Verdict.DIFFERS]
     return Findings(
         headline=record.headline,
         counts={verdict: counts[verdict] for verdict in record.summary},
         verdicts=verdicts,
         explanations={claim.id: claim.explanation for claim in record.claims},
-        failing=[
-            Failing(claim.id, claim.explanation)
-            for verdict in said
-            for claim in record.claims
-            if verdicts[claim.id] == verdict
-        ],
+        failing=[name for name, verdict in verdicts.items() if Verdict(verdict).is_failure],
+        differing=[name for name, verdict in verdicts.items() if verdict == Verdict.DIFFERS],
     )
 
 
@@ -318,8 +315,6 @@ class _Builder:
                 steps=sheet.steps,
                 coarse=True,
                 name=f"{whole[slug].name} coarse",
-                depth_claim="coarse-step-remark",
-                ratio_claim="",
             )
             for slug, sheet in self.coarse.items()
         ]
@@ -447,9 +442,8 @@ class _Builder:
         kinds = [doubt.kind for doubt in doubts_about(sheet)]
         exact = depth.normalized_depth(*_materials(impact))
         if impact.resistance is None:
-            kept = "The sheet keeps the name with which it was written."
             same = _label(impact) == _label(self.written[slug])
-            held |= {"label": _label(impact), "renamed": "" if same else kept}
+            held |= {"label": _label(impact), "renamed": "" if same else KEPT_NAME}
         message = _message(kinds)
         held |= {
             "state": message,
@@ -489,7 +483,7 @@ class _Builder:
     def _figure_5(self) -> Iterator[tuple[str, Any]]:
         impact = list(self.impacts.values())[-1]
         low, high = self.si["V_from"], self.si["V_to"]
-        yield "message", "All points are computed."
+        yield "message", COMPLETE
         for point in range(POINTS):
             there = replace(impact, velocity=low + (high - low) * point / (POINTS - 1))
             yield f"velocity[{point}]", there.velocity
@@ -513,11 +507,13 @@ class _Builder:
             in_use[name] = self.impacts[slug].target_resistance
             for what, value in self._levels[slug].items():
                 yield f"{slug}.{what}", value
+        same = {}
         for name, number in written.items():
             yield f"run.{name}", number
             yield f"in_use.{name}", in_use[name]
-            yield f"same.{name}", int(number == in_use[name])
-        yield "message", CURRENT if written == in_use else STALE
+            same[name] = abs(number - in_use[name]) * 1e12 <= abs(number)
+            yield f"same.{name}", same[name]
+        yield "message", CURRENT if all(same.values()) else STALE
 
     @cached_property
     def _levels(self) -> dict[str, dict[str, Any]]:
@@ -598,7 +594,11 @@ class _Builder:
                 f"{which}.volume_um3": _cubed(cap),
                 f"{which}.ratio": crater.volume_ratio(y),
             }
-        sizes = {"smallest": self.si["d_min"], "average": impact.diameter, "largest": self.si["d_max"]}
+        sizes = {
+            "smallest": self.si["d_min"],
+            "average": impact.diameter,
+            "largest": self.si["d_max"],
+        }
         for which, size in sizes.items():
             mass = particle_mass(size / 2, impact.particle_density)
             velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
@@ -660,15 +660,17 @@ class _Builder:
             if address := claim.place.cell:
                 assert claim.printed is not None
                 held |= _checked(address, value, claim.printed, exact=claim.is_exact)
-        verdicts = [value for key, value in held.items() if key.endswith(".verdict") and "audit." in key]
+        verdicts = [
+            value for key, value in held.items() if key.endswith(".verdict") and "audit." in key
+        ]
         for what, text in (
             ("as_printed", AS_PRINTED), ("otherwise", OTHERWISE), ("none", NOT_COMPUTED),
         ):  # fmt: skip
             count = float(sum(verdict == text for verdict in verdicts))
             held |= {f"audit.{what}": count, f"overview.audit_{what}": count}
-        for failing in findings.failing:
-            if self.ledger.claims[failing.claim].entry.workbook:
-                held[f"overview.{failing.claim}"] = held[f"audit.{failing.claim}.computed"]
+        for name in (*findings.failing, *findings.differing):
+            if self.ledger.claims[name].entry.workbook:
+                held[f"overview.{name}"] = held[f"audit.{name}.computed"]
         return held
 
 
@@ -761,7 +763,8 @@ def _levels(impact: Impact, steps: Sequence[float], scheme: str) -> dict[str, An
         held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
     ratios = [math.log(a / b) for a, b in pairwise(steps)]
     for k, ((above, here), ratio) in enumerate(zip(pairwise(errors), ratios, strict=True), 1):
-        held[f"order[{k}]"] = math.log(above / here) / ratio if above * here > 0 else NO_ORDER
+        defined = min(above, here) > 0 or max(above, here) < 0
+        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else NO_ORDER
     return held
 
 

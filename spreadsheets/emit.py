@@ -69,7 +69,7 @@ def is_own(path: Path) -> bool:
         with zipfile.ZipFile(path) as archive:
             parts = {name: archive.read(name) for name in archive.namelist()}
         seal = re.search(rb">([0-9a-f]{64})<", parts[_SEALED])
-    except Exception:  # noqa: BLE001 a damaged archive raises many things, and is not ours
+    except Exception:
         return False
     if seal is None:
         return False
@@ -151,7 +151,11 @@ class _Formats:
     def __call__(self, cell: Cell) -> Any:
         look = cell.style, cell.number_format, cell.wrap
         if look not in self._made:
-            properties = {**STYLES[cell.style], "num_format": cell.number_format, "valign": "top"}
+            properties = {
+                **STYLES[cell.style],
+                "num_format": cell.number_format,
+                "valign": "vcenter",
+            }
             self._made[look] = self._book.add_format({**properties, "text_wrap": cell.wrap})
         return self._made[look]
 
@@ -184,7 +188,7 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
         page.set_row(row - 1, _LINE * lines + 2)
     page.set_landscape()
     page.set_paper(1)  # US Letter
-    page.set_margins(left=0.4, right=0.4, top=0.7, bottom=0.6)
+    page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
     page.fit_to_pages(1, 0)
     page.set_header('&L&"Arial"&10&F&R&"Arial"&10&A')
     page.set_footer('&R&"Arial"&10Page &P of &N')
@@ -207,7 +211,8 @@ def _lines(sheet: SheetPlan) -> dict[int, int]:
     for address, cell in sheet.cells.items():
         if cell.wrap:
             column, row = _split(address)
-            taken = len(wrap(cell.text, max(int(sheet.widths[column]), 1))) or 1
+            # Letters are narrower than the digits by which widths are counted.
+            taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
             lines[row] = max(taken, lines.get(row, 1))
     return lines
 
@@ -299,8 +304,6 @@ def _exact_worksheet() -> type[Any]:
 
 _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
-_SIZE = {"width": 820, "height": 470}
-"""In pixels: with the head of the sheet, a landscape page."""
 
 
 def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
@@ -312,7 +315,7 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     drawn.set_x_axis(_axis(chart.x_title, chart))
     drawn.set_y_axis(_axis(chart.y_title, chart))
     drawn.set_legend({"position": "bottom", "font": _FONT})
-    drawn.set_size(_SIZE)
+    drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
     page.insert_chart(chart.at, drawn, {"description": chart.description})
 
 

@@ -99,7 +99,7 @@ class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
     Axis titles name quantity and unit; `description` says in words what the chart shows. With
-    `logarithmic` both axes are.
+    `logarithmic` both axes are. size: width and height in pixels.
     """
 
     at: str
@@ -109,6 +109,7 @@ class Chart:
     y_title: str
     series: tuple[Series, ...]
     logarithmic: bool = False
+    size: tuple[int, int] = (820, 470)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,6 +9,7 @@ _YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
 
 _FONT: dict[str, Any] = {"font_name": "Arial", "font_size": 10, "font_color": _INK}
 _RIGHT: dict[str, Any] = {"align": "right"}
+_INDENT: dict[str, Any] = {"align": "left", "indent": 1}
 _INPUT: dict[str, Any] = {**_FONT, "font_color": _BLUE, "border": 1, "border_color": _RULE}
 _HEADING: dict[str, Any] = {**_FONT, "bold": True, "bg_color": _HEAD, "bottom": 1}
 
@@ -19,14 +20,15 @@ STYLES: dict[str, dict[str, Any]] = {
     "note": {**_FONT, "font_color": _GRAY, "italic": True},
     "head": _HEADING,
     "head right": {**_HEADING, **_RIGHT},
-    "head unit": {**_HEADING, "indent": 1},
+    "head unit": {**_HEADING, **_INDENT},
     "block": {**_FONT, "bold": True},
-    "text": {**_FONT, "indent": 1},
-    "unit": {**_FONT, "font_color": _GRAY, "indent": 1},
+    "text": {**_FONT, **_INDENT},
+    "unit": {**_FONT, **_INDENT, "font_color": _GRAY},
     "unit right": {**_FONT, **_RIGHT, "font_color": _GRAY, "bottom": 1, "bottom_color": _RULE},
     "number": {**_FONT, **_RIGHT},
     "result": {**_FONT, **_RIGHT, "bold": True},
     "message": {**_FONT, "align": "left", "bold": True},
+    "state": {**_FONT, **_INDENT, "bold": True},
     "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
     "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
     "printed": {**_FONT, **_RIGHT, "font_color": _GRAY},

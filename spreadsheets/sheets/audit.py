@@ -4,53 +4,48 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.ledger import Claim, Ledger
-from reference.units import written
 from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
-from spreadsheets.sheets.lines import NOT_COMPUTED, column_heads, notes, printed, title
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
+)
 
-__all__ = ["AS_PRINTED", "OTHERWISE", "Failing", "Findings", "computed_claims", "sheet"]
+__all__ = ["AS_PRINTED", "KINDS", "OTHERWISE", "Findings", "computed_claims", "sheet"]
 
 AS_PRINTED, OTHERWISE = "as printed", "not as printed"
-
-
-@dataclass(frozen=True, slots=True)
-class Failing:
-    """A claim that does not follow from what the report says, and why in one sentence."""
-
-    claim: str
-    why: str
+KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
+"""Live verdicts, and what the names of their counts end with."""
 
 
 @dataclass(frozen=True, slots=True)
 class Findings:
     """What a finished audit tells the workbook; texts and numbers only.
 
-    counts: verdict -> how many numbers have it. verdicts, explanations: by claim.
+    counts: verdict -> how many numbers have it. verdicts, explanations: by claim. failing: claims
+    that do not follow from what the report says. differing: those that public sources contradict.
     """
 
     headline: str
     counts: Mapping[str, int]
     verdicts: Mapping[str, str]
     explanations: Mapping[str, str]
-    failing: Sequence[Failing]
+    failing: Sequence[str]
+    differing: Sequence[str]
 
 
 _HEADS = (
-    ("Claim", "head"),
-    ("What", "head"),
-    ("Printed", "head right"),
-    ("Unit", "head unit"),
-    ("Computed", "head right"),
-    ("Live verdict", "head unit"),
-    ("The audit’s verdict", "head unit"),
-    ("From", "head right"),
-    ("To", "head right"),
-    ("Where", "head unit"),
-    ("Computed in", "head unit"),
-    ("Explanation", "head unit"),
-)
+    "Claim", "What", "Printed", "Unit", "Computed", "Live verdict", "The audit’s verdict", "From",
+    "To", "Where", "Computed in", "Explanation",
+)  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKL"
-_WIDTHS = (25.0, 33.0, 15.0, 8.0, 12.0, 15.0, 20.0, 12.0, 12.0, 16.0, 20.0, 60.0)
+_WIDTHS = (27.0, 36.0, 15.0, 8.0, 13.0, 15.0, 25.0, 12.0, 12.0, 34.0, 20.0, 60.0)
 _HEAD_ROW = 11
 
 
@@ -68,16 +63,14 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
         "Live verdict: whether the computed cell, with the inputs in use, prints as the report "
         "does; From and To are the values that print so. The audit’s verdict is about the report: "
         "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
-        width=118,
+        width=150,
     )
     cells |= _counts(first, last)
-    cells |= column_heads(_HEAD_ROW, _COLUMNS, _HEADS)
+    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CEHI")
     for row, claim in enumerate(ledger.claims.values(), start=first):
-        here = _claim(ledger, claim, findings, row)
-        if claim.entry.workbook:
-            here |= _live(claim, row)
-        cells |= {f"{column}{row}": cell for column, cell in here.items()}
-    live = f"F{first}:F{last}"
+        live = _live(claim, row) if claim.entry.workbook else {"F": text("–", "text")}
+        cells |= row_of(row, _claim(ledger, claim, findings) | live)
+    verdicts = f"F{first}:F{last}"
     return SheetPlan(
         name="Audit",
         cells=cells,
@@ -87,8 +80,8 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
         print_area=f"A1:I{last}",
         filtered=f"A{_HEAD_ROW}:L{last}",
         rules=tuple(
-            Rule(cells=live, formula=f'=$F{first}="{text}"', style=style)
-            for text, style in (
+            Rule(cells=verdicts, formula=f'=$F{first}="{words}"', style=style)
+            for words, style in (
                 (AS_PRINTED, "good"),
                 (OTHERWISE, "warning"),
                 (NOT_COMPUTED, "changed"),
@@ -99,58 +92,50 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
 
 def _counts(first: int, last: int) -> dict[str, Cell]:
     """How many live verdicts there are of each kind."""
-    cells = {"A6": Cell(text="Live verdicts", style="block")}
-    kinds = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
-    for row, (text, what) in enumerate(kinds, start=7):
-        cells[f"A{row}"] = Cell(text=text, style="text")
-        cells[f"B{row}"] = Cell(
-            key=f"audit.{what}",
-            formula=f'=COUNTIF(F{first}:F{last},"{text}")',
-            style="message",
-            name=f"audit_{what}",
-        )
+    cells = {"A6": text("Live verdicts", "block")}
+    for row, (words, what) in enumerate(KINDS, start=7):
+        cells[f"A{row}"] = text(words, "text")
+        count = f'=COUNTIF(F{first}:F{last},"{words}")'
+        cells[f"B{row}"] = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
     return cells
 
 
-def _claim(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
+def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
     """What the ledger and the audit say of a claim, by column."""
-    cells = {
-        "A": Cell(text=claim.id, wrap=True),
-        "B": Cell(text=claim.title, wrap=True),
-        "C": printed(ledger, claim.id, claim.unit),
-        "D": Cell(text=written(claim.unit) or "–", style="unit"),
-        "G": Cell(text=findings.verdicts[claim.id], style="text", wrap=True),
-        "J": Cell(text=str(claim.place), style="unit", wrap=True),
-        "L": Cell(text=findings.explanations[claim.id], style="unit"),
+    return {
+        "A": text(claim.id),
+        "B": text(claim.title, wrap=True),
+        "C": printed(ledger, claim.id, claim.unit, wrap=True),
+        "D": unit_text(claim.unit),
+        "G": text(findings.verdicts[claim.id], "text", wrap=True),
+        "J": text(str(claim.place), "unit"),
+        "L": text(findings.explanations[claim.id], "unit"),
     }
-    cells["C"] = Cell(text=cells["C"].text, style="printed", claim=claim.id, wrap=True)
-    if not claim.entry.workbook:
-        cells["F"] = Cell(text="–", style="text")
-    return cells
 
 
 def _live(claim: Claim, row: int) -> dict[str, Cell]:
     """The computed value, the ends of what prints like the text, and the verdict, by column."""
     assert claim.entry.workbook
     place, interval = place_of(claim.entry.workbook), claim.interval()
-    key, shown = f"audit.{claim.id}", "0.0000E+00" if claim.place.cell else "0.00##"
+    key, shown = f"audit.{claim.id}", _format(claim)
     cells = {
         column: Cell(number=float(end), style="recorded", number_format=shown, claim=claim.id)
         for column, end in (("H", interval.lower), ("I", interval.upper))
         if end is not None
     }
     # It may hand on a value that is transcendental.
-    cells["E"] = Cell(
-        key=f"{key}.computed",
-        formula="='{}'!{}".format(*place),
-        style="number",
-        number_format=shown,
-        unit=claim.unit,
-        transcendental=True,
-    )
-    cells["F"] = Cell(key=f"{key}.verdict", formula=_inside(claim, row), style="text")
-    cells["K"] = Cell(text=claim.entry.workbook, style="link", link=place)
-    return cells
+    there, more = "='{}'!{}".format(*place), {"unit": claim.unit, "transcendental": True}
+    return cells | {
+        "E": formula(f"{key}.computed", there, number_format=shown, **more),
+        "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
+        "K": text(claim.entry.workbook, "link", link=place),
+    }
+
+
+def _format(claim: Claim) -> str:
+    """Fixed decimals for most, powers of ten where those would be long."""
+    size = 0 if claim.printed is None else abs(claim.printed.value)
+    return "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
 
 
 def _inside(claim: Claim, row: int) -> str:

@@ -9,9 +9,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from reference.ledger import INFERRED, Ledger
-from reference.units import to_si, written
+from reference.units import to_si
 from spreadsheets.plan import Cell, Limits, Rule, SheetPlan
-from spreadsheets.sheets.lines import NOT_COMPUTED, column_heads, guarded, notes, printed, title
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    guarded,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
+)
 from spreadsheets.sheets.steps import CaseSheet
 
 __all__ = ["COARSE", "INPUTS", "LIMITS", "REPORT", "Input", "inputs_of", "sheet"]
@@ -116,20 +127,9 @@ INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input that does not differ between the cases, by its name."""
 
 _HEADS = (
-    ("Symbol", "head"),
-    ("Quantity", "head"),
-    ("Type here", "head right"),
-    ("Unit", "head unit"),
-    ("Check", "head unit"),
-    ("In use", "head right"),
-    ("Unit", "head unit"),
-    ("The report’s", "head right"),
-    ("It prints", "head right"),
-    ("Where", "head unit"),
-    ("Least", "head right"),
-    ("Greatest", "head right"),
-    ("Name", "head unit"),
-)
+    "Symbol", "Quantity", "Type here", "Unit", "Check", "In use", "Unit", "The report’s",
+    "It prints", "Where", "Least", "Greatest", "Name",
+)  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKLM"
 _WIDTHS = (8.0, 42.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
 _HEAD_ROW = 9
@@ -171,19 +171,18 @@ def sheet(
     warning_limits: above which share of the radius a step, and above which share of the exact
     depth the sheet's excess over it, deserves a warning.
     """
-    cells = title("Inputs") | _switch()
-    cells |= notes(
+    cells = title("Inputs") | notes(
         3,
         "Type into the yellow cells, in the unit beside them; every sheet follows. On orange: an "
         "input that the report never prints, inferred from Table A-1.",
     )
-    cells |= column_heads(_HEAD_ROW, _COLUMNS, _HEADS)
+    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CFHIKL")
     row = first = _HEAD_ROW + 1
     for block, entries in inputs_of(cases, report).items():
-        cells[f"A{row}"] = Cell(text=block, style="block")
+        cells[f"A{row}"] = text(block, "block")
         for entry in entries:
             row += 1
-            cells |= _input(ledger, entry, row)
+            cells |= row_of(row, _input(ledger, entry, row))
         row += 2
     checks = f"E{first}:E{row}"
     cells |= _status(checks)
@@ -191,10 +190,10 @@ def sheet(
         ("What follows from them", _derived(ledger, cases)),
         ("Constants", _constants(warning_limits)),
     ):
-        cells[f"A{row}"] = Cell(text=block, style="block")
+        cells[f"A{row}"] = text(block, "block")
         for follows in rows:
             row += 1
-            cells |= {f"{column}{row}": cell for column, cell in follows.items()}
+            cells |= row_of(row, follows)
         row += 2
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     return SheetPlan(
@@ -212,92 +211,62 @@ def sheet(
     )
 
 
-def _switch() -> dict[str, Cell]:
-    """The choice between the user's inputs and the report's."""
-    return {
-        "B4": Cell(text="Inputs to take: yours, or the report’s"),
-        "C4": Cell(
-            key="inputs.from", style="input", name="inputs_from", choices=("yours", REPORT)
-        ),
-    }
-
-
 def _status(checks: str) -> dict[str, Cell]:
-    """How many inputs differ from the report's, how many cannot be used, and what that means."""
+    """The switch, and how many inputs differ from the report's or cannot be used."""
     unusable = "+".join(f'COUNTIF({checks},"{word}")' for word in _BAD)
-    texts = {name: f'"{text}"' for name, text in MESSAGES.items()}
+    said = {name: f'"{words}"' for name, words in MESSAGES.items()}
+    message = (
+        f'=IF(inputs_unusable>0,{said["unusable"]},IF(inputs_from="{REPORT}",{said["report"]},'
+        f"IF(inputs_changed>0,{said['changed']},{said['same']})))"
+    )
+    switch = Cell(key="inputs.from", style="input", name="inputs_from", choices=("yours", REPORT))
+    changed = f'=COUNTIF({checks},"{_YOURS}")'
     return {
-        "B5": Cell(text="Inputs in use that are not the report’s"),
-        "C5": Cell(
-            key="inputs.changed",
-            formula=f'=COUNTIF({checks},"{_YOURS}")',
-            style="result",
-            name="inputs_changed",
-        ),
-        "B6": Cell(text="Inputs that cannot be used"),
-        "C6": Cell(
-            key="inputs.unusable", formula=f"={unusable}", style="result", name="inputs_unusable"
-        ),
-        "A7": Cell(
-            key="inputs.message",
-            formula=(
-                f'=IF(inputs_unusable>0,{texts["unusable"]},IF(inputs_from="{REPORT}",'
-                f"{texts['report']},IF(inputs_changed>0,{texts['changed']},{texts['same']})))"
-            ),
-            style="message",
-        ),
+        "B4": text("Inputs to take: yours, or the report’s"),
+        "C4": switch,
+        "B5": text("Inputs in use that are not the report’s"),
+        "C5": formula("inputs.changed", changed, "result", name="inputs_changed"),
+        "B6": text("Inputs that cannot be used"),
+        "C6": formula("inputs.unusable", f"={unusable}", "result", name="inputs_unusable"),
+        "A7": formula("inputs.message", message, "message"),
     }
 
 
 def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
-    """The cells of one input."""
+    """The cells of one input, by column."""
     inferred = entry.source.startswith(INFERRED)
     typed, in_use, own, least, most = (f"{column}{row}" for column in "CFHKL")
     same = _INFERRED if inferred else _SAME
-    factor, none = _factor(entry.unit), f'"{NOT_COMPUTED}"'
+    factor, none, key = _factor(entry.unit), f'"{NOT_COMPUTED}"', f"inputs.{entry.name}"
     taken = f"IF({typed}<{least},{none},IF({typed}>{most},{none},{typed}{factor}))"
-    wrong = f'IF({typed}<{least},"{_BAD[0]}","{_BAD[1]}")'
+    taken = f'=IF(inputs_from="{REPORT}",{own}{factor},IF(ISNUMBER({typed}),{taken},{none}))'
+    good = f'IF(inputs_from="{REPORT}","{same}",IF({typed}={own},"{same}","{_YOURS}"))'
+    bad = f'IF(ISNUMBER({typed}),IF({typed}<{least},"{_BAD[0]}","{_BAD[1]}"),"{_BAD[2]}")'
+    style = "inferred" if inferred else "input"
+    shown = _SCIENTIFIC if factor else "General"
+    si = _si(entry.unit)
     cells = {
-        "A": Cell(text=entry.symbol, style="text"),
-        "B": Cell(text=entry.meaning or ledger.title(entry.source)),
-        "C": Cell(
-            key=f"inputs.{entry.name}.typed",
-            style="inferred" if inferred else "input",
-            unit=entry.unit,
-            limits=entry.limits,
-        ),
-        "D": Cell(text=written(entry.unit) or "–", style="unit"),
-        "E": Cell(
-            key=f"inputs.{entry.name}.check",
-            formula=(
-                f'=IF(ISNUMBER({in_use}),IF(inputs_from="{REPORT}","{same}",IF({typed}={own},'
-                f'"{same}","{_YOURS}")),IF(ISNUMBER({typed}),{wrong},"{_BAD[2]}"))'
-            ),
-            style="text",
-        ),
-        "F": Cell(
-            key=f"inputs.{entry.name}",
-            formula=(
-                f'=IF(inputs_from="{REPORT}",{own}{factor},IF(ISNUMBER({typed}),{taken},{none}))'
-            ),
-            style="number",
-            number_format=_SCIENTIFIC if factor else "General",
-            name=entry.name,
-            unit=_si(entry.unit),
-        ),
-        "G": Cell(text=written(_si(entry.unit)) or "–", style="unit"),
+        "A": text(entry.symbol, "text"),
+        "B": text(entry.meaning or ledger.title(entry.source)),
+        "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
+        "D": unit_text(entry.unit),
+        "E": formula(f"{key}.check", f"=IF(ISNUMBER({in_use}),{good},{bad})", "text"),
+        "F": formula(key, taken, name=entry.name, unit=si, number_format=shown),
+        "G": unit_text(si),
         "H": Cell(number=entry.of_report(ledger), style="recorded"),
+        "I": text("nowhere", "recorded"),
+        "J": text("inferred from Table A-1", "unit"),
         "K": Cell(number=entry.limits.least, style="recorded"),
         "L": Cell(number=entry.limits.most, style="recorded"),
-        "M": Cell(text=entry.name, style="unit"),
+        "M": text(entry.name, "unit"),
     }
-    if inferred:
-        cells["I"] = Cell(text="nowhere", style="recorded")
-        cells["J"] = Cell(text="inferred from Table A-1", style="unit")
-    else:
-        cells["I"] = printed(ledger, entry.source, entry.unit)
-        cells["J"] = Cell(text=str(ledger.claims[entry.source].place), style="unit")
-    return {f"{column}{row}": cell for column, cell in cells.items()}
+    return cells if inferred else cells | _as_printed(ledger, entry.source, entry.unit)
+
+
+def _as_printed(ledger: Ledger, claim: str, unit: str) -> dict[str, Cell]:
+    """What the report prints, and where."""
+    place = str(ledger.claims[claim].place)
+    return {"I": printed(ledger, claim, unit), "J": text(place, "unit")}
 
 
 def _si(unit: str) -> str:
@@ -320,58 +289,40 @@ def _factor(unit: str) -> str:
 
 
 def _derived(ledger: Ledger, cases: Sequence[CaseSheet]) -> Iterator[dict[str, Cell]]:
-    def row(
-        name: str, symbol: str, meaning: str, formula: str, unit: str, claim: str = "", *,
-        named: bool = True,
-    ) -> dict[str, Cell]:  # fmt: skip
-        cells = {
-            "A": Cell(text=symbol, style="text"),
-            "B": Cell(text=meaning),
-            "F": Cell(
-                key=f"inputs.{name}",
-                formula=guarded(formula),
-                style="number",
-                number_format=_SCIENTIFIC if named else "General",
-                name=name if named else "",
-                unit=unit,
-            ),
-            "G": Cell(text=written(unit), style="unit"),
-            "M": Cell(text=name if named else "–", style="unit"),
-        }
-        if claim:
-            cells["I"] = printed(ledger, claim, unit)
-            cells["J"] = Cell(text=str(ledger.claims[claim].place), style="unit")
-        return cells
-
-    yield row("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter")
-    mass = "=rho_p*4/3*pi_*R_p*R_p*R_p"
-    yield row("M_p", "M", "particle mass", mass, "kg", "a1-mass")
+    """Name, symbol, meaning, formula, unit and claim of what follows; no name, no use elsewhere."""
+    rows = [
+        ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
+        ("M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", "a1-mass"),
+    ]
     if not cases[0].resistance_given:
-        for case in cases:
-            formula = f"={case.named('beta')}*Y_t"
-            claim = "a1-resistance" if case is cases[-1] and case.slug != "case" else ""
-            meaning = f"target resistance, {case.name}"
-            yield row(case.named("R_t"), "R_t", meaning, formula, "Pa", claim)
-    half = "=dt_s/2*1000000000"
-    yield row("half_step", "Δt/2", "half step to start", half, "ns", "a-half-step", named=False)
-    radius = "=D_mean/2*1000000"
-    meaning = "radius of the mean particle"
-    yield row("mean_radius", "R", meaning, radius, "um", "particle-radius", named=False)
+        rows += [
+            (case.named("R_t"), "R_t", f"target resistance, {case.name}",
+             f"={case.named('beta')}*Y_t", "Pa", "a1-resistance" if case.slug == "high" else "")
+            for case in cases
+        ]  # fmt: skip
+    rows += [
+        ("half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns", "a-half-step"),
+        ("mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
+         "particle-radius"),
+    ]  # fmt: skip
+    for name, symbol, meaning, expression, unit, claim in rows:
+        in_si = unit not in ("ns", "um")
+        value = formula(
+            f"inputs.{name}", guarded(expression), unit=unit, name=name if in_si else "",
+            number_format=_SCIENTIFIC if in_si else "General",
+        )  # fmt: skip
+        cells = {"A": text(symbol, "text"), "B": text(meaning), "F": value, "G": unit_text(unit)}
+        yield cells | (_as_printed(ledger, claim, unit) if claim else {})
 
 
 def _constants(warning_limits: tuple[float, float]) -> Iterator[dict[str, Cell]]:
     # Programs differ in the digits of their own pi, so it stands in a cell.
-    constants = (
-        ("pi_", "π", "circumference over diameter", math.pi, "1"),
-        ("ksi_Pa", "", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
-        ("travel_most", "", "a step may pass this share of the radius", warning_limits[0], "1"),
-        ("excess_most", "", "the sheet may exceed the exact depth by", warning_limits[1], "1"),
-    )
-    for name, symbol, meaning, value, unit in constants:
-        yield {
-            "A": Cell(text=symbol, style="text"),
-            "B": Cell(text=meaning),
-            "F": Cell(number=value, style="recorded", name=name, unit=unit),
-            "G": Cell(text=written(unit) or "–", style="unit"),
-            "M": Cell(text=name, style="unit"),
-        }
+    for name, meaning, value, unit in (
+        ("pi_", "circumference over diameter, π", math.pi, "1"),
+        ("ksi_Pa", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
+        ("travel_most", "a step may pass this share of the radius", warning_limits[0], "1"),
+        ("excess_most", "the sheet may exceed the exact depth by", warning_limits[1], "1"),
+    ):
+        number = Cell(number=value, style="recorded", name=name, unit=unit)
+        named = text(name, "unit")
+        yield {"B": text(meaning), "F": number, "G": unit_text(unit), "M": named}

@@ -1,28 +1,31 @@
-"""The table that most sheets are made of: one quantity a line, its value, unit and source."""
+"""What sheets are made of: cells, notes, and tables of one quantity a line."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from textwrap import wrap
+from typing import Any
 
 from reference.ledger import Ledger
 from reference.units import written
-from spreadsheets.plan import Cell
+from spreadsheets.plan import Cell, SheetPlan
 
 __all__ = [
     "HOME",
     "NOT_COMPUTED",
-    "WIDTHS",
     "Line",
-    "column_heads",
+    "formula",
     "guarded",
     "heads",
-    "live",
     "log1p",
     "notes",
     "place",
     "printed",
+    "row_of",
+    "sheet_of_lines",
+    "text",
     "title",
+    "unit_text",
 ]
 
 NOT_COMPUTED = "not computed"
@@ -31,61 +34,53 @@ NOT_COMPUTED = "not computed"
 HOME = "Overview"
 """The first sheet, to which a link leads back from every other."""
 
-HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
-WIDTHS = (9.0, 44.0, 14.0, 8.0, 20.0, 46.0)
+
+def text(words: str, style: str = "body", **more: Any) -> Cell:
+    """A cell with a text."""
+    return Cell(text=words, style=style, **more)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Line:
-    """One quantity; `claim` is where the report prints it, `source` what tells more than that.
-
-    Formulas call other lines of the same table by their `id` in braces. `guard`: they are
-    calculated only where all that they refer to are numbers.
-    """
-
-    symbol: str
-    meaning: str
-    cell: Cell
-    claim: str = ""
-    source: str = ""
-    guard: bool = True
-
-    @property
-    def id(self) -> str:
-        """The key without its sheet: "frank_zook.rha.derived" is called {rha_derived}."""
-        return self.cell.key.partition(".")[2].replace(".", "_")
+def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:
+    """A cell with a formula, given with its "="; its value is supplied under the key."""
+    return Cell(key=key, formula=expression, style=style, **more)
 
 
-def live(
-    key: str,
-    symbol: str,
-    meaning: str,
-    formula: str,
-    unit: str = "1",
-    source: str = "",
-    *,
-    claim: str = "",
-    number_format: str = "0.0000",
-    style: str = "number",
-    name: str = "",
-    transcendental: bool = False,
-    column: str = "",
-    guard: bool = True,
-) -> Line:
-    """A line whose value is a formula."""
-    cell = Cell(
-        key=key,
-        formula=formula,
-        style=style,
-        number_format=number_format,
-        name=name,
-        unit=unit,
-        transcendental=transcendental,
-        column=column,
-    )
-    return Line(
-        symbol=symbol, meaning=meaning, cell=cell, claim=claim, source=source, guard=guard
-    )
+def row_of(row: int, cells: dict[str, Cell]) -> dict[str, Cell]:
+    """Cells by address, given by column."""
+    return {f"{column}{row}": cell for column, cell in cells.items()}
+
+
+def heads(
+    row: int, columns: Iterable[str], texts: Iterable[str], right: str = ""
+) -> dict[str, Cell]:
+    """Column heads; `right` names the columns of numbers, which are aligned to the right."""
+    return {
+        f"{column}{row}": text(words, "head right" if column in right else "head unit")
+        for column, words in zip(columns, texts, strict=True)
+    }
+
+
+def title(words: str) -> dict[str, Cell]:
+    """The first two rows of a sheet: its title, and the way back."""
+    return {"A1": text(words, "title"), "A2": text(f"Back to {HOME}", "link", link=(HOME, "A1"))}
+
+
+def notes(row: int, *texts: str, width: int = 165, column: str = "A") -> dict[str, Cell]:
+    """Texts from `row` down, broken into lines that fit a page."""
+    lines = [line for words in texts for line in wrap(words, width)]
+    return {f"{column}{at}": text(line, "note") for at, line in enumerate(lines, row)}
+
+
+def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
+    """The text of a claim as the report prints it, with its unit where that is another."""
+    claim = ledger.claims[name]
+    own = "" if claim.unit == unit else f" {written(claim.unit)}"
+    return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
+
+
+def unit_text(unit: str) -> Cell:
+    """The unit beside a number."""
+    return text(written(unit) or "–", "unit")
 
 
 _REFERENCE = re.compile(
@@ -95,7 +90,7 @@ _REFERENCE = re.compile(
 )
 
 
-def guarded(formula: str) -> str:
+def guarded(expression: str) -> str:
     """The formula, calculated where all that it refers to are numbers.
 
     Elsewhere it says that nothing was computed. A mere reference is left as it is: it shows what it
@@ -104,12 +99,11 @@ def guarded(formula: str) -> str:
     >>> guarded("=2*R_p"), guarded("=R_p")
     ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
     """
-    found = [match["cell"] for match in _REFERENCE.finditer(formula)]
+    found = [match["cell"] for match in _REFERENCE.finditer(expression)]
     names = list(dict.fromkeys(name for name in found if name))
-    if not names or formula == f"={names[0]}":
-        return formula
-    counted = f"COUNT({','.join(names)})={len(names)}"
-    return f'=IF({counted},{formula[1:]},"{NOT_COMPUTED}")'
+    if not names or expression == f"={names[0]}":
+        return expression
+    return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'
 
 
 def log1p(x: str) -> str:
@@ -121,86 +115,89 @@ def log1p(x: str) -> str:
     return f"IF({x}<0.00000001,{x}-{x}*{x}/2,{x}*LN(1+{x})/((1+{x})-1))"
 
 
-def printed(ledger: Ledger, name: str, unit: str = "1", style: str = "printed") -> Cell:
-    """The text of a claim as the report prints it, with its unit where that is another."""
-    claim = ledger.claims[name]
-    own = "" if claim.unit == unit else f" {written(claim.unit)}"
-    return Cell(text=f"{claim.shown}{own}".rstrip(), style=style, claim=name)
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
 
+    The formula calls other lines of the same table by their `id` in braces; `guard`: see `guarded`.
+    claim: where the report prints the value. shown: the number format. Others: as in `Cell`.
+    """
 
-def title(text: str) -> dict[str, Cell]:
-    """The first two rows of a sheet: its title, and the way back."""
-    back = Cell(text=f"Back to {HOME}", style="link", link=(HOME, "A1"))
-    return {"A1": Cell(text=text, style="title"), "A2": back}
+    key: str
+    symbol: str
+    meaning: str
+    formula: str
+    unit: str = "1"
+    source: str = ""
+    claim: str = ""
+    shown: str = "0.0000"
+    style: str = "number"
+    name: str = ""
+    transcendental: bool = False
+    column: str = ""
+    guard: bool = True
 
-
-def notes(row: int, *texts: str, width: int = 130, column: str = "A") -> dict[str, Cell]:
-    """Texts from `row` down, broken into lines that fit a page."""
-    lines = [line for text in texts for line in wrap(text, width)]
-    return {f"{column}{at}": Cell(text=line, style="note") for at, line in enumerate(lines, row)}
-
-
-def heads(row: int, columns: str = "ABCDEF") -> dict[str, Cell]:
-    """The column heads of the table, in that row."""
-    styles = ("head", "head", "head right", "head unit", "head right", "head unit")
-    return column_heads(row, columns, list(zip(HEADS, styles, strict=True)))
-
-
-def column_heads(
-    row: int, columns: Sequence[str], texts: Sequence[tuple[str, str]]
-) -> dict[str, Cell]:
-    """Column heads, given as text and style."""
-    return {
-        f"{column}{row}": Cell(text=text, style=style)
-        for column, (text, style) in zip(columns, texts, strict=True)
-    }
+    @property
+    def id(self) -> str:
+        """The key without its sheet: "frank_zook.rha.derived" is called {rha_derived}."""
+        return self.key.partition(".")[2].replace(".", "_")
 
 
 def place(
     ledger: Ledger, lines: Sequence[Line | str], row: int, columns: str = "ABCDEF"
 ) -> dict[str, Cell]:
-    """Lay out lines from `row` down; a plain string heads a block, after a blank row.
+    """A table with its heads in `row`; a plain string heads a block, after a blank row.
 
     `columns` names the six columns taken: symbol, meaning, value, unit, printed text, source.
     """
-    rows = _rows(lines, row)
+    words = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
+    cells = heads(row, columns, words, columns[2] + columns[4])
+    rows: dict[int, Line | str] = {}
+    at = row
+    for line in lines:
+        at += 2 if isinstance(line, str) and rows else 1
+        rows[at] = line
     addresses = {
-        line.id: f"{columns[2]}{at}" for at, line in rows.items() if isinstance(line, Line)
+        line.id: f"{columns[2]}{at}" for at, line in rows.items() if not isinstance(line, str)
     }
-    cells: dict[str, Cell] = {}
     for at, line in rows.items():
         if isinstance(line, str):
-            cells[f"{columns[0]}{at}"] = Cell(text=line, style="block")
+            cells[f"{columns[0]}{at}"] = text(line, "block")
         else:
-            cells |= _line(ledger, line, at, columns, addresses)
-    return cells
+            of_line = _cells(ledger, line, addresses)
+            cells |= row_of(at, dict(zip(columns, of_line, strict=True)))
+    return {address: cell for address, cell in cells.items() if cell != Cell()}
 
 
-def _rows(lines: Sequence[Line | str], row: int) -> dict[int, Line | str]:
-    rows: dict[int, Line | str] = {}
-    for line in lines:
-        if isinstance(line, str) and rows:
-            row += 1
-        rows[row] = line
-        row += 1
-    return rows
-
-
-def _line(
-    ledger: Ledger, line: Line, row: int, columns: str, addresses: dict[str, str]
-) -> dict[str, Cell]:
-    value = line.cell
-    if value.formula:
-        formula = value.formula.format_map(addresses)
-        value = replace(value, formula=guarded(formula) if line.guard else formula)
+def _cells(ledger: Ledger, line: Line, addresses: dict[str, str]) -> tuple[Cell, ...]:
+    """The six cells of a line."""
+    expression = line.formula.format_map(addresses)
+    value = formula(
+        line.key, guarded(expression) if line.guard else expression, line.style,
+        number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
+        transcendental=line.transcendental,
+    )  # fmt: skip
     source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
-    texts = (
-        (0, line.symbol, "text"),
-        (1, line.meaning, "body"),
-        (3, written(value.unit) or ("–" if value.style == "number" else ""), "unit"),
-        (5, source, "unit"),
+    return (
+        text(line.symbol, "text") if line.symbol else Cell(),
+        text(line.meaning),
+        value,
+        unit_text(line.unit) if line.style == "number" else Cell(),
+        printed(ledger, line.claim, line.unit) if line.claim else Cell(),
+        text(source, "unit") if source else Cell(),
     )
-    cells = {f"{columns[at]}{row}": Cell(text=t, style=style) for at, t, style in texts if t}
-    if line.claim:
-        cells[f"{columns[4]}{row}"] = printed(ledger, line.claim, value.unit)
-    return cells | {f"{columns[2]}{row}": value}
+
+
+def sheet_of_lines(
+    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
+) -> SheetPlan:
+    """A sheet of one table under notes."""
+    above = title(heading) | notes(3, *said)
+    row = 2 + len(above)
+    return SheetPlan(
+        name=name,
+        cells=above | place(ledger, lines, row),
+        widths=dict(zip("ABCDEF", (9.0, 44.0, 14.0, 8.0, 20.0, 46.0), strict=True)),
+        frozen=f"A{row + 1}",
+        repeated_rows=(row, row),
+    )

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, SheetPlan
-from spreadsheets.sheets.lines import WIDTHS, Line, heads, live, log1p, notes, place, title
+from spreadsheets.plan import SheetPlan
+from spreadsheets.sheets.lines import Line, log1p, sheet_of_lines
 from spreadsheets.sheets.steps import CaseSheet
 
 __all__ = ["crater", "frank_zook", "resistance"]
@@ -12,41 +12,27 @@ __all__ = ["crater", "frank_zook", "resistance"]
 _SI = "0.000E+00"
 
 
-def _sheet(
-    ledger: Ledger, name: str, heading: str, text: str, lines: Sequence[Line | str]
-) -> SheetPlan:
-    """A sheet of lines under a note."""
-    said = notes(3, text) if text else {}
-    row = 4 + len(said)
-    table = heads(row) | place(ledger, lines, row + 1)
-    return SheetPlan(
-        name=name,
-        cells=title(heading) | said | table,
-        widths=dict(zip("ABCDEF", WIDTHS, strict=True)),
-        frozen=f"A{row + 1}",
-        repeated_rows=(row, row),
-    )
-
-
 def crater(ledger: Ledger) -> SheetPlan:
     """Section 2's geometry of a sphere pressed into a flat surface, and Eq. 1."""
-    return _sheet(
+    return sheet_of_lines(
         ledger,
         "Crater",
         "Crater and particle",
-        "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. Its "
-        "root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3.",
+        [
+            "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. "
+            "Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3."
+        ],
         [
             "Particle",
-            live("crater.volume", "PV", "particle volume", "=4/3*pi_*R_p*R_p*R_p", "m^3", "Eq. 3",
-                 number_format=_SI),
-            live("crater.volume_um3", "PV", "the same", _cubed("{volume}"), "um^3",
-                 claim="particle-volume", number_format="0.00"),
+            Line("crater.volume", "PV", "particle volume", "=4/3*pi_*R_p*R_p*R_p", "m^3", "Eq. 3",
+                 shown=_SI),
+            Line("crater.volume_um3", "PV", "the same", _cubed("{volume}"), "um^3",
+                 claim="particle-volume", shown="0.00"),
             "Crater of the least CV/PV",
             *_crater("least", "CV_PV", "observed-depth-ratio", "observed-depth", "volume-ratio"),
             "Line of Figure 1: CV in proportion to PV",
-            live("crater.on_line", "CV", "crater volume on the line, at this PV",
-                 "=CV_PV_line*{volume_um3}", "um^3", "Section 2, Figure 1", number_format="0.00"),
+            Line("crater.on_line", "CV", "crater volume on the line, at this PV",
+                 "=CV_PV_line*{volume_um3}", "um^3", "Section 2, Figure 1", shown="0.00"),
             *_crater("line", "CV_PV_line", "", "", "volume-ratio-line"),
             "Contact circle of the impact (section 3)",
             *_contact(ledger),
@@ -79,7 +65,7 @@ def _crater(which: str, ratio: str, depth: str, micrometers: str, back: str) -> 
          "0.0000", back),
     )  # fmt: skip
     return [
-        live(f"{key}.{what}", symbol, meaning, formula, unit, source, number_format=shown,
+        Line(f"{key}.{what}", symbol, meaning, formula, unit, source, shown=shown,
              claim=claim, transcendental=True)
         for what, symbol, meaning, formula, unit, source, shown, claim in lines
     ]  # fmt: skip
@@ -88,12 +74,12 @@ def _crater(which: str, ratio: str, depth: str, micrometers: str, back: str) -> 
 def _contact(ledger: Ledger) -> list[Line]:
     third = ledger.value("observed-third")
     return [
-        live("crater.third", "X/R", "normalized depth", f"={third.numerator}/{third.denominator}",
+        Line("crater.third", "X/R", "normalized depth", f"={third.numerator}/{third.denominator}",
              claim="observed-third"),
-        live("crater.contact_diameter", "2a", "diameter of the contact circle",
-             "=D_p*SQRT({third}*(2-{third}))", "m", "Eq. 12: a² = Dx - x²", number_format=_SI),
-        live("crater.contact_diameter_um", "2a", "the same", "={contact_diameter}*1000000", "um",
-             claim="contact-diameter-bound", number_format="0.00"),
+        Line("crater.contact_diameter", "2a", "diameter of the contact circle",
+             "=D_p*SQRT({third}*(2-{third}))", "m", "Eq. 12: a² = Dx - x²", shown=_SI),
+        Line("crater.contact_diameter_um", "2a", "the same", "={contact_diameter}*1000000", "um",
+             claim="contact-diameter-bound", shown="0.00"),
     ]  # fmt: skip
 
 
@@ -103,12 +89,12 @@ def _velocities() -> list[Line]:
     for which, diameter in (("smallest", "d_min"), ("average", "D_p"), ("largest", "d_max")):
         mass, half = f"{which}_mass", f"({diameter}/2)"
         lines += [
-            live(f"crater.{mass}", "m", f"mass, {which} particle",
+            Line(f"crater.{mass}", "m", f"mass, {which} particle",
                  f"=rho_p*4/3*pi_*{half}*{half}*{half}", "kg", "Eq. 3 times ρ_p",
-                 number_format=_SI),
-            live(f"crater.{which}_velocity", "V_p", f"velocity, {which} particle",
+                 shown=_SI),
+            Line(f"crater.{which}_velocity", "V_p", f"velocity, {which} particle",
                  f"=V_impact*SQRT(M_p/{{{mass}}})", "m/s",
-                 "Eq. 1, with V the impact velocity and m_o = M", number_format="0.0"),
+                 "Eq. 1, with V the impact velocity and m_o = M", shown="0.0"),
         ]  # fmt: skip
     return lines
 
@@ -118,71 +104,73 @@ def resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     three = "{goodier_beta},{walker_anderson_beta},{brinell_beta}"
     lines: list[Line | str] = [
         "Target resistance over flow stress, β",
-        live("resistance.goodier_beta", "β", "Goodier", "=4*q_Y/pi_",
+        Line("resistance.goodier_beta", "β", "Goodier", "=4*q_Y/pi_",
              source="Eqs. 8 and 9 with n = 2", claim="goodier-beta"),
-        live("resistance.alpha", "α", "extent of the plastic zone, Walker and Anderson",
+        Line("resistance.alpha", "α", "extent of the plastic zone, Walker and Anderson",
              "=(2*E_t/(3*Y_steel))^(1/3)", source="Eq. 11", claim="walker-anderson-alpha",
              transcendental=True),
-        live("resistance.walker_anderson_beta", "β", "Walker and Anderson", "=7/3*LN({alpha})",
+        Line("resistance.walker_anderson_beta", "β", "Walker and Anderson", "=7/3*LN({alpha})",
              source="Eq. 10", claim="walker-anderson-beta", transcendental=True),
-        live("resistance.brinell_beta", "β", "Brinell hardness as target resistance", "=HB_ratio",
+        Line("resistance.brinell_beta", "β", "Brinell hardness as target resistance", "=HB_ratio",
              claim="brinell-beta"),
-        live("resistance.least_beta", "β", "least of the three", f"=MIN({three})",
+        Line("resistance.least_beta", "β", "least of the three", f"=MIN({three})",
              claim="beta-range-least", transcendental=True),
-        live("resistance.greatest_beta", "β", "greatest of the three", f"=MAX({three})",
+        Line("resistance.greatest_beta", "β", "greatest of the three", f"=MAX({three})",
              claim="beta-range-greatest", transcendental=True),
         "Strength of the target’s grains",
         *(
-            live(f"resistance.{which}", "S", f"strength, {meaning}", f"=S_{which}/1000000", "MPa",
-                 claim=f"strength-{which}", number_format="0.0")
+            Line(f"resistance.{which}", "S", f"strength, {meaning}", f"=S_{which}/1000000", "MPa",
+                 claim=f"strength-{which}", shown="0.0")
             for which, meaning in (("feathery", "feathery grains"), ("clear", "clear grains"),
                                    ("bulk", "bulk material"))
         ),
-        live("resistance.mean_grain", "S", "mean of the two kinds of grain",
-             "=({feathery}+{clear})/2", "MPa", claim="flow-stress", number_format="0.0"),
-        live("resistance.clear_over_bulk", "", "clear grains over bulk", "={clear}/{bulk}",
-             claim="strength-multiple", number_format="0.00"),
-        live("resistance.grain_over_bulk", "", "mean over bulk", "={mean_grain}/{bulk}",
-             claim="strength-multiple", number_format="0.00"),
+        Line("resistance.mean_grain", "S", "mean of the two kinds of grain",
+             "=({feathery}+{clear})/2", "MPa", claim="flow-stress", shown="0.0"),
+        Line("resistance.clear_over_bulk", "", "clear grains over bulk", "={clear}/{bulk}",
+             claim="strength-multiple", shown="0.00"),
+        Line("resistance.grain_over_bulk", "", "mean over bulk", "={mean_grain}/{bulk}",
+             claim="strength-multiple", shown="0.00"),
         "Target resistance and centerline stress at impact",
     ]  # fmt: skip
     for case in cases:
         lines += _stresses(case)
     lines += [
         "Strain rate",
-        live("resistance.strain_rate", "V/L", "impact velocity over a typical dimension",
-             "=V_impact/L_typ", "1/s", claim="strain-rate", number_format="0.0E+00"),
+        Line("resistance.strain_rate", "V/L", "impact velocity over a typical dimension",
+             "=V_impact/L_typ", "1/s", claim="strain-rate", shown="0.0E+00"),
     ]  # fmt: skip
-    return _sheet(ledger, "Resistance", "Target resistance", "", lines)
+    return sheet_of_lines(ledger, "Resistance", "Target resistance", [], lines)
 
 
 def _stresses(case: CaseSheet) -> list[Line]:
     key, resistance = f"resistance.{case.slug}", case.named("R_t")
     return [
-        live(f"{key}.target_resistance", "R_t", f"target resistance, {case.name}",
-             f"={resistance}", "Pa", "Eq. 7; Inputs", number_format=_SI),
-        live(f"{key}.centerline_stress", "Σ", f"centerline stress, {case.name}",
+        Line(f"{key}.target_resistance", "R_t", f"target resistance, {case.name}",
+             f"={resistance}", "Pa", "Eq. 7; Inputs", shown=_SI),
+        Line(f"{key}.centerline_stress", "Σ", f"centerline stress, {case.name}",
              f"=rho_t*V_impact*V_impact/2+{resistance}", "Pa",
-             "Eq. 6; by Eq. 5 the least strength of a rigid particle", number_format=_SI),
-        live(f"{key}.over_copper", "Σ/Y_p", "over the yield strength of annealed copper",
+             "Eq. 6; by Eq. 5 the least strength of a rigid particle", shown=_SI),
+        Line(f"{key}.over_copper", "Σ/Y_p", "over the yield strength of annealed copper",
              f"={{{case.slug}_centerline_stress}}/Y_copper", "1",
-             "a rigid particle must be so many times stronger", number_format="0.0"),
+             "a rigid particle must be so many times stronger", shown="0.0"),
     ]  # fmt: skip
 
 
 def frank_zook(ledger: Ledger) -> SheetPlan:
     """Eq. 16 as it is printed, and as it follows from Eqs. 14 and 15."""
-    return _sheet(
+    return sheet_of_lines(
         ledger,
         "Frank-Zook",
         "Frank-Zook depth of a noneroding penetrator",
-        "Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the depth in "
-        "diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the derived "
-        "one is twice the printed one.",
+        [
+            "Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the "
+            "depth in diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: "
+            "the derived one is twice the printed one."
+        ],
         [
             "The cylinder of the sphere’s mass and diameter",
             # It hangs on no input: (pi/6) D^3 = (pi/4) D^2 L.
-            live("frank_zook.length_ratio", "L/D", "length over diameter of the sphere’s equivalent",
+            Line("frank_zook.length_ratio", "L/D", "length over diameter of the cylinder",
                  "=(1/6)/(1/4)", claim="sphere-length-ratio"),
             "Rolled homogeneous armor (Eq. 17)",
             *_depths("rha", "R_t_RHA", "fz-resistance-rha", "frank-zook-rha"),
@@ -197,14 +185,14 @@ def _depths(which: str, resistance: str, printed: str, claim: str) -> list[Line]
     inertia = "({length_ratio}*rho_p/rho_t+k_1)/(2*k_t)"
     derived = f"=2*{{{which}_as_printed}}"
     return [
-        live(f"{key}.resistance", "R_t", "target resistance", f"={resistance}", "Pa",
-             claim=printed, number_format="0.00E+00"),
-        live(f"{key}.pressure", "z", "drag over resistance",
+        Line(f"{key}.resistance", "R_t", "target resistance", f"={resistance}", "Pa",
+             claim=printed, shown="0.00E+00"),
+        Line(f"{key}.pressure", "z", "drag over resistance",
              f"=k_t*rho_t*V_impact*V_impact/{resistance}", source="in Eq. 16",
-             number_format="0.0000E+00"),
-        live(f"{key}.as_printed", "X/R", "normalized depth, equation as printed",
+             shown="0.0000E+00"),
+        Line(f"{key}.as_printed", "X/R", "normalized depth, equation as printed",
              f"={inertia}*{log1p(z)}", source="Eq. 16 as printed", claim=claim,
              transcendental=True),
-        live(f"{key}.derived", "X/R", "normalized depth, as derived", derived,
+        Line(f"{key}.derived", "X/R", "normalized depth, as derived", derived,
              source="Eqs. 14 and 15, with R = D/2", claim=claim, transcendental=True),
     ]  # fmt: skip

@@ -7,15 +7,17 @@ the sheet says so instead of giving a depth; if the time step is too long for th
 from dataclasses import dataclass
 
 from reference.ledger import Ledger
+from reference.units import written
 from spreadsheets.plan import Cell, Rule, SheetPlan
 from spreadsheets.sheets.lines import (
     NOT_COMPUTED,
     Line,
+    formula,
     heads,
-    live,
     log1p,
     notes,
     place,
+    text,
     title,
 )
 
@@ -30,7 +32,7 @@ __all__ = [
     "step_formulas",
 ]
 
-FIRST_ROW = 9
+FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 
 MAX_ROWS = 20_000
@@ -122,72 +124,69 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-_HEADS = (
-    ("A", "Row", ""),
-    ("B", "Time", "s"),
-    ("C", "dx/dt initial", "m/s"),
-    ("D", "x", "m"),
-    ("E", "d²x/dt²", "m/s²"),
-    ("F", "dx/dt final", "m/s"),
-    ("G", "x", "µm"),
-)
-_MIDDLE = ("H", "dx/dt middle", "m/s")
-_FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000", "H": "0.000"}
+_HEADS = ("Row", "Time", "dx/dt initial", "x", "d²x/dt²", "dx/dt final", "x", "dx/dt middle")
+_COLUMNS = {
+    "A": ("index", "1", "General", ""),
+    "B": ("time", "s", "0.00E+00", ""),
+    "C": ("velocity_initial", "m/s", "0.000", "velocity"),
+    "D": ("depth", "m", "0.0000E+00", "depth"),
+    "E": ("deceleration", "m/s^2", "0.0000E+00", "deceleration"),
+    "F": ("velocity_final", "m/s", "0.000", "velocity"),
+    "G": ("depth_um", "um", "0.0000", "depth_um"),
+    "H": ("velocity_middle", "m/s", "0.000", "velocity"),
+}
+"""Column -> the end of its keys, its unit, its number format, and the cells of like size; the last
+is that of the centered scheme."""
+
 _RESULTS = "IJKLMN"
-_WIDTHS = (8.0, 38.0, 13.0, 7.0, 16.0, 24.0)
+_WIDTHS = (7.0, 33.0, 13.0, 7.0, 24.0, 26.0)
 
 
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
-    cells = _head(case) | _results(ledger, case)
+    centered = case.scheme == "centered"
+    columns = "ABCDEFGH" if centered else "ABCDEFG"
+    cells = _head(case, columns) | _results(ledger, case)
     for step in range(case.rows + 1):
         cells |= _row(step, case)
-    centered = case.scheme == "centered"
-    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 12.0), "G": 8.0, "H": 13.0 if centered else 3.0}
-    used = f"A{FIRST_ROW}:{'H' if centered else 'G'}{case.last_row}"
+    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, "H": 13.0 if centered else 3.0}
+    used = f"A{FIRST_ROW}:{columns[-1]}{case.last_row}"
     return SheetPlan(
         name=case.name,
         cells=cells,
         widths=widths | dict(zip(_RESULTS, _WIDTHS, strict=True)),
         frozen=f"A{FIRST_ROW}",
         repeated_rows=(FIRST_ROW - 2, FIRST_ROW - 1),
-        print_area=f"A1:N{max(FIRST_ROW + case.steps, _LAST_RESULT)}",
+        print_area=f"A1:M{FIRST_ROW + max(case.steps, _RESULT_ROWS)}",
         rules=(
             Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
+            Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
             *case.rules("A3"),
-            Rule(cells="I2", formula="=ISTEXT($I$2)", style="warning"),
         ),
     )
 
 
-def _head(case: CaseSheet) -> dict[str, Cell]:
+def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
     """The title with the live β, the state of the run, notes, and the heads of the columns."""
+    top = FIRST_ROW - 2
     cells = title("Rigid-body penetration, row by row") | notes(
         4,
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
         f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
-        "The run stops with the first row below v_stop. The printed pages end with the last row in "
-        f"use as written. {case.rows} rows are prepared; for more: {case.longer}",
+        "The run stops with the first row below v_stop; printed pages end with the last row as "
+        f"written. {case.rows} rows are prepared; for more: {case.longer}",
+        width=140,
     )
-    state = Cell(key=f"{case.part}.state", formula=f"={case.result('message')}", style="message")
-    cells["A3"] = state
-    label = Cell(text=case.label, style="title")
+    cells["A3"] = formula(f"{case.part}.state", f"={case.result('message')}", "message")
+    cells["I1"] = text(case.label, "title")
     if not case.resistance_given:
-        formula = f'="β = "&{case.named("beta")}'
-        label = Cell(key=f"{case.part}.label", formula=formula, style="title")
-        kept = "The sheet keeps the name with which it was written."
-        cells["I2"] = Cell(
-            key=f"{case.part}.renamed",
-            formula=f'=IF(I1="{case.label}","","{kept}")',
-            style="message",
-        )
-    cells["I1"] = label
-    shown = (*_HEADS, _MIDDLE) if case.scheme == "centered" else _HEADS
-    for column, head, unit in shown:
-        cells[f"{column}{FIRST_ROW - 2}"] = Cell(text=head, style="head right")
-        if unit:
-            cells[f"{column}{FIRST_ROW - 1}"] = Cell(text=unit, style="unit right")
-    return cells
+        label = f'="β = "&{case.named("beta")}'
+        renamed = f'=IF(I1="{case.label}","","{KEPT_NAME}")'
+        cells["I1"] = formula(f"{case.part}.label", label, "title")
+        cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
+    cells |= heads(top, columns, _HEADS[: len(columns)], columns)
+    units = {column: written(_COLUMNS[column][1]) for column in columns}
+    return cells | {f"{c}{top + 1}": text(unit, "unit right") for c, unit in units.items() if unit}
 
 
 def step_formulas(
@@ -219,19 +218,6 @@ def step_formulas(
     return {key: f'=IF(ISNUMBER(A{row}),{text},"")' for key, text in formulas.items()}
 
 
-_QUANTITIES = {
-    "A": ("index", "1", ""),
-    "B": ("time", "s", ""),
-    "C": ("velocity_initial", "m/s", "velocity"),
-    "D": ("depth", "m", "depth"),
-    "E": ("deceleration", "m/s^2", "deceleration"),
-    "F": ("velocity_final", "m/s", "velocity"),
-    "G": ("depth_um", "um", "depth_um"),
-    "H": ("velocity_middle", "m/s", "velocity"),
-}
-"""Column -> the end of its keys, its unit, and the set of cells of like size."""
-
-
 def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
     """One row of the sheet; row 0 is the impact itself, with no final velocity."""
     row, dt = FIRST_ROW + step, case.step_name
@@ -250,26 +236,24 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
         time = "0"
     formulas["B"] = f'=IF(ISNUMBER(A{row}),{time},"")'
     formulas["G"] = f'=IF(ISNUMBER(A{row}),D{row}*1000000,"")'
-    formats = {**_FORMATS, "B": "0.00E+00", "G": "0.0000"}
-    if not step:
-        formats = dict.fromkeys("BDEG", "General") | {"C": "0.000"}
-    return {
-        f"{column}{row}": Cell(
-            key=f"{case.part}.row[{step}].{_QUANTITIES[column][0]}",
-            formula=formula,
-            style="number",
-            number_format=formats.get(column, "General"),
-            unit=_QUANTITIES[column][1],
-            column=_QUANTITIES[column][2] and f"{case.part}.{_QUANTITIES[column][2]}",
+    cells = {}
+    for column, expression in formulas.items():
+        what, unit, shown, like = _COLUMNS[column]
+        cells[f"{column}{row}"] = formula(
+            f"{case.part}.row[{step}].{what}",
+            expression,
+            number_format=shown if step or column == "C" else "General",
+            unit=unit,
+            column=like and f"{case.part}.{like}",
         )
-        for column, formula in formulas.items()
-    }
+    return cells
 
 
 # The block beside the rows
 
-_LAST_RESULT = FIRST_ROW + 42
+_RESULT_ROWS = 42
 
+KEPT_NAME = "The sheet keeps the name with which it was written."
 YES_NO = '"yes";;"no"'
 """Shows 1 and 0; a truth value would show as TRUE in one program and as 1 in another."""
 
@@ -300,8 +284,7 @@ def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
     ]
     if case.coarse:
         lines += ["Against the sheet with the step dt_s", *_against_fine(case)]
-    top = FIRST_ROW - 2
-    return heads(top, _RESULTS) | place(ledger, lines, top + 1, _RESULTS)
+    return place(ledger, lines, FIRST_ROW - 2, _RESULTS)
 
 
 def _inputs(case: CaseSheet) -> list[Line]:
@@ -317,17 +300,16 @@ def _inputs(case: CaseSheet) -> list[Line]:
         ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
     )
     return [
-        live(f"{case.part}.{what}", symbol, meaning, f"={name}", unit, "sheet Inputs",
-             number_format="0.0000E+00")
+        Line(f"{case.part}.{what}", symbol, meaning, f"={name}", unit, shown="0.0000E+00")
         for what, symbol, meaning, name, unit in inputs
-    ]  # fmt: skip
+    ]
 
 
 def _result(case: CaseSheet) -> list[Line]:
-    part, rows = case.part, f"{FIRST_ROW}:{{}}{case.last_row}"
+    part = case.part
 
     def cells(column: str) -> str:
-        return f"{column}{rows.format(column)}"
+        return f"{column}{FIRST_ROW}:{column}{case.last_row}"
 
     # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
     count = f"COUNT({cells('A')})"
@@ -336,34 +318,32 @@ def _result(case: CaseSheet) -> list[Line]:
         what: str, symbol: str, meaning: str, expression: str, unit: str, shown: str,
         claim: str = "", column: str = "",
     ) -> Line:  # fmt: skip
-        return live(
+        return Line(
             f"{part}.{what}", symbol, meaning,
             f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit, "" if claim else "Appendix",
-            claim=claim, number_format=shown, name=case.result(what),
+            claim=claim, shown=shown, name=case.result(what),
             column=column and f"{part}.{column}", guard=False,
         )  # fmt: skip
 
     def final(column: str) -> str:
         return f"INDEX({cells(column)},{count})"
 
-    stopped = (
-        f'=IF(ISNUMBER(A{FIRST_ROW}),IF({final("F")}<v_stop,1,0),"{NOT_COMPUTED}")'
-    )  # fmt: skip
+    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({final("F")}<v_stop,1,0),"{NOT_COMPUTED}")'
     return [
-        live(f"{part}.stopped", "", "the rows reach the stop", stopped, number_format=YES_NO,
+        Line(f"{part}.stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
              name=case.result("stopped"), guard=False),
         result("final_depth", "X", "final penetration depth", final("D"), "m", "0.0000E+00",
                column="depth"),
         result("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000",
-               case.depth_claim, "depth_um"),
+               "" if case.coarse else case.depth_claim, "depth_um"),
         result("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
-               case.ratio_claim),
+               "" if case.coarse else case.ratio_claim),
         result("steps", "", "steps taken", f"{count}-1", "1", "0"),
         result("stop_time", "t", "time of the final row", final("B"), "s", "0.0000E+00"),
         result("final_velocity", "v", "velocity that ends it",
                f"IF({{steps}}>0,{final('F')},V_impact)", "m/s", "0.0000", column="velocity"),
-        live(f"{part}.excess", "", "X/R over the observed X/R",
-             "={normalized_depth}/observed_ratio", claim="excess", number_format="0.00"),
+        Line(f"{part}.excess", "", "X/R over the observed X/R",
+             "={normalized_depth}/observed_ratio", claim="excess", shown="0.00"),
     ]  # fmt: skip
 
 
@@ -386,11 +366,11 @@ def _exact(case: CaseSheet) -> list[Line]:
          "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above"),
     )  # fmt: skip
     return [
-        live(f"{case.part}.{what}", symbol, meaning, formula, unit, source,
+        Line(f"{case.part}.{what}", symbol, meaning, expression, unit, source,
              transcendental=what != "pressure",
-             number_format="0.0000E+00" if what in ("pressure", "c") else "0.0000",
+             shown="0.0000E+00" if what in ("pressure", "c") else "0.0000",
              name=case.result(what) if unit == "um" else "")
-        for what, symbol, meaning, formula, unit, source in lines
+        for what, symbol, meaning, expression, unit, source in lines
     ]  # fmt: skip
 
 
@@ -409,17 +389,17 @@ def _doubts(case: CaseSheet) -> list[Line]:
     stopped = f'IF({{trust}}=2,"{STOPPED}",IF({{trust}}=1,"{WARNED}","{DOUBTFUL}")&{said})'
     message = f'IF({{stopped}}=1,{stopped},"{OUT_OF_ROWS}")'
     return [
-        live(f"{part}.travel", "Δt V/R", "radii passed in one step at V",
-             f"={case.step_name}*V_impact/R_p", number_format="0.0000",
+        Line(f"{part}.travel", "Δt V/R", "radii passed in one step at V",
+             f"={case.step_name}*V_impact/R_p", shown="0.0000",
              source="warning above travel_most"),
-        live(f"{part}.over_exact", "", "depth over the depth at rest",
+        Line(f"{part}.over_exact", "", "depth over the depth at rest",
              f"=IF({{stopped}}=1,{{normalized_depth}}/{{exact_normalized_depth}},{none})",
-             transcendental=True, number_format="0.0000",
+             transcendental=True, shown="0.0000",
              source="warning above 1 + excess_most", guard=False),
-        live(f"{part}.trust", "", "2: no warning, 1: a slight one, 0: do not use",
+        Line(f"{part}.trust", "", "2 sound, 1 with a warning, 0 do not use",
              f"=IF({{stopped}}=1,{trust},0)",
-             number_format="0", name=case.result("trust"), guard=False),
-        live(f"{part}.message", "", "",
+             shown="0", name=case.result("trust"), guard=False),
+        Line(f"{part}.message", "", "",
              f'=IF(ISNUMBER({{stopped}}),{message},"{INVALID}")', style="message",
              name=case.result("message"), guard=False),
     ]  # fmt: skip
@@ -429,8 +409,8 @@ def _against_fine(case: CaseSheet) -> list[Line]:
     """The final depth beside that of the finer step."""
     part, fine = case.part, case.named("depth_um")
     return [
-        live(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
+        Line(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
              claim=case.depth_claim),
-        live(f"{part}.over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
-             claim="coarse-step-remark", number_format="0.00%"),
+        Line(f"{part}.over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
+             claim="coarse-step-remark", shown="0.00%"),
     ]  # fmt: skip

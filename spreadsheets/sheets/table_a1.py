@@ -5,9 +5,18 @@ prints, `6E-10` in General included. From column H on stands the printed text it
 """
 
 from reference.ledger import Claim, Ledger
-from reference.units import written
 from spreadsheets.plan import Cell, Rule, SheetPlan
-from spreadsheets.sheets.lines import HOME, column_heads, notes, printed, title
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
+)
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, step_formulas
 
 __all__ = ["DIGITS", "ROWS", "check_sheet", "sheet"]
@@ -47,35 +56,19 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     report: with the printed text beside it.
     """
     claims = _claims(ledger)
-    formats = {address: _format(claim.text) for address, claim in claims.items()}
-    units = {address: claim.unit for address, claim in claims.items()}
-    cells: dict[str, Cell] = {}
-    for row, text in enumerate(_LABELS, start=1):
-        cells[f"A{row}"] = Cell(text=text)
+    cells = {f"A{row}": text(words) for row, words in enumerate(_LABELS, start=1)}
     for address, (what, symbol) in _HEADER.items():
         name = case.named(symbol) if symbol == "R_t" else symbol
-        cells[address] = Cell(
-            key=f"table.{what}",
-            formula=f"={name}",
-            style="number",
-            number_format=formats[address],
-            unit=units[address],
-        )
-    for column, text in zip("ABCDEF", _HEADS, strict=True):
-        style = "head" if column in "AB" else "head right"
-        cells[f"{column}{_FIRST - 1}"] = Cell(text=text, style=style)
-    if case.scheme == "centered":
-        cells[f"G{_FIRST - 1}"] = Cell(text="dx/dt middle", style="head right")
+        cells[address] = _live(claims, address, f"table.{what}", f"={name}")
+    for column, words in zip("ABCDEFG", (*_HEADS, "dx/dt middle"), strict=True):
+        if column != "G" or case.scheme == "centered":
+            style = "head" if column in "AB" else "head right"
+            cells[f"{column}{_FIRST - 1}"] = text(words, style)
     for step in range(ROWS):
-        for column, formula in _row(step, case).items():
+        for column, expression in _row(step, case).items():
+            key = f"table.row[{step}].{_COLUMNS[column]}"
             address = f"{column}{_FIRST + step}"
-            cells[address] = Cell(
-                key=f"table.row[{step}].{_COLUMNS[column]}",
-                formula=formula,
-                style="number",
-                number_format=formats.get(address, "0.00E+00"),
-                unit=units.get(address, "1"),
-            )
+            cells[address] = _live(claims, address, key, expression)
     if report:
         cells |= _beside(ledger, claims)
     cells |= notes(
@@ -84,12 +77,19 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         f"{case.name}." + (" Columns H to M are the report’s text." if report else ""),
         "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
     )
-    back = Cell(text=f"Back to {HOME}", style="link", link=(HOME, "A1"))
-    cells["A18"] = back
+    cells["A18"] = title("")["A2"]
     widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0)
     if case.scheme != "centered":
         widths["G"] = 4.0
     return SheetPlan(name="Table A-1", cells=cells, widths=widths)
+
+
+def _live(claims: dict[str, Claim], address: str, key: str, expression: str) -> Cell:
+    """A cell of the table, in the unit and with the number format of what is printed there."""
+    if address not in claims:
+        return formula(key, expression, number_format=_SCIENTIFIC, unit="m/s")
+    shown, unit = _format(claims[address].text), claims[address].unit
+    return formula(key, expression, number_format=shown, unit=unit)
 
 
 def _row(step: int, case: CaseSheet) -> dict[str, str]:
@@ -110,19 +110,21 @@ def _row(step: int, case: CaseSheet) -> dict[str, str]:
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     """The printed text, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
-    cells = {f"H{row}": Cell(text=text, style="unit") for row, text in enumerate(_LABELS, start=1)}
-    for column, text in zip("ABCDEF", _HEADS, strict=True):
-        if text:
-            cells[f"{shifted[column]}{_FIRST - 1}"] = Cell(text=text, style="unit right")
+    cells = {f"H{row}": text(words, "unit") for row, words in enumerate(_LABELS, start=1)}
+    for column, words in zip("ABCDEF", _HEADS, strict=True):
+        if words:
+            cells[f"{shifted[column]}{_FIRST - 1}"] = text(words, "unit right")
     for address, claim in claims.items():
-        place = f"{shifted[address[0]]}{address[1:]}"
-        cells[place] = printed(ledger, claim.id, claim.unit)
+        cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
 
 
-def _format(text: str) -> str:
+_SCIENTIFIC = "0.00E+00"
+
+
+def _format(words: str) -> str:
     """The number format that shows a number as printed: "6E-10" is General, "2.00E-10" is not."""
-    return "0.00E+00" if "." in text else "General"
+    return _SCIENTIFIC if "." in words else "General"
 
 
 # The check
@@ -132,15 +134,9 @@ DIGITS = 4
 
 _HEAD_ROW = 6
 _CHECK_HEADS = (
-    ("Cell", "head"),
-    ("Quantity", "head"),
-    ("Unit", "head unit"),
-    ("The report prints", "head right"),
-    ("Computed", "head right"),
-    ("Difference", "head right"),
-    ("", "head unit"),
-    ("Last printed digit", "head right"),
-)
+    "Cell", "Quantity", "Unit", "The report prints", "Computed", "Difference", "",
+    "Last printed digit",
+)  # fmt: skip
 _FULL = "0.0000000000000000E+00"
 SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
 
@@ -152,14 +148,12 @@ def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
         "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
         "minus printed, in units of the last printed digit; up to 0.5 it prints the same.",
     )
-    cells |= column_heads(_HEAD_ROW, "ABCDEFGH", _CHECK_HEADS)
+    cells |= heads(_HEAD_ROW, "ABCDEFGH", _CHECK_HEADS, "DEFH")
     first = _HEAD_ROW + 1
-    row = first
-    for address, claim in _claims(ledger).items():
-        cells |= {f"{column}{row}": cell for column, cell in _check(claim, address, row, table)}
-        row += 1
+    for row, (address, claim) in enumerate(_claims(ledger).items(), start=first):
+        cells |= row_of(row, _check(claim, address, row, table))
     widths = (8.0, 26.0, 9.0, 17.0, 25.0, 12.0, 18.0, 17.0)
-    verdicts = f"G{first}:G{row - 1}"
+    verdicts = f"G{first}:G{row}"
     return SheetPlan(
         name="Table A-1 check",
         cells=cells,
@@ -167,70 +161,38 @@ def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
         frozen=f"B{first}",
         repeated_rows=(_HEAD_ROW, _HEAD_ROW),
         rules=tuple(
-            Rule(cells=verdicts, formula=f'=$G{first}="{text}"', style=style)
-            for text, style in ((SAME_TEXT, "good"), (OTHER_TEXT, "warning"))
+            Rule(cells=verdicts, formula=f'=$G{first}="{words}"', style=style)
+            for words, style in ((SAME_TEXT, "good"), (OTHER_TEXT, "warning"))
         ),
     )
 
 
-def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> list[tuple[str, Cell]]:
+def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
+    """The cells of one number, by column."""
     assert claim.printed is not None
     key, there = f"table_check.{address}", f"'{table.name}'!{address}"
-    if not claim.is_exact:
-        computed = f"ROUND(({there}-D{row})/H{row},{DIGITS})"
-        verdict = f'IF(ABS(F{row})<=0.5,"{SAME_TEXT}","{OTHER_TEXT}")'
-    else:
-        computed, verdict = f"{there}-D{row}", f'IF(F{row}=0,"{SAME_TEXT}","{OTHER_TEXT}")'
+    difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"
+    verdict = f'IF(ABS(F{row})<=0.5,"{SAME_TEXT}","{OTHER_TEXT}")'
+    if claim.is_exact:
+        difference = f"E{row}-D{row}"
+        verdict = f'IF(F{row}=0,"{SAME_TEXT}","{OTHER_TEXT}")'
+    difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
+    verdict = f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
     shown = table.cells[address].number_format
-    return [
-        ("A", Cell(text=address, style="link", link=(table.name, address))),
-        ("B", Cell(text=claim.title)),
-        ("C", Cell(text=written(claim.unit) or "–", style="unit")),
-        (
-            "D",
-            Cell(
-                number=float(claim.printed.value),
-                style="recorded",
-                number_format=shown,
-                unit=claim.unit,
-                claim=claim.id,
-            ),
+    number = Cell(
+        number=float(claim.printed.value), style="recorded", number_format=shown, claim=claim.id
+    )
+    digit = Cell(number=float(claim.printed.quantum), style="recorded", number_format="0E+00")
+    return {
+        "A": text(address, "link", link=(table.name, address)),
+        "B": text(claim.title),
+        "C": unit_text(claim.unit),
+        "D": number,
+        "E": formula(f"{key}.computed", f"={there}", number_format=_FULL, unit=claim.unit),
+        # Rounding is done by each program in its own way: it may cost a last digit.
+        "F": formula(
+            f"{key}.difference", difference, "result", number_format="0.0000", transcendental=True
         ),
-        (
-            "E",
-            Cell(
-                key=f"{key}.computed",
-                formula=f"={there}",
-                style="number",
-                number_format=_FULL,
-                unit=claim.unit,
-            ),
-        ),
-        (
-            "F",
-            Cell(
-                key=f"{key}.difference",
-                formula=f'=IF(ISNUMBER(E{row}),{computed},"–")',
-                style="result",
-                number_format="0.0000",
-                # Rounding is done by each program in its own way: it may cost a last digit.
-                transcendental=True,
-            ),
-        ),
-        (
-            "G",
-            Cell(
-                key=f"{key}.verdict",
-                formula=f'=IF(ISNUMBER(E{row}),{verdict},"not computed")',
-                style="text",
-            ),
-        ),
-        (
-            "H",
-            Cell(
-                number=float(claim.printed.quantum),
-                style="recorded",
-                number_format="0E+00",
-            ),
-        ),
-    ]
+        "G": formula(f"{key}.verdict", verdict, "text"),
+        "H": digit,
+    }
