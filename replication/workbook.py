@@ -29,8 +29,7 @@ from spreadsheets import emit
 from spreadsheets.engines import ENGINES
 from spreadsheets.plan import Value, WorkbookPlan, place_of
 from spreadsheets.sheets import About, workbook_plan
-from spreadsheets.sheets import inputs as inputs_sheet
-from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE, Findings, computed_claims
+from spreadsheets.sheets.audit import AS_PRINTED, KINDS, OTHERWISE, Findings, computed_claims
 from spreadsheets.sheets.figures import (
     COMPLETE,
     CURRENT,
@@ -40,7 +39,8 @@ from spreadsheets.sheets.figures import (
     RUN_INPUTS,
     STALE,
 )
-from spreadsheets.sheets.inputs import Input, inputs_of
+from spreadsheets.sheets.inputs import COARSE as COARSE_STEP
+from spreadsheets.sheets.inputs import MESSAGES, Input, inputs_of
 from spreadsheets.sheets.lines import NOT_COMPUTED
 from spreadsheets.sheets.steps import (
     DOUBTFUL,
@@ -226,18 +226,8 @@ _CASE_INPUTS = {
 }
 """Inputs that come from the cases -> the attributes of an Impact."""
 
-_HEADER = {
-    "radius": "radius",
-    "particle_density": "particle_density",
-    "mass": "mass",
-    "diameter": "diameter",
-    "velocity": "velocity",
-    "resistance": "target_resistance",
-}
-"""What Table A-1 prints above its rows -> the attribute of an Impact."""
-
-_BESIDE = {name: name for name in ("target_density", "step", "stop_velocity")}
-"""What the sheets of all rows show besides."""
+_TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resistance")
+"""What Table A-1 prints above its rows."""
 
 
 class _Builder:
@@ -267,12 +257,8 @@ class _Builder:
         self.runs = {slug: self._held(impact) for slug, impact in self.written.items()}
         self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
         self.coarse: dict[str, Sheet] = {}
-        if self.report:
-            step = self.si[inputs_sheet.COARSE]
-            self.coarse = {
-                slug: run(replace(impact, step=step), scheme)
-                for slug, impact in self.impacts.items()
-            }
+        for slug, impact in self.impacts.items() if self.report else ():
+            self.coarse[slug] = run(replace(impact, step=self.si[COARSE_STEP]), scheme)
         self.rows = prepared_rows(max(run(i, scheme).steps for i in self.runs.values()), rows)
         longest = max(sheet.steps for sheet in (*self.sheets.values(), *self.coarse.values()))
         if longest > self.rows:
@@ -282,9 +268,8 @@ class _Builder:
         """What the plan must know of a case's sheet, but for its length."""
         beta = "3" if impact.beta == BETA_3.beta else "5"
         own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
-        name = "Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}"
         return CaseSheet(
-            name=name,
+            name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
             slug=slug,
             label=_label(impact),
             steps=0,
@@ -304,45 +289,28 @@ class _Builder:
         if self.scheme != SCHEMES[0]:
             longer.append(f"--scheme {self.scheme}")
         longer.append(f"--rows {min(10 * self.rows, MAX_ROWS)}")
-        whole = {
-            slug: replace(page, rows=self.rows, longer=" ".join(longer))
-            for slug, page in self.pages.items()
-        }
-        fine = [replace(whole[slug], steps=sheet.steps) for slug, sheet in self.sheets.items()]
-        coarse = [
-            replace(
-                whole[slug],
-                steps=sheet.steps,
-                coarse=True,
-                name=f"{whole[slug].name} coarse",
-            )
-            for slug, sheet in self.coarse.items()
-        ]
-        return fine, coarse
+        more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
+        fine, coarse = (
+            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
+            for runs in (self.sheets, self.coarse)
+        )
+        return fine, [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse]
 
     def _all_typed(
         self, cases: Mapping[str, Impact], typed: Mapping[str, float]
     ) -> dict[str, float]:
         """The number to type into every input's cell. Raises ValueError outside of its limits."""
         first, *others = cases.values()
-        for impact in others:
-            unlike = [
-                name for name in _CASE_INPUTS.values()
-                if getattr(impact, name) != getattr(first, name)
-            ]  # fmt: skip
-            if unlike or first.resistance is not None:
-                raise ValueError(
-                    "the two cases may differ in beta only, not in " + (unlike or ["resistance"])[0]
-                )
+        for name in _CASE_INPUTS.values():
+            given = {getattr(impact, name) for impact in (first, *others)}
+            if len(given) > 1 or (others and name == "resistance" and given != {None}):
+                raise ValueError(f"the two cases may differ in beta only, not in {name}")
         numbers = {}
         for name, entry in self.entries.items():
             if name in _CASE_INPUTS:
                 number = _typed(getattr(first, _CASE_INPUTS[name]), entry.unit)
             elif name.startswith("beta"):
-                slug = name.partition("_")[2] or "case"
-                beta = cases[slug].beta
-                assert beta is not None
-                number = beta
+                number = cases[name.partition("_")[2] or "case"].beta or 0.0
             else:
                 number = typed.get(name, self._of_report(entry))
             _require_taken(self.ledger, entry, number)
@@ -373,37 +341,35 @@ class _Builder:
         }
         if findings is not None:
             values |= self._audit(plan, values, findings)
-        sheets = (*self.sheets.values(), *self.coarse.values())
-        rounding = max(map(rounding_bound, sheets))
-        return Workbook(plan, values, list(self._warnings()), rounding)
-
-    def _warnings(self) -> Iterator[str]:
-        for slug, sheet in self.sheets.items():
-            for doubt in doubts_about(sheet):
-                yield f"{self.pages[slug].name}: {doubt.text}"
+        warnings = [
+            f"{self.pages[slug].name}: {doubt.text}"
+            for slug, sheet in self.sheets.items()
+            for doubt in doubts_about(sheet)
+        ]
+        rounding = max(map(rounding_bound, (*self.sheets.values(), *self.coarse.values())))
+        return Workbook(plan, values, warnings, rounding)
 
     # The values, sheet by sheet
 
     def _values(self) -> Iterator[tuple[str, Any]]:
-        parts: dict[str, Iterator[tuple[str, Any]] | Mapping[str, Any]] = {
-            "inputs": self._inputs(),
-            "table": self._table(),
-            "figure_3": self._figure_3(),
-            "figure_5": self._figure_5(),
-            "convergence": self._convergence(),
-            "frank_zook": self._frank_zook(),
-            "crater": self._crater(),
-            "resistance": self._resistance(),
-            "overview": self._overview(),
-        }
-        parts |= {slug: self._sheet(slug, sheet) for slug, sheet in self.sheets.items()}
-        parts |= {
-            f"{slug}_coarse": self._sheet(slug, sheet, coarse=True)
-            for slug, sheet in self.coarse.items()
-        }
-        for part, held in parts.items():
-            pairs = held.items() if isinstance(held, Mapping) else held
-            for what, value in pairs:
+        parts: list[tuple[str, Mapping[str, Any]]] = [
+            ("inputs", self._inputs()),
+            ("table", self._table()),
+            ("figure_3", dict(self._figure_3())),
+            ("figure_5", dict(self._figure_5())),
+            ("convergence", dict(self._convergence())),
+            ("frank_zook", self._frank_zook()),
+            ("crater", self._crater()),
+            ("resistance", self._resistance()),
+            ("overview", self._overview()),
+            *((slug, self._sheet(slug, sheet)) for slug, sheet in self.sheets.items()),
+            *(
+                (f"{s}_coarse", self._sheet(s, sheet, coarse=True))
+                for s, sheet in self.coarse.items()
+            ),
+        ]
+        for part, held in parts:
+            for what, value in held.items():
                 yield f"{part}.{what}", value
 
     def _inputs(self) -> dict[str, Any]:
@@ -416,7 +382,7 @@ class _Builder:
             held |= {name: self.si[name], f"{name}.typed": typed}
             held[f"{name}.check"] = same if typed == report else "yours"
         held["changed"] = changed
-        held["message"] = inputs_sheet.MESSAGES["changed" if changed else "same"]
+        held["message"] = MESSAGES["changed" if changed else "same"]
         first = next(iter(self.impacts.values()))
         held |= {"D_p": first.diameter, "M_p": first.mass, "half_step": first.step / 2 * 1e9}
         held["mean_radius"] = self.si["D_mean"] / 2 * 1e6
@@ -427,12 +393,11 @@ class _Builder:
 
     def _table(self) -> dict[str, Any]:
         sheet = list(self.sheets.values())[-1]
-        held = {what: getattr(sheet.impact, name) for what, name in _HEADER.items()}
-        return held | dict(_row_values(sheet, ROWS - 1))
+        return _given(sheet.impact, _TABLE) | dict(_row_values(sheet, ROWS - 1))
 
     def _sheet(self, slug: str, sheet: Sheet, *, coarse: bool = False) -> dict[str, Any]:
         impact, final = sheet.impact, sheet.rows[-1]
-        held = {what: getattr(impact, name) for what, name in (_HEADER | _BESIDE).items()}
+        held = _given(impact, (*_TABLE, "target_density", "step", "stop_velocity"))
         held |= dict(_row_values(sheet, self.rows))
         for k in range(self.rows + 1):
             used = k <= sheet.steps
@@ -569,7 +534,8 @@ class _Builder:
         return held
 
     def _crater(self) -> dict[str, Any]:
-        impact, third = next(iter(self.impacts.values())), 1 / 3
+        impact = next(iter(self.impacts.values()))
+        third = float(self.ledger.value("observed-third"))
         volume = crater.volume(impact.radius)
         contact = crater.contact_diameter(third, impact.diameter)
         ratios = {"least": self.si["CV_PV"], "line": self.si["CV_PV_line"]}
@@ -657,20 +623,16 @@ class _Builder:
             value = values[plan.cell(place_of(str(claim.entry.workbook))).key]
             held[f"audit.{claim.id}.computed"] = value
             held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
-            if address := claim.place.cell:
-                assert claim.printed is not None
-                held |= _checked(address, value, claim.printed, exact=claim.is_exact)
-        verdicts = [
-            value for key, value in held.items() if key.endswith(".verdict") and "audit." in key
-        ]
-        for what, text in (
-            ("as_printed", AS_PRINTED), ("otherwise", OTHERWISE), ("none", NOT_COMPUTED),
-        ):  # fmt: skip
-            count = float(sum(verdict == text for verdict in verdicts))
-            held |= {f"audit.{what}": count, f"overview.audit_{what}": count}
+        counts = Counter(value for key, value in held.items() if key.endswith(".verdict"))
+        for text, what in KINDS:
+            held |= dict.fromkeys((f"audit.{what}", f"overview.audit_{what}"), float(counts[text]))
         for name in (*findings.failing, *findings.differing):
             if self.ledger.claims[name].entry.workbook:
                 held[f"overview.{name}"] = held[f"audit.{name}.computed"]
+        for claim in self.ledger.claims.values():
+            if claim.place.cell and claim.printed:
+                value = values[plan.cell(("Table A-1", claim.place.cell)).key]
+                held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
         return held
 
 
@@ -681,20 +643,19 @@ def _label(impact: Impact) -> str:
 
 def _flags(impact: Impact) -> list[str]:
     """The options of `coldspray workbook` for a case."""
-    name = "beta-3" if impact.beta == BETA_3.beta else "beta-5"
-    flags = [f"--case {name}"]
-    for key, text in _given(impact, BETA_3 if name == "beta-3" else BETA_5).items():
-        flags.append(f"--{key.replace('_', '-')} {text}")
-    return flags
+    name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
+    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
+    return [f"--case {name}"] + [
+        f"--{key.replace('_', '-')} {value!r}"
+        for key, value in given.items()
+        if value is not None and value != getattr(base, key)
+    ]
 
 
-def _given(impact: Impact, base: Impact) -> dict[str, str]:
-    inputs = {field.name: getattr(impact, field.name) for field in fields(impact)}
-    return {
-        name: repr(value)
-        for name, value in inputs.items()
-        if value is not None and value != getattr(base, name)
-    }
+def _given(impact: Impact, names: Sequence[str]) -> dict[str, Any]:
+    """Inputs of a case by name; the resistance is that in use."""
+    attributes = {name: name for name in names} | {"resistance": "target_resistance"}
+    return {name: getattr(impact, attributes[name]) for name in names}
 
 
 def _require_taken(ledger: Ledger, entry: Input, number: float) -> None:
@@ -777,8 +738,10 @@ def _verdict(value: Value, interval: Interval) -> str:
         (exact, _) = interval.ends
         inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
     else:
-        ends = (None if e is None else Fraction(float(e)) for e in (interval.lower, interval.upper))
-        rounded = Interval(*ends, interval.lower_closed, interval.upper_closed)
+        low, high = (
+            None if e is None else Fraction(float(e)) for e in (interval.lower, interval.upper)
+        )
+        rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = rounded.contains(Fraction(value))
     return AS_PRINTED if inside else OTHERWISE
 

@@ -116,9 +116,9 @@ _UNITS = ("", "", "", "", "[ulp]", "")
 
 _LEGEND = """\
 Cells are formulas. Explained are those that an engine computes in long doubles and that lie within
-{bound:.1e} of the largest number of their column, the proven bound on the rounding of doubles. In
+{bound:.1e} of the largest number of their column, a proven bound on the rounding of doubles. In
 tolerance are those that pass through LN, SIN, ASIN or a cube root, within the rounding of that
-chain; they do not count as different. Largest is the distance of any two numbers, in the last place."""
+chain; they do not count as different. Largest is the greatest distance of two numbers."""
 
 
 def _text(checks: "Sequence[EngineCheck]", bound: float) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from reference.ledger import Claim, Ledger
 from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
@@ -124,7 +125,8 @@ def _live(claim: Claim, row: int) -> dict[str, Cell]:
         if end is not None
     }
     # It may hand on a value that is transcendental.
-    there, more = "='{}'!{}".format(*place), {"unit": claim.unit, "transcendental": True}
+    there = "='{}'!{}".format(*place)
+    more: dict[str, Any] = {"unit": claim.unit, "transcendental": True}
     return cells | {
         "E": formula(f"{key}.computed", there, number_format=shown, **more),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),

@@ -218,8 +218,9 @@ def _levels(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
             elif k:
                 order = f"LN({error}{row - 1}/{error}{row})/LN(A{row - 1}/A{row})"
                 order = f'=IFERROR({order},"{NO_ORDER}")'
-                more = {"number_format": shown, "transcendental": True}
-                cells[f"{column}{row}"] = formula(key, order, **more)
+                cells[f"{column}{row}"] = formula(
+                    key, order, number_format=shown, transcendental=True
+                )
     return cells
 
 
