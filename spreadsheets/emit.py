@@ -190,6 +190,7 @@ _LINE = 13.5
 def _set_up(page: Any, sheet: SheetPlan) -> None:
     """Scrolling, column widths, row heights and print set-up."""
     page.hide_gridlines(2)
+    page.set_default_row(_LINE + 2)
     if sheet.frozen:
         page.freeze_panes(sheet.frozen)
     for column, width in sheet.widths.items():

@@ -55,7 +55,9 @@ def heads(
 ) -> dict[str, Cell]:
     """Column heads; `right` names the columns of numbers, which are aligned to the right."""
     return {
-        f"{column}{row}": text(words, "head right" if column in right else "head unit")
+        f"{column}{row}": text(
+            words, "head right" if column in right else "head" if column == "A" else "head unit"
+        )
         for column, words in zip(columns, texts, strict=True)
     }
 
