@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from replication.analysis.budget import exact_motion
+from replication.error.budget import exact_motion
 from replication.bench.cases import Case, relative_error
 from replication.models import arrays, motion
 from replication.models.impact import Impact

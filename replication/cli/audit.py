@@ -33,12 +33,18 @@ def run(options: argparse.Namespace) -> int:
         return 0
     from replication.report import files
 
-    files.check_folder(options.out)
+    files.check(options.out)
     from replication.audit.audit import audit
+    from replication.error import hard_cases
     from replication.workbook import to_bytes
 
     record = audit()
-    written = files.write(record, options.out, {"workbook.xlsx": to_bytes()})
+    outcomes = [hard_cases.outcome(case) for case in hard_cases.HARD_CASES]
+    beside = {
+        "workbook.xlsx": to_bytes(record=record),
+        "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
+    }
+    written = files.write(record, options.out, beside)
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:

@@ -190,8 +190,6 @@ def run_many(
 
 
 def _sheets(centered: bool, **inputs: Any) -> Any:
-    import numpy as np
-
     cases = _numbers(inputs)
     _check(cases)
     if set(map(type, cases.values())) == {float}:
@@ -203,6 +201,8 @@ def _sheets(centered: bool, **inputs: Any) -> Any:
     for index, case in _elements(steps > sheet.MAX_STEPS, cases):
         problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
         raise ElementError("the sheet", problem, index)
+    import numpy as np
+
     for index, case in _elements(np.isinf(depths), cases):
         raise ElementError("the sheet", sheet.out_of_range(case["step"]), index)
     return depths, steps

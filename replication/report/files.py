@@ -11,9 +11,15 @@ import msgspec
 
 from replication.audit.record import ClaimRecord, Record
 from replication.plain import json_text
-from spreadsheets.safely import write_folder
+from spreadsheets.safely import check_folder, write_folder
 
-__all__ = ["contents", "write"]
+__all__ = ["check", "contents", "write"]
+
+
+def check(folder: Path) -> None:
+    """Raise OSError, naming the path, where the audit's files could not be written."""
+    names = ("audit.html", "audit.md", "audit.json", "audit.csv", "workbook.xlsx", "figures/x.svg")
+    check_folder(folder, names)
 
 
 def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
