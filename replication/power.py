@@ -75,7 +75,7 @@ class Counts(msgspec.Struct, kw_only=True):
 
 
 class Power(Counts, kw_only=True):
-    """The counts of a sample, whole, by kind of entry and by kind of edit; what passed unnoticed."""
+    """The counts of a sample, whole and by kind of entry and of edit; what passed unnoticed."""
 
     seed: int
     by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
@@ -149,7 +149,7 @@ def _worse(verdict: Verdict, truth: Audit, name: str) -> bool:
 
 
 def _equations(ledger: Ledger, plant: Plant) -> list[str]:
-    """The equations that a plant may put wrong: it stands in one, and others are derived from it."""
+    """The equations that a plant may put wrong: its own, and those derived from it."""
     inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
     return list(ledger.equations) if inside else []
 

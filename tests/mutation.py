@@ -2,8 +2,8 @@
 
     python tests/mutation.py --sample 100 --seed 1
 
-Each mutant is one small change of one module: another comparison, operator, number or condition. The
-tests that belong to the module run on a copy of the project, and then, if they pass, all of
+Each mutant is one small change of one module: another comparison, operator, number or condition.
+The tests that belong to the module run on a copy of the project, and then, if they pass, all of
 them. A mutant that no test notices is printed with its change. Run it by hand: it takes minutes.
 """
 

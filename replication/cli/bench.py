@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
-from replication.reading import read_number
 from replication.cli import options as shared
+from replication.reading import read_number
 
 if TYPE_CHECKING:
     from replication.bench.run import Trial, Watch
@@ -23,9 +23,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--quick", action="store_true", help="beta-5 unless --case is given, 1 repeat, 1 s"
     )
-    command.add_argument(
-        "--repeat", type=shared.whole(1, 10_000), metavar="N", help="repeats (7)"
-    )
+    command.add_argument("--repeat", type=shared.whole(1, 10_000), metavar="N", help="repeats (7)")
     command.add_argument("--limit", metavar="X", help="for each task, in s or with its unit (5 s)")
     command.add_argument(
         "--out", type=shared.path, metavar="DIR", help="also write JSON, CSV, text and figures"

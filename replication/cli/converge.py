@@ -54,7 +54,9 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(_record(result, digits))
     else:
         print(_text(result, digits))
-        shared.warn(options, (f"{x.step!r} s: {text}" for x in result.levels for text in x.warnings))
+        shared.warn(
+            options, (f"{x.step!r} s: {text}" for x in result.levels for text in x.warnings)
+        )
     return 0
 
 

@@ -8,7 +8,6 @@ from replication.cases import inputs_of
 from replication.cli import options as shared
 from replication.models.impact import Impact
 from replication.reading import quoted, read_number
-from replication.reading import quoted, read_number
 
 HELP = "depth and velocity of a case against time, without small steps"
 

@@ -1,7 +1,6 @@
 """`coldspray power`: what the audit would notice, measured by planted misprints."""
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
 from replication.cli import options as shared

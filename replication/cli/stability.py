@@ -17,7 +17,11 @@ def options(command: argparse.ArgumentParser) -> None:
         help="random cases (100000)",
     )
     command.add_argument(
-        "--seed", type=shared.whole(0, 2**63), default=1, metavar="N", help="of the random cases (1)"
+        "--seed",
+        type=shared.whole(0, 2**63),
+        default=1,
+        metavar="N",
+        help="of the random cases (1)",
     )
     shared.output_options(command)
 

@@ -137,7 +137,9 @@ def _spaced(name: str, table: Table) -> Spaced:
     first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
     if scale == "log" and min(first, last) <= 0:
         raise ValueError("a log scale wants from and to greater than zero")
-    return Spaced(first, last, _whole_number("points", table["points"], 2, MOST_CASES), scale == "log")
+    return Spaced(
+        first, last, _whole_number("points", table["points"], 2, MOST_CASES), scale == "log"
+    )
 
 
 NORMAL, UNIFORM = ("normal", "lognormal"), ("uniform", "loguniform")

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from reference.trajectory import Trajectory
 from replication.analysis import convergence, stability
 from replication.analysis.budget import Budget, exact_motion, split
+
 from replication.cases import BETA_3, BETA_5, CASES
 from replication.models import arrays
 from replication.models.impact import Impact

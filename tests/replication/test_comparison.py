@@ -10,8 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference.exact import Reals, final_depth
-
-from reference.ledger import load
 from replication.analysis.approaches import Approach, approaches
 from replication.analysis.scatter import SHARES, scatter, stated_deviations, tied_particles
 from replication.analysis.sensitivity import (
@@ -20,6 +18,8 @@ from replication.analysis.sensitivity import (
     stated_effects,
     ten_percent_effects,
 )
+
+from reference.ledger import load
 from replication.audit import assess_claim
 from replication.cases import BETA_3, BETA_5
 from replication.models import arrays

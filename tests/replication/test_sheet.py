@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference import exact
-from replication.analysis.warnings import warnings
 from replication.cases import BETA_3, BETA_5
+from replication.error.warnings import warnings
 from replication.models.arrays import run_many
 from replication.models.depth import final_depth
 from replication.models.impact import Impact

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from reference.ledger import load
-from replication.analysis.warnings import warnings
 from replication.cases import BETA_5
+from replication.error.warnings import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Engine, Recalculated
 from spreadsheets.plan import Value
