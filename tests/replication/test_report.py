@@ -32,7 +32,7 @@ from replication.cli import main
 from replication.report import terminal
 from replication.report.facts import OPEN, between
 from replication.report.figures import draw
-from replication.report.files import check_folder, contents, write
+from replication.report.files import check, contents, write
 from replication.report.prose import Named, Prose
 from replication.report.render import page
 
@@ -219,7 +219,7 @@ def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record:
 def test_another_process_writes_the_same_bytes(files: dict[str, bytes], tmp_path: Path) -> None:
     program = (
         "import sys; from pathlib import Path; from replication.audit.audit import audit\n"
-        "from replication.report.files import write\n"
+        "from replication.report.files import check, contents, write
         f"write(audit(), Path(sys.argv[1]), {BESIDE!r})"
     )
     environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}
@@ -234,7 +234,7 @@ def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -
         write(record, tmp_path, BESIDE)
     assert [path.name for path in tmp_path.iterdir()] == ["figures"]
     with pytest.raises(NotADirectoryError, match="a folder is wanted"):
-        check_folder(tmp_path / "figures" / "deeper")
+        check(tmp_path / "figures" / "deeper")
 
 
 # The terminal
@@ -278,7 +278,7 @@ def test_commands_print_what_they_promise(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     workbook = ModuleType("replication.workbook")
-    workbook.to_bytes = lambda: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
+    workbook.to_bytes = lambda record: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "replication.workbook", workbook)
     assert main(["audit", "--out", str(tmp_path / "new" / "one"), "--exit-code"]) == 1
     printed = capsys.readouterr().out
