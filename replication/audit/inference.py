@@ -19,7 +19,8 @@ class Inference:
 
     `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
     `agreeing` is the largest set of evidence that one value can serve; `odd` the rest. Each value
-    of `inner` is proven to serve the agreeing evidence, none outside `outer` does.
+    of `inner` is proven to serve the agreeing evidence, none outside `outer` does. Where no value
+    serves any, all evidence is odd, and the value that the ledger takes is kept.
     """
 
     ledger: Ledger
@@ -61,7 +62,7 @@ class Inference:
         no question: cut off, no value would serve it.
         """
         key = convention.choices_exact, convention.header_exact
-        if key == (True, True):
+        if key == (True, True) or not self.agreeing:
             return self.inner, self.outer
         if key not in self._admitted:
             start = sum(self.inner.ends, Fraction(0)) / 2
@@ -153,7 +154,7 @@ def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
     """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
     `name` is its id with "inferred:" before it. Evidence that no value serves together with the
-    rest is left out; the Inference names it. Raises ValueError if no evidence admits any value.
+    rest is left out; the Inference names it.
     """
     evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
     return _infer(ledger, name, centered, evidence, {})
@@ -172,6 +173,9 @@ def _infer(
         function = ledger.function(claim, frozenset({name}), centered=centered, fixed=fixed)
         each[claim.id] = solve(function, name, search, claim.target())
     agreeing = _agreeing(each)
+    if not agreeing:
+        nominal = Interval.point(ledger.value(name))
+        return Inference(ledger, name, centered, each, agreeing, nominal, Interval(*search))
     inner = _intersection([each[claim].inner for claim in agreeing])[0]
     outer = _intersection([each[claim].outer for claim in agreeing])
     whole = Interval(outer[0][0], outer[-1][1])
@@ -184,8 +188,6 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
     for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):
         agreeing = tuple(name for name, solutions in each.items() if solutions.admits(value))
         best = max(best, agreeing, key=len)
-    if not best:
-        raise ValueError("no value of the search serves any of the evidence")
     return best
 
 
