@@ -84,11 +84,11 @@ class Inference:
         radius, mass = self.entry.radius, self.entry.mass
         if by_mass and radius in names:
             names = names - {radius} | {mass}
-        ends = {name: self._ends(name, convention) for name in sorted(names)}
+        ends = {name: self.rounded(name, convention) for name in sorted(names)}
         rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
         return {**rounded, self.name: self.entry.search}
 
-    def _ends(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
+    def rounded(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
         """The values of an input that print like it, and for which what shows it alone does so.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
