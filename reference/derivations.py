@@ -14,7 +14,7 @@ from functools import cache
 from reference.arithmetic import Dual, Duals, Ratio, Ratios, Reals
 from reference.equations import Node, evaluate, symbols_in
 
-__all__ = ["DERIVATIONS", "Check", "Sides", "derive"]
+__all__ = ["DERIVATIONS", "PREMISES", "Check", "Sides", "derive"]
 
 Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
@@ -266,6 +266,17 @@ DERIVATIONS: Mapping[str, Callable[[_Algebra], Iterator[Check]]] = {
     "eqA-3": _contact_area("eqA-3"),
 }
 """The checks of each equation, by its id; Eq. 8 has none but that of its dimensions."""
+
+
+PREMISES: Mapping[str, tuple[str, ...]] = {
+    "eq6": ("eq5",),
+    "eq13-shallow": ("eq6", "eq12"),
+    "eq13-deep": ("eq6",),
+    "eq14": ("eq5",),
+    "eq16": ("eq14", "eq15"),
+    "eqA-1": ("eq6",),
+}
+"""The printed equations that others are derived from."""
 
 
 def derive(number: str, sides: Sides, symbols: Iterable[str]) -> list[Check]:

@@ -407,9 +407,9 @@ MATHML = Notation(
     call=lambda name, inner: f"<mrow><mi>{name}</mi><mo>(</mo>{inner}<mo>)</mo></mrow>",
     row=lambda inner: f"<mrow>{inner}</mrow>",
     plus="<mo>+</mo>",
-    less="<mo>-</mo>",
-    minus="<mo>-</mo>",
-    times="<mo>·</mo>",
+    less="<mo>\N{MINUS SIGN}</mo>",
+    minus="<mo>\N{MINUS SIGN}</mo>",
+    times="<mo>\N{INVISIBLE TIMES}</mo>",
     stroke=(0, 0),
 )
 PLAIN = Notation(

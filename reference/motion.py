@@ -68,13 +68,15 @@ def sheet_rows(
     mass: Number | None = None,
     centered: bool = False,
     stop_velocity: Number | None = None,
+    most_rows: int = 5000,
 ) -> Iterator[Row]:
     """The rows of the appendix's scheme after row 0 (Eqs. A-1 to A-3).
 
     x of the first row is V dt/2, later rows add v dt with the row's initial velocity; the
     deceleration belongs to that x and that velocity, or, in the centered variant, to that x and the
     velocity half a step on. The mass is the sphere's unless another is given. It ends with the
-    first row that is certain to end below the stop velocity, or never if there is none.
+    first row that is certain to end below the stop velocity. Raises ArithmeticError after
+    `most_rows`, by default forty times those of the report.
     """
     if mass is None:
         # pi R^2 over the sphere's mass: shorter, so that an uncertain R counts once.
@@ -89,7 +91,7 @@ def sheet_rows(
         return (drag * v**2 + push) * contact_share(ar, x * per_radius)
 
     time, x, v = ar.number(0), velocity * half_step, velocity
-    while True:
+    for _ in range(most_rows):
         time = time + step
         a = deceleration(x, v)
         if centered:
@@ -103,6 +105,7 @@ def sheet_rows(
             # Where a box of inputs is run, only those that have not stopped go on.
             v = ar.greatest(v, stop_velocity)
         x = x + v * step
+    raise ArithmeticError(f"the sheet does not end in {most_rows} rows")
 
 
 def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:

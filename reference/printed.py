@@ -210,6 +210,7 @@ _WORDS = {
     "two": "2",
     "several times": "2",  # in a bound: more than two
     "twice": "2",
+    "thrice": "3",
     "three": "3",
     "four": "4",
     "five": "5",

@@ -28,7 +28,7 @@ _CLAIMS = {
     "velocity": "a1-initial-velocity",
     "radius": "a1-radius",
     "particle_density": "a1-density",
-    # Printed nowhere: the audit infers what Table A-1 admits, and a test holds this value inside it.
+    # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside it.
     "target_density": INFERRED + "target-density",
     "flow_stress": "flow-stress",
     "step": "a-step",

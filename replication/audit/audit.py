@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
@@ -22,9 +23,9 @@ from replication.audit.explain import BackSolved, Explainer, Repair
 from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
 from replication.models import sheet
-from replication.text import number, powers_of_ten
+from replication.text import number, powers_of_ten, rounded
 
-__all__ = ["audit", "audit_claim"]
+__all__ = ["Audit", "audit", "audit_claim"]
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
@@ -33,21 +34,21 @@ def audit(ledger: Ledger | None = None) -> r.Record:
     >>> print(audit().claim("depth-beta-5").verdict)
     reproduced
     """
-    return _Audit(ledger or ledgers.load()).record()
+    return Audit(ledger or ledgers.load()).record()
 
 
 def audit_claim(name: str) -> r.ClaimRecord:
     """Audit one claim. Raises KeyError if the ledger has none of this id."""
-    whole = _Audit(ledgers.load())
+    whole = Audit(ledgers.load())
     return whole.claim(whole.ledger.claims[name])
 
 
-class _Audit:
-    """Builds the record; what several parts of it need is computed once."""
+class Audit:
+    """The audit of one ledger; what several parts of its record need is computed once."""
 
-    def __init__(self, ledger: Ledger) -> None:
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger = ledger
-        self.judge = Judge(ledger)
+        self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
         self._equations: dict[str, EquationAssessment] = {}
         self._assessments: dict[str, Assessment] = {}
@@ -55,11 +56,13 @@ class _Audit:
         self._shown_values: dict[str, tuple[float, float] | None] = {}
 
     def equation(self, name: str) -> EquationAssessment:
+        """The verdict on one equation."""
         if name not in self._equations:
             self._equations[name] = assess_equation(self.ledger, name)
         return self._equations[name]
 
     def assessment(self, claim: Claim) -> Assessment:
+        """The verdict on one claim."""
         if claim.id not in self._assessments:
             self._assessments[claim.id] = self._assess(claim)
         return self._assessments[claim.id]
@@ -85,6 +88,7 @@ class _Audit:
     # The record
 
     def record(self) -> r.Record:
+        """Everything, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
         known = Known(self.judge, self.explainer, self._assessments, self._equations)
@@ -142,6 +146,7 @@ class _Audit:
     # Claims
 
     def claim(self, claim: Claim) -> r.ClaimRecord:
+        """One claim, as data."""
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
         fails = assessment.verdict.is_failure or any(
@@ -204,6 +209,7 @@ class _Audit:
         )
 
     def repairs(self, name: str) -> list[Repair]:
+        """The misprints that would explain a claim or an equation that fails."""
         if name not in self._repairs:
             within = None if name in self.ledger.equations else self.ledger.claims[name].within
             # A constant is mended with its equation.
@@ -213,6 +219,8 @@ class _Audit:
     def _explanation(self, claim: Claim, assessment: Assessment) -> str:
         if assessment.readings:
             return wording.explanation(self.judge, claim, assessment.readings)
+        if assessment.reason:
+            return f"With the numbers as printed it cannot be computed: {assessment.reason}."
         if claim.entry.kind == "remark":
             return "A remark, no number: the figures below are what it can be judged by."
         if claim.computation is not None:
@@ -227,7 +235,9 @@ class _Audit:
             ends = self._shown(claim)
             if ends is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            text = wording.quantity(f"{number(ends[0], 4)} to {number(ends[1], 4)}", claim.unit)
+            low = rounded(Fraction(ends[0]), 4, ROUND_CEILING)
+            high = rounded(Fraction(ends[1]), 4, ROUND_FLOOR)
+            text = wording.quantity(f"{low} to {high}", claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
         return f"Nothing in the report decides it: {claim.given}."
 
@@ -380,9 +390,10 @@ class _Audit:
         )
 
     def _culprit(self) -> r.CulpritRecord | None:
-        failing = [name for name, a in self._assessments.items() if a.verdict.is_failure]
-        failing += [name for name, a in self._equations.items() if a.verdict.is_failure]
-        culprit = self.explainer.culprit({name: self.repairs(name) for name in failing})
+        verdicts = {name: a.verdict for name, a in self._assessments.items()}
+        verdicts |= {name: a.verdict for name, a in self._equations.items()}
+        failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
+        culprit = self.explainer.culprit(failing)
         if culprit is None:
             return None
         return r.CulpritRecord(repair=self._repair(culprit.repair), explains=list(culprit.explains))
@@ -507,9 +518,10 @@ def _with_numbers(notation: Notation) -> Notation:
     def fraction(over: str, under: str) -> str:
         return over if under == unit else notation.fraction(over, under)
 
-    return replace(notation, fraction=fraction, times=notation.times.replace(" ", " · "))
+    return replace(notation, fraction=fraction, times=_TIMES[notation.times])
 
 
+_TIMES = {PLAIN.times: " · ", MATHML.times: "<mo>·</mo>"}
 _NUMBERS, _MATHML_NUMBERS = _with_numbers(PLAIN), _with_numbers(MATHML)
 
 

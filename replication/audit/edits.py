@@ -10,34 +10,34 @@ from reference.printed import Printed, parse
 __all__ = ["EQUATION_EDITS", "NUMBER_EDITS", "edits", "equation_edits"]
 
 NUMBER_EDITS = (
-    "digits swapped",
-    "digit doubled",
-    "digit changed",
     "digit dropped",
-    "digit inserted",
+    "digits swapped",
     "decimal point moved",
     "exponent changed",
     "other word",
+    "digit doubled",
+    "digit changed",
+    "digit inserted",
 )
-"""Kinds of edits of a number, from the likeliest slip to the least likely one."""
+"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
 
 EQUATION_EDITS = (
-    "number changed",
     "number dropped",
     "symbol changed",
     "sign changed",
     "function changed",
     "fraction turned over",
 )
-"""Kinds of edits of an equation."""
+"""Kinds of edits of an equation; its numbers are claims, with edits of their own."""
 
+_LEADING_ZERO = re.compile(r"~?\s*0\d")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:
     """Every text one edit away that is another number, with the kind of the edit; none twice.
 
-    The base of a power of ten is no digit.
+    The base of a power of ten is no digit, and no number begins with a zero before a digit.
 
     >>> [text for text, kind in edits("0.278") if kind in ("digits swapped", "digit doubled")]
     ['2.078', '0.728', '0.287', '0.2278', '0.2778', '0.2788']
@@ -48,7 +48,7 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
     original = _number(text)
     for kind in NUMBER_EDITS:
         for edited in _EDITS[kind](text):
-            if edited in seen:
+            if edited in seen or _LEADING_ZERO.match(edited):
                 continue
             seen.add(edited)
             number = _number(edited)
@@ -116,7 +116,7 @@ def _shifted(text: str) -> Iterator[str]:
     for match in _EXPONENT.finditer(text):
         number = match["number"]
         for other in (int(number) - 1, int(number) + 1, -int(number)):
-            sign = "+" if number[0] == "+" and other >= 0 else ""
+            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and other >= 0 else ""
             width = len(number.lstrip("+-")) + len(sign or "-" * (other < 0))
             shown = f"{sign}{other:0{width - len(sign)}d}"
             yield text[: match.start("number")] + shown + text[match.end("number") :]
@@ -126,7 +126,7 @@ _WORDS = (
     ("one", "two", "three", "four", "five"),
     ("third", "half"),
     ("one-sixth", "one-fifth"),
-    ("twice", "three times"),
+    ("twice", "thrice"),
 )
 
 
@@ -163,8 +163,8 @@ def equation_edits(
     >>> from reference.ledger import load
     >>> ledger = load()
     >>> [text for text, kind in equation_edits("D = 2R", ledger.written, ledger.dimensions)
-    ...  if kind == "number changed"]
-    ['D = 1R', 'D = 3R', 'D = 4R']
+    ...  if kind == "number dropped"]
+    ['D = R']
     """
     seen = {text}
     for edited, kind in _equation_edits(text, written, dimensions):
@@ -196,7 +196,6 @@ def _replacements(
 ) -> Iterable[tuple[str, str]]:
     text = match[0]
     if match["number"]:
-        yield from ((n, "number changed") for n in ("1", "2", "3", "4") if n != text)
         yield "", "number dropped"
     elif match["sign"]:
         yield "+" if text == "-" else "-", "sign changed"
@@ -205,5 +204,5 @@ def _replacements(
     elif match["symbol"]:
         own = dimensions[written[text]]
         for other, name in written.items():
-            if name not in (written[text], "pi") and dimensions[name] == own:
+            if name != written[text] and dimensions[name] == own:
                 yield other, "symbol changed"

@@ -1,11 +1,12 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
+from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
@@ -150,25 +151,31 @@ class Explainer:
         A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
         ones the likelier slip of a typist comes first.
         """
-        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
-        found = list(self._repairs(name))
-        return sorted(
-            found,
-            key=lambda r: (r.reading, len(r.failing), kinds.index(r.kind), r.entry != name, r.text),
-        )[:_SHOWN]
+        suspects = self._suspects(name)
+        return self._sorted([r for e in suspects for r in self._repairs_in(name, e)], name)
 
-    def _repairs(self, name: str) -> Iterator[Repair]:
-        for entry in self._suspects(name):
-            for text, kind in self._edits(entry):
-                reading = self._mends(name, entry, text)
-                if reading is not None:
-                    failing = tuple(sorted(self._failing(entry, text)))
-                    yield Repair(entry, reading, self._text(entry), text, kind, failing)
+    def _sorted(self, repairs: list[Repair], name: str) -> list[Repair]:
+        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
+        return sorted(
+            repairs,
+            key=lambda r: (
+                r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
+            ),
+        )[:_SHOWN]  # fmt: skip
+
+    def _repairs_in(self, name: str, entry: str) -> Iterator[Repair]:
+        """The edits of one entry with which a claim or an equation agrees."""
+        for text, kind in self._edits(entry):
+            reading = self._mends(name, entry, text)
+            if reading is not None:
+                failing = tuple(sorted(self._failing(entry, text)))
+                yield Repair(entry, reading, self._text(entry), text, kind, failing)
 
     def _suspects(self, name: str) -> list[str]:
         """The claim or equation itself, its entries, and what its equations hold."""
         if name in self.ledger.equations:
-            return [name, *self.ledger.constants_of(name)]
+            equations = [name, *PREMISES.get(name, ())]
+            return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
         claim = self.ledger.claims[name]
         entries = claim.stated
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
@@ -209,6 +216,8 @@ class Explainer:
             fails = assess_equation(changed, within, constants=False).verdict.is_failure
             return None if fails else ""
         claim, ledger, values = self.ledger.claims[name], self.ledger, {}
+        if claim.computation is None:
+            return self._suits(claim, text) if entry == name else None
         of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
         if entry in (name, claim.entry.against) or of_equation:
             ledger = self._changed(entry, text)
@@ -218,6 +227,21 @@ class Explainer:
         screens = [Screen(ledger, assumed) for assumed in self._assumed]
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
+
+    def _suits(self, claim: Claim, text: str) -> str | None:
+        """Whether another text of a number that nothing computes suits what rests on it."""
+        changed = self.ledger.misprint(claim.id, text).claims[claim.id]
+        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
+        if sources and not any(changed.target().meets(source.interval) for source in sources):
+            return None
+        value = {claim.id: self._value(changed)}
+        shown = (self.ledger.claims[result] for result in claim.entry.shown_by)
+        return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
+
+    @staticmethod
+    def _value(claim: Claim) -> Fraction:
+        assert claim.printed is not None
+        return claim.printed.value * claim.si
 
     @cached_property
     def _assumed(self) -> list[Mapping[str, Fraction]]:
@@ -249,15 +273,46 @@ class Explainer:
         assessed = (assess_equation(self.ledger, e, constants=False) for e in self.ledger.equations)
         return {a.equation.id for a in assessed if a.verdict.is_failure}
 
-    def culprit(self, failing: Mapping[str, list[Repair]]) -> Culprit | None:
-        """The one repair that mends all that fails, if there is one and more than one claim fails.
+    # One culprit for all that fails
 
-        `failing` gives the repairs of every claim and equation that fails.
+    def ranked(self, names: Collection[str]) -> list[Repair]:
+        """The repairs that may explain all that fails at once, the best first.
+
+        If one misprint is behind several failures, it stands in an entry that all of them rest on:
+        only such entries are searched. The fewer claims a repair leaves failing, the better; of
+        equal ones the likelier slip of a typist comes first. If no entry is common to all, the
+        repairs of the claim that is quickest to compute are given.
         """
-        if len(failing) < 2:
+        if not names:
+            return []
+        quickest = min(names, key=self._cost)
+        suspects = [set(self._suspects(name)) for name in names]
+        common = set.intersection(*suspects) or suspects[0]
+        found = [
+            repair
+            for entry in self._suspects(quickest)
+            if entry in common
+            for repair in self._repairs_in(quickest, entry)
+        ]
+        if not found and len(names) > 1:
+            return self.ranked([quickest])
+        return self._sorted(found, quickest)
+
+    def _cost(self, name: str) -> tuple[int, str]:
+        """How long a claim takes to compute: whole sheets last, repetitions first."""
+        if name in self.ledger.equations:
+            return 2, name
+        claim = self.ledger.claims[name]
+        if claim.computation is None or claim.computation.restates:
+            return 0 if claim.within is None else 2, name
+        return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.entry.row is None), name
+
+    def culprit(self, names: Collection[str]) -> Culprit | None:
+        """The one repair that makes everything agree that fails, if there is one."""
+        repairs = self.ranked(names) if len(names) > 1 else []
+        if not repairs or repairs[0].failing:
             return None
-        whole = [r for repairs in failing.values() for r in repairs if not r.failing]
-        return Culprit(whole[0], tuple(failing)) if whole else None
+        return Culprit(repairs[0], tuple(names))
 
     # Slips
 

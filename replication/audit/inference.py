@@ -154,7 +154,7 @@ def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
     """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
     `name` is its id with "inferred:" before it. Evidence that no value serves together with the
-    rest is left out; the Inference names it.
+    rest is left out; the Inference names it. If none of it admits any value, the nominal one stays.
     """
     evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
     return _infer(ledger, name, centered, evidence, {})
@@ -175,7 +175,7 @@ def _infer(
     agreeing = _agreeing(each)
     if not agreeing:
         nominal = Interval.point(ledger.value(name))
-        return Inference(ledger, name, centered, each, agreeing, nominal, Interval(*search))
+        return Inference(ledger, name, centered, each, (), nominal, Interval(*search))
     inner = _intersection([each[claim].inner for claim in agreeing])[0]
     outer = _intersection([each[claim].outer for claim in agreeing])
     whole = Interval(outer[0][0], outer[-1][1])
@@ -183,7 +183,10 @@ def _infer(
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
-    """The largest set of evidence that one value serves; of several, that of the least value."""
+    """The largest set of evidence that one value serves; of several, that of the least value.
+
+    Empty if no value of the search serves any of it.
+    """
     best: tuple[str, ...] = ()
     for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):
         agreeing = tuple(name for name, solutions in each.items() if solutions.admits(value))

@@ -11,6 +11,7 @@ from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
 from reference.enclosure import Box, enclose, explore
+from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from replication.audit.inference import Inference, infer
@@ -86,18 +87,25 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """The verdict on a claim, and the readings that it comes from; the first is as printed."""
+    """The verdict on a claim, and the readings that it comes from; the first is as printed.
+
+    `reason` tells why its formula has no value, where that is so.
+    """
 
     claim: Claim
     verdict: Verdict
     readings: tuple[Reading, ...] = ()
+    reason: str = ""
 
 
 class Judge:
-    """Judges the claims of one ledger; what several of them ask for is computed once."""
+    """Judges the claims of one ledger; what several of them ask for is computed once.
 
-    def __init__(self, ledger: Ledger) -> None:
-        self.ledger = ledger
+    With `every_convention` they are judged under all of them, else under the usual one only.
+    """
+
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger, self.every_convention = ledger, every_convention
         self._inferences: dict[tuple[str, bool], Inference] = {}
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
 
@@ -129,12 +137,15 @@ class Judge:
     def assess(self, claim: Claim) -> Assessment:
         """The verdict on a claim that a computation gives.
 
-        Raises ArithmeticError where a formula has no value at the inputs as printed.
+        A claim whose formula has no value at the inputs as printed does not follow from them.
         """
         if claim.computation is not None and claim.computation.restates:
             agrees = restates(self.ledger, claim, {})
             return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
-        readings = tuple(self._reading(claim, name) for name in claim.computations)
+        try:
+            readings = tuple(self._reading(claim, name) for name in claim.computations)
+        except (ArithmeticError, EquationError) as error:
+            return Assessment(claim, Verdict.NOT_REPRODUCED, reason=str(error))
         return Assessment(claim, readings[0].verdict, readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
@@ -171,13 +182,18 @@ class Judge:
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
-                continue
-            for other in _input_conventions(self.ledger, claim, convention):
-                # A search does not ask how ties go.
-                key = replace(other, rounding=Rounding.AWAY) if rounding is Rounding.EVEN else other
-                if key not in searched:
-                    searched[key] = self._search(claim, name, key)
-                yield replace(searched[key], convention=other)
+            else:
+                for rounded in _input_conventions(self.ledger, claim, convention):
+                    # A search does not ask how ties go.
+                    even = rounding is Rounding.EVEN
+                    key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
+                    if key not in searched:
+                        searched[key] = self._search(claim, name, key)
+                    yield replace(searched[key], convention=rounded)
+                    if not self.every_convention:
+                        return
+            if not self.every_convention:
+                return
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -203,12 +219,14 @@ class Judge:
         """The inputs as printed do not give the number: do any that print like them?"""
         inside, around = _without_and_with_ends(claim, convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        whole_sheet = claim.by_scheme and claim.entry.row is None
+        budget = _BUDGET // 10 if whole_sheet else _BUDGET
         for box in self.box(claim, convention):
-            found = explore(function, box, inside, _BUDGET)
+            found = explore(function, box, inside, budget)
             if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
                 ends = enclose(function, self.box(claim, convention)[1]).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
-        never = found.never and explore(function, box, around, _BUDGET).never
+        never = found.never and explore(function, box, around, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         return _judgement(claim, convention, verdict, (found.lower, found.upper))
 
@@ -279,8 +297,8 @@ def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
         return None
 
 
-_BUDGET = 10
-"""Parts of a box that a search may try: a formula takes one, a sheet 0.1 s for each."""
+_BUDGET = 100
+"""Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
 
 
 def _without_and_with_ends(claim: Claim, rounding: Rounding) -> tuple[Interval, Interval]:
@@ -295,7 +313,8 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     """The conventions on inputs that make a difference to the claim, the usual one first.
 
     Truncation of a sheet's result is judged with its inputs exact: which rounded inputs would do is
-    no question then, as the table, which the same sheet printed, is not truncated.
+    no question then, as the table, which the same sheet printed, is not truncated. Choices are
+    exact for a whole sheet: were the 5 of beta rounded to its one digit, any depth would do.
     """
     claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
@@ -305,7 +324,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    for choices, head in product(
-        (True, False) if chosen else (True,), (False, True) if header else (False,)
-    ):
+    whole_sheet = claim.by_scheme and claim.entry.row is None
+    choices_exact = (True, False) if chosen and not whole_sheet else (True,)
+    for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)

@@ -45,7 +45,8 @@ def _value(claim: Claim, reading: Reading) -> str:
     inside = reading.verdict is Verdict.REPRODUCED
     interval = claim.interval()
     relation = "as" if interval.is_point else "in"
-    return f"{what}: {value}, {'' if inside else 'not '}{relation} {interval}."
+    shown = str(interval).replace("E", "e")
+    return f"{what}: {value}, {'' if inside else 'not '}{relation} {shown}."
 
 
 def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:

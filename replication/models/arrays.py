@@ -10,7 +10,6 @@ import inspect
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial, wraps
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from replication.models import crater, depth, frank_zook, impact, motion, sheet, stream
@@ -19,8 +18,19 @@ from replication.models.impact import MAY_BE_ZERO, InputError, check, check_rang
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["ElementError", "depth_at_velocity", "final_depth", "history", "normalized_depth",
-           "run_many", "stop_time", "time_to_depth", "ufunc", "velocity_at_depth"]  # fmt: skip
+__all__ = [
+    "ElementError",
+    "compiled",
+    "depth_at_velocity",
+    "final_depth",
+    "history",
+    "normalized_depth",
+    "run_many",
+    "stop_time",
+    "time_to_depth",
+    "ufunc",
+    "velocity_at_depth",
+]  # fmt: skip
 
 Model = Callable[..., Any]
 Inputs = Mapping[str, Any]
@@ -28,8 +38,9 @@ Inputs = Mapping[str, Any]
 LEAST, GREATEST = 1e-40, 1e40
 """Inputs within these form nothing that `check_range` refuses: six at most make a product."""
 
-LARGE = 20_000
-"""So many cases are shared out over the cores: to start threads takes as long as some thousand."""
+PIECE = 25_000
+"""Of two pieces of so many elements and more, each core takes some in turn. A piece takes a
+millisecond, ten times what it takes to hand out, and what it needs stays in the core's cache."""
 
 
 class ElementError(InputError):
@@ -68,11 +79,13 @@ def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
         return _contained(compute, bound.arguments, (float,))
 
     def compute(**inputs: Any) -> Any:
-        checked = _checked(inputs)
-        plain = set(map(type, checked.values())) == {float}
-        values = list(checked.values())
-        result = model(*values) if plain else _spread(ufunc(model), values)
-        _require_finite(result, checked, bounded, at_most)
+        numbers = _numbers(inputs)
+        if set(map(type, numbers.values())) == {float}:
+            _check(numbers)
+            result = model(*numbers.values())
+        else:
+            result = _each(ufunc(model), numbers)
+        _require_finite(result, numbers, bounded, at_most)
         return result
 
     return function
@@ -109,38 +122,47 @@ def history(
     return _contained(_histories, inputs, (float, float))
 
 
-def _histories(time: Any, **inputs: Any) -> tuple[Any, Any]:
-    time = _real("time", time)  # which the result checks: NaN where it is negative or not finite
-    cases = list(_checked(inputs).values())
-    if set(map(type, cases)) != {float}:
-        results = _case_by_case(time, cases)
+def _histories(**inputs: Any) -> Any:
+    numbers = _numbers(inputs)
+    time, *case = numbers.values()
+    # The time is checked by the result, which is NaN where it is negative or not finite.
+    _check({name: value for name, value in numbers.items() if name != "time"})
+    if set(map(type, case)) != {float} or (type(time) is not float and time.ndim != 1):
+        results = _by_rows(_history_loop, numbers, (float, float))
     elif type(time) is float:
-        depths, speeds = [0.0], [0.0]
-        motion.history(*[[time], *cases, depths, speeds])
-        results = depths[0], speeds[0]
+        depth, speed = [0.0], [0.0]
+        motion.history(*[[time], *case, depth, speed])
+        results = depth[0], speed[0]
     else:
-        results = ufunc(motion.history)(time.ravel(), *cases)
-        results = tuple(result.reshape(time.shape)[()] for result in results)
-    _require_finite(results[0], {"time": time, **inputs})
+        results = _history(time, case)
+    _require_finite(results[0], numbers)
     return results
 
 
-def _case_by_case(time: Any, cases: Sequence[Any]) -> Any:
-    """Histories with one Taylor series a case for the longest axis along which no case changes."""
+def _history(time: Any, case: Sequence[float]) -> Any:
     import numpy as np
 
-    shape = np.broadcast(time, *cases).shape
-    arrays = [np.broadcast_to(case, (1,) * (len(shape) - np.ndim(case)) + np.shape(case))
-              for case in cases]  # fmt: skip
-    varied = np.broadcast(*arrays).shape
-    axis = max(range(len(shape)), key=lambda axis: shape[axis] if varied[axis] == 1 else 0)
-    times = np.broadcast_to(time, shape)
-    if varied[axis] != 1:
-        times, axis = times[..., None], len(shape)
-    else:
-        arrays = [array.take(0, axis) for array in arrays]
-    results = _spread(ufunc(motion.history), [np.moveaxis(times, axis, -1), *arrays], core=1)
-    return tuple(np.moveaxis(result, -1, axis).reshape(shape) for result in results)
+    results = np.empty_like(time), np.empty_like(time)
+    compiled(motion.history)(time, *case, *results)
+    return results
+
+
+def _history_loop(rows: Any, depth: Any, speed: Any) -> None:
+    """Rows of a time and a case; rows of the same case that follow each other share its series."""
+    first = 0
+    while first < len(rows):
+        _, V, R, rho_p, rho_t, R_t = rows[first]
+        last = first + 1
+        while (
+            last < len(rows)
+            and rows[last, 1] == V
+            and rows[last, 2] == R
+            and (rho_p == rows[last, 3] and rho_t == rows[last, 4] and R_t == rows[last, 5])
+        ):
+            last += 1
+        part = slice(first, last)
+        motion.history(rows[part, 0], V, R, rho_p, rho_t, R_t, depth[part], speed[part])
+        first = last
 
 
 def run_many(
@@ -168,47 +190,36 @@ def run_many(
 
 
 def _sheets(centered: bool, **inputs: Any) -> Any:
-    checked = _checked(inputs)
-    depths, steps = _spread(ufunc(_last_row), [*checked.values(), centered])
-    for index, case in _elements(steps > sheet.MAX_STEPS, checked):
+    cases = _numbers(inputs)
+    _check(cases)
+    if set(map(type, cases.values())) == {float}:
+        depths, steps = sheet.last_row(*[*cases.values(), centered])
+        if steps <= sheet.MAX_STEPS and depths < math.inf:
+            return depths, steps
+    else:
+        depths, steps = _by_rows(_sheet_loop, {**cases, "centered": float(centered)}, (float, int))
+    for index, case in _elements(steps > sheet.MAX_STEPS, cases):
         problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
         raise ElementError("the sheet", problem, index)
-    return depths[()], steps[()]
+    import numpy as np
+
+    for index, case in _elements(np.isinf(depths), cases):
+        raise ElementError("the sheet", sheet.out_of_range(case["step"]), index)
+    return depths, steps
 
 
-def _last_row(
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    step: float,
-    stop_velocity: float,
-    centered: bool,
-    depth: Any,
-    steps: Any,
-) -> None:
-    motion = velocity, radius, particle_density, target_density, resistance
-    depth[0], steps[0] = sheet.last_row(*motion, step, stop_velocity, centered)
+def _sheet_loop(rows: Any, depth: Any, steps: Any) -> None:
+    for k in range(len(rows)):
+        V, R, rho_p, rho_t, R_t, dt, v_stop, centered = rows[k]
+        depth[k], steps[k] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered > 0)
 
 
 # What is refused
 
 
-def _checked(inputs: Inputs) -> dict[str, Any]:
-    """The inputs as floats and float64 arrays, all of them finite and in range."""
-    checked, safe = {}, True
-    for name, value in inputs.items():
-        number: Any = value if type(value) is float else _real(name, value)
-        least = 0.0 if name in MAY_BE_ZERO else LEAST
-        if type(number) is float:
-            safe = safe and least <= number <= GREATEST
-        elif number.size:
-            safe = safe and least <= number.min() and number.max() <= GREATEST
-        checked[name] = number
-    if not safe:
-        _refuse_first(checked)
-    return checked
+def _numbers(inputs: Inputs) -> dict[str, Any]:
+    """The inputs as floats and float64 arrays."""
+    return {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
 
 
 def _real(name: str, value: Any) -> Any:
@@ -221,7 +232,20 @@ def _real(name: str, value: Any) -> Any:
     array = np.asarray(value)
     if array.dtype.kind == "c":
         raise TypeError(f"{name} is complex: real numbers are wanted")
-    return array.astype(float, copy=False)
+    return array.astype(float, copy=False) if array.ndim else float(array)
+
+
+def _check(inputs: Inputs, part: Inputs | None = None) -> None:
+    """Refuse the first element of the inputs that cannot be, if any is in this part of them."""
+    for name, value in (inputs if part is None else part).items():
+        least = 0.0 if name in MAY_BE_ZERO else LEAST
+        if type(value) is float:
+            safe = least <= value <= GREATEST
+        else:
+            safe = not value.size or (least <= value.min() and value.max() <= GREATEST)
+        if not safe:
+            return _refuse_first(inputs)
+    return None
 
 
 def _refuse_first(inputs: Inputs) -> None:
@@ -280,51 +304,74 @@ def _placed(
 # How it is computed
 
 
-def _spread(function: "np.ufunc", values: Sequence[Any], core: int = 0) -> Any:
-    """A ufunc of values that broadcast; of many, by all cores.
+def _each(function: "np.ufunc", cases: Inputs) -> Any:
+    """A ufunc of cases that broadcast, checked; of many, by all cores."""
+    import numpy as np
 
-    By threads of Python's own, as the ufuncs let go of its lock: Numba's may not be started from
-    two threads at once, and do not outlive a fork. Only the main thread starts any, so that work is
-    not shared out twice where a caller, such as dask, has threads. `core` is the number of the
-    first value's last axes that belong to one case.
+    shape = np.broadcast(*cases.values()).shape
+    axis = shape.index(max(shape))
+    views = {name: np.broadcast_to(value, shape) for name, value in cases.items()}
+    arrays = [name for name, value in cases.items() if type(value) is not float]
+    _check(cases, {name: value for name, value in cases.items() if type(value) is float})
+    result = np.empty(shape)
+
+    def work(first: int, last: int) -> None:
+        cut = (slice(None),) * axis + (slice(first, last),)
+        part = {name: view[cut] for name, view in views.items()}
+        _check(cases, {name: part[name] for name in arrays})
+        function(*part.values(), out=result[cut])
+
+    _by_cores(shape[axis], result.size, work)
+    return result
+
+
+def _by_rows(loop: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, ...]:
+    """What a loop fills in for inputs that broadcast, a row for each of their elements."""
+    import numpy as np
+
+    arrays = np.broadcast_arrays(*inputs.values())
+    rows = np.stack([array.ravel() for array in arrays], axis=-1)
+    results: list[Any] = [np.empty(len(rows), dtype=kind) for kind in types]
+
+    def work(first: int, last: int) -> None:
+        compiled(loop)(*(array[first:last] for array in (rows, *results)))
+
+    _by_cores(len(rows), 10 * len(rows), work)
+    return tuple(result.reshape(arrays[0].shape) for result in results)
+
+
+def _by_cores(count: int, size: int, work: Callable[[int, int], None]) -> None:
+    """Have the work done from 0 to count, in pieces by all cores if its size is worth it.
+
+    By threads of Python's own, as compiled code lets go of its lock: Numba's may not be started
+    from two threads at once, and do not outlive a fork. Only the main thread starts any, so that
+    work is not shared out twice where a caller, such as dask, has threads.
     """
     import os
     import threading
     from concurrent.futures import ThreadPoolExecutor
 
     import numba
-    import numpy as np
 
-    shape = np.broadcast(*values[core:]).shape
-    whole = shape + np.shape(values[0])[len(shape) :] if core else shape
     cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
-    alone = cores == 1 or threading.current_thread() is not threading.main_thread()
-    if alone or math.prod(whole) < LARGE or max(shape, default=1) == 1:
-        return function(*values)
-    axis = shape.index(max(shape))
-    views = [np.broadcast_to(values[0], whole), *(np.broadcast_to(v, shape) for v in values[1:])]
-    outputs = tuple(np.empty(whole, kind) for kind in function.types[0].partition("->")[2])
-    edges = np.linspace(0, shape[axis], 8 * cores + 1, dtype=int).tolist()
-
-    def compute(ends: tuple[int, int]) -> None:
-        cut = (slice(None),) * axis + (slice(*ends),)
-        function(*(view[cut] for view in views), out=tuple(output[cut] for output in outputs))
-
+    pieces = min(size // PIECE, count)
+    if cores == 1 or pieces < 2 or threading.current_thread() is not threading.main_thread():
+        work(0, count)
+        return
+    edges = [count * k // pieces for k in range(pieces + 1)]
     with ThreadPoolExecutor(cores) as pool:
-        list(pool.map(compute, pairwise(edges)))
-    return outputs if len(outputs) > 1 else outputs[0]
+        list(pool.map(work, edges[:-1], edges[1:]))
 
 
-_SEVERAL_RESULTS = {
-    motion.history: ("void(f8[:],f8,f8,f8,f8,f8,f8[:],f8[:])", "(t),(),(),(),(),()->(t),(t)"),
-    _last_row: (f"void({'f8,' * 7}b1,f8[:],i8[:])", f"{'(),' * 7}()->(),()"),
-}
-"""Types and shapes of functions that fill in their last arguments."""
+def ufunc(model: Model) -> "np.ufunc":
+    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs."""
+    made: np.ufunc = compiled(model).ufunc
+    return made
 
 
 @cache
-def ufunc(model: Model) -> "np.ufunc":
-    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
+def compiled(model: Model) -> Any:
+    """What Numba makes of a model, or of a loop. A ufunc in it must not outlive it: it is its code.
 
     Compiled once and kept on disk; where no folder can be written to, compiled in every process.
     """
@@ -340,17 +387,21 @@ def ufunc(model: Model) -> "np.ufunc":
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    if model in _SEVERAL_RESULTS:
-        types, shapes = _SEVERAL_RESULTS[model]
-        compiler = partial(numba.guvectorize, [types], shapes)
+    time = numba.types.Array(numba.f8, 1, "A", readonly=True)
+    several_results = {
+        motion.history: (time, *[numba.f8] * 5, numba.f8[::1], numba.f8[::1]),
+        _history_loop: (numba.f8[:, :], numba.f8[::1], numba.f8[::1]),
+        _sheet_loop: (numba.f8[:, :], numba.f8[::1], numba.i8[::1]),
+    }
+    if model in several_results:
+        compiler = partial(numba.njit, numba.void(*several_results[model]), nogil=True)
     else:
-        inputs = ",".join(["f8"] * len(inspect.signature(model).parameters))
-        compiler = partial(numba.vectorize, [f"f8({inputs})"])
+        inputs = [numba.f8] * len(inspect.signature(model).parameters)
+        compiler = partial(numba.vectorize, [numba.f8(*inputs)])
     try:
-        made: np.ufunc = compiler(cache=True)(root).ufunc
+        return compiler(cache=True)(root)
     except (RuntimeError, OSError):
-        made = compiler(cache=False)(root).ufunc
-    return made
+        return compiler(cache=False)(root)
 
 
 @cache
@@ -371,15 +422,18 @@ def _make_known() -> None:
 
 
 def _contained(compute: Model, inputs: Inputs, types: Sequence[type]) -> Any:
-    """What `compute` gives for arrays, for containers too: a result for each type."""
+    """What `compute` gives for numbers and arrays, for containers too: a result for each type."""
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
         return compute(**inputs)
     if library == "pint":
         names = (name for name in inputs if _library(frozenset({type(inputs[name])})) == "pint")
         raise TypeError(f"{next(names)} has units: give its magnitude in SI units")
-    results = _CONTAINED[library](compute, inputs, types)
-    return results if len(types) > 1 else results[0]
+
+    def within(*values: Any) -> Any:
+        return _contained(compute, dict(zip(inputs, values, strict=True)), types)
+
+    return _CONTAINED[library](within, inputs, types)
 
 
 @cache
@@ -389,23 +443,17 @@ def _library(kinds: frozenset[type]) -> str:
     return next((library for library in ("pint", *_CONTAINED) if library in found), "")
 
 
-def _xarray(compute: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, ...]:
+def _xarray(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     import xarray
-
-    def within(*values: Any) -> Any:
-        return _contained(compute, dict(zip(inputs, values, strict=True)), types)
 
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)
-    return tuple(r.rename(None) for r in (results if len(types) > 1 else [results]))
+    return results.rename(None) if len(types) == 1 else tuple(r.rename(None) for r in results)
 
 
-def _dask(compute: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, ...]:
+def _dask(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     import dask.array
-
-    def within(*values: Any) -> Any:
-        return compute(**dict(zip(inputs, values, strict=True)))
 
     da: Any = dask.array  # it is partly typed
     arrays = [da.asarray(value) for value in inputs.values()]
@@ -414,35 +462,41 @@ def _dask(compute: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, .
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
     shapes = f"{','.join(['()'] * len(arrays))}->{','.join(['()'] * len(types))}"
     kinds = list(types) if len(types) > 1 else types[0]
-    results = da.apply_gufunc(within, shapes, *arrays, output_dtypes=kinds)
-    return tuple(results) if len(types) > 1 else (results,)
+    return da.apply_gufunc(within, shapes, *arrays, output_dtypes=kinds)
 
 
-def _pandas(compute: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, ...]:
-    import numpy as np
+def _pandas(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     import pandas as pd
 
     series = [value for value in inputs.values() if isinstance(value, pd.Series)]
     if not series:
         raise TypeError("of pandas a Series is wanted for each input: take columns of a DataFrame")
-    index, columns = series[0].index, {}
-    for name, value in inputs.items():
-        columns[name] = value
-        if isinstance(value, pd.Series):
-            for label in index.symmetric_difference(value.index, sort=False)[:1]:
-                raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
-            columns[name] = value.reindex(index).to_numpy()
-        elif np.shape(value) not in ((), (len(index),)):
-            raise TypeError(
-                f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
-                f"give a Series, a single number, or an array of {len(index)}"
-            )
+    index = series[0].index
     try:
-        results = compute(**columns)
+        results = within(*(_matched(name, value, index) for name, value in inputs.items()))
     except ElementError as error:
         labels = tuple(index[place] for place in error.index)
         raise ElementError(error.name, error.problem, labels) from None
-    return tuple(pd.Series(r, index) for r in (results if len(types) > 1 else [results]))
+    if len(types) == 1:
+        return pd.Series(results, index)
+    return tuple(pd.Series(result, index) for result in results)
+
+
+def _matched(name: str, value: Any, index: Any) -> Any:
+    """An input beside a Series with these labels: its numbers in their order."""
+    import numpy as np
+    import pandas as pd
+
+    if isinstance(value, pd.Series):
+        for label in index.symmetric_difference(value.index, sort=False)[:1]:
+            raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
+        return value.reindex(index).to_numpy()
+    if np.shape(value) not in ((), (len(index),)):
+        raise TypeError(
+            f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
+            f"give a Series, a single number, or an array of {len(index)}"
+        )
+    return value
 
 
 _CONTAINED: dict[str, Model] = {"xarray": _xarray, "dask": _dask, "pandas": _pandas}

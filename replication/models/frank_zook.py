@@ -27,7 +27,7 @@ def depth_as_printed(
     '0.127'
     """
     inertia = (length_ratio * particle_density / target_density + k_1) / (2 * k_t)
-    return inertia * math.log(1 + k_t * target_density * velocity * velocity / resistance)
+    return inertia * math.log1p(k_t * target_density * velocity * velocity / resistance)
 
 
 def depth_derived(

@@ -63,7 +63,7 @@ class Impact:
         for name, value in inputs.items():
             object.__setattr__(self, name, value)
         check(inputs)
-        check_range(**self.motion)
+        check_range(**self.motion, step=self.step)
 
     @property
     def target_resistance(self) -> float:
@@ -128,6 +128,7 @@ def check_range(
     target_density: float,
     resistance: float,
     radius: float = 1.0,
+    step: float = 1.0,
 ) -> None:
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
@@ -135,10 +136,11 @@ def check_range(
     """
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
-        raise InputError("particle mass", f"is {mass!r}: no double can hold it")
+        raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
     pressure = 0.5 * target_density * velocity * velocity
     formed = {
         "target resistance": resistance,
+        "step": step,
         "radius squared": radius * radius,
         "velocity squared": velocity * velocity,
         "particle density": particle_density,

@@ -36,7 +36,7 @@ def history(
     depth: Series,
     speed: Series,
 ) -> None:
-    """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order; lists or arrays.
+    """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
     Both are within 1e-14 of the final depth and of the impact velocity; from the stop time on they
     are the final depth and 0. NaN at times that are negative or not finite.
@@ -55,7 +55,7 @@ def history(
         for k in range(len(time)):
             if begin <= time[k] < end:
                 at, dy = _state(y, w, (time[k] * V / R - start) / unit)
-                depth[k], speed[k] = R * min(at, final), V * dy / unit
+                depth[k], speed[k] = R * min(at, final), V * (dy / unit)
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
             depth[k], speed[k] = math.nan, math.nan

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = ["MAX_STEPS", "SCHEMES", "Row", "Sheet", "check_scheme", "deceleration", "last_row",
-           "run", "too_many_steps"]  # fmt: skip
+           "out_of_range", "run", "too_many_steps"]  # fmt: skip
 
 SCHEMES = ("published", "centered")
 
@@ -83,7 +83,8 @@ class Sheet:
 def run(impact: Impact, scheme: str = "published") -> Sheet:
     """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
 
-    `scheme` is one of `SCHEMES`. Raises ValueError when more than `MAX_STEPS` rows are needed.
+    `scheme` is one of `SCHEMES`. Raises ValueError when more than `MAX_STEPS` rows are needed, or
+    the last row is beyond the range of doubles.
 
     >>> from replication.cases import BETA_5
     >>> sheet = run(BETA_5)
@@ -102,6 +103,8 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
         x, a, v_final = _next_row(k, x, v, dt, scheme == "centered", R, M, rho_t, R_t)
         rows.append(Row(k * dt, v, x, a, v_final))
         v = v_final
+    if not math.isfinite(x + rows[-1].deceleration + v):  # it only overflows in a last row
+        raise ValueError(f"the sheet {out_of_range(dt)}")
     return Sheet(impact, tuple(rows), scheme)
 
 
@@ -186,6 +189,11 @@ def too_many_steps(step: float, stop_velocity: float) -> str:
         f"takes more than {MAX_STEPS:,} steps of {step!r} s down to {stop_velocity!r} m/s: "
         "take a larger step"
     )
+
+
+def out_of_range(step: float) -> str:
+    """What a sheet with a step that is much too long does, and what to do about it."""
+    return f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
 
 
 def check_scheme(scheme: str) -> None:
