@@ -1,9 +1,9 @@
-"""Check the verdicts of an audit without its program: a hundred lines to read instead.
+"""Check the verdicts of an audit without its program: a short program to read instead.
 
     python docs/recheck.py coldspray-audit/audit.json
 
-Only Python's standard library is used. From the exact fractions that stand in the file, every verdict
-is found again that they decide:
+Only Python's standard library is used. Every verdict that the exact fractions in the file decide is
+found again from them:
 
 - A printed decimal has the interval that half a unit of its last digit gives.
 - A range proven for the computed value inside that interval is "reproduced", one apart from it
@@ -27,6 +27,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+Table = dict[str, Any]
+
 Ends = tuple[Fraction | None, Fraction | None, bool, bool]
 """Lower and upper end (None: infinite), and whether each belongs to the interval."""
 
@@ -39,7 +41,7 @@ def exact(ends: list[str | None]) -> list[Fraction | None]:
     return [None if end is None else Fraction(end) for end in ends]
 
 
-def printed_interval(claim: dict[str, Any], rounding: str = ROUNDINGS[0]) -> Ends:
+def interval(claim: Table, rounding: str = ROUNDINGS[0]) -> Ends:
     """The values that print like a claim: what its own ends say, under a rounding rule."""
     low, high = exact(claim["interval_exact"])
     text = claim["interval_text"]
@@ -59,6 +61,11 @@ def printed_interval(claim: dict[str, Any], rounding: str = ROUNDINGS[0]) -> End
     return low, high, even, even
 
 
+def _digits(claim: Table) -> re.Match[str] | None:
+    """The digits of a printed decimal; of an "about" they do not give the interval."""
+    return None if claim["kind"] == "approximation" else DECIMAL.fullmatch(claim["printed"])
+
+
 def decimal(digits: re.Match[str]) -> tuple[Fraction, Fraction]:
     """The value of a printed decimal and the unit of its last digit."""
     unit = Fraction(10) ** (int(digits[3] or 0) - len(digits[2]))
@@ -70,9 +77,9 @@ def below(low: Fraction | None, high: Fraction | None, closed: bool) -> bool:
     return low is None or high is None or low < high or (low == high and closed)
 
 
-def decided(enclosure: list[Fraction | None], interval: Ends) -> str:
+def decided(enclosure: list[Fraction | None], target: Ends) -> str:
     """What a proven range says of an interval: inside, apart or across an end."""
-    (least, most), (low, high, low_closed, high_closed) = enclosure, interval
+    (least, most), (low, high, low_closed, high_closed) = enclosure, target
     if not (below(low, most, low_closed) and below(least, high, high_closed)):
         return "not reproduced"
     if None in (least, most):
@@ -84,10 +91,10 @@ def decided(enclosure: list[Fraction | None], interval: Ends) -> str:
 SEARCHED = ("reproduced within input rounding", "undecided")
 
 
-def judged(claim: dict[str, Any], part: dict[str, Any], rounding: str) -> Iterator[str]:
+def _judged(claim: Table, part: Table, rounding: str) -> Iterator[str]:
     """Whether a claim, a reading of it or a convention has the verdict of its proven range."""
     verdict, enclosure = part["verdict"], exact(part["enclosure_exact"])
-    says = decided(enclosure, printed_interval(claim, rounding))
+    says = decided(enclosure, interval(claim, rounding))
     # Of inputs that print alike, some may do even where the range reaches beyond the interval.
     if says != verdict and not (says != "not reproduced" and verdict in SEARCHED):
         yield f"its range says {says!r}, not {verdict!r} ({rounding})"
@@ -96,7 +103,7 @@ def judged(claim: dict[str, Any], part: dict[str, Any], rounding: str) -> Iterat
             yield f"{double!r} does not contain the end {end}"
 
 
-def differences(audit: dict[str, Any]) -> Iterator[str]:
+def differences(audit: Table) -> Iterator[str]:
     """A line for each verdict or count that does not follow from the fractions beside it."""
     claims = {claim["id"]: claim for claim in audit["claims"]}
     constants = {part["claim"]: part for e in audit["equations"] for part in e["constants"]}
@@ -110,46 +117,57 @@ def differences(audit: dict[str, Any]) -> Iterator[str]:
     yield from (f"summary: {verdict!r} is missing" for verdict in counts)
 
 
-def _of_claim(
-    claim: dict[str, Any], claims: dict[str, Any], constant: dict[str, Any] | None
-) -> Iterator[str]:
+def _of_claim(claim: Table, claims: dict[str, Table], constant: Table | None) -> Iterator[str]:
     verdict = claim["verdict"]
     if claim["interval_exact"] is None:
         if verdict != "remark, quantified":
             yield "has a verdict and no interval"
-        return
-    low, high, *_ = printed_interval(claim)
-    digits = DECIMAL.fullmatch(claim["printed"])
-    if digits and claim["kind"] != "approximation" and low != high:
+    elif claim["enclosure_exact"] is not None:
+        yield from _print(claim)
+        for part in (claim, *claim["readings"]):
+            yield from _judged(claim, part, ROUNDINGS[0])
+            for convention in part["otherwise"]:
+                yield from _judged(claim, convention, convention["rounding"])
+    else:
+        yield from _print(claim)
+        expected = _without_a_range(claim, claims, constant)
+        if verdict not in expected:
+            yield f"is {verdict!r}, not {' or '.join(expected)}"
+
+
+def _print(claim: Table) -> Iterator[str]:
+    """Whether the interval is half a unit of the last printed digit to both sides."""
+    low, high, *_ = interval(claim)
+    digits = _digits(claim)
+    if digits is not None and low is not None and high is not None and low != high:
         value, unit = decimal(digits)
         # Just below a power of ten the digits of 1.00E+03 stand ten times closer.
         if high != value + unit / 2 or low not in (value - unit / 2, value - unit / 20):
             yield f"{claim['printed']} does not stand for {low} to {high}"
-    if claim["enclosure_exact"] is not None:
-        yield from judged(claim, claim, ROUNDINGS[0])
-        for part in (claim, *claim["readings"]):
-            if part is not claim:
-                yield from judged(claim, part, ROUNDINGS[0])
-            for convention in part["otherwise"]:
-                yield from judged(claim, convention, convention["rounding"])
-    elif claim["restates"]:
-        twin = printed_interval(claims[claim["restates"]])
-        meet = below(low, twin[1], twin[3]) and below(twin[0], high, True)
-        if (verdict == "consistent") != meet:
-            yield f"does not have the verdict of {claim['restates']}"
-    elif constant is not None and verdict in ("reproduced", "not reproduced"):
-        if (constant["needed"] == [str(low)]) != (verdict == "reproduced"):
-            yield f"its equation needs {', '.join(constant['needed'])}"
-    elif claim["shown_by"] and verdict == "consistent":
-        least, most = map(Fraction, claim["shown_by"]["interval"])
-        if not (least <= (high if high == low else (low + high) / 2) <= most):
-            yield "lies where what is computed from it comes out otherwise"
-    elif claim["sources"] and "sources" in verdict:
+
+
+def _without_a_range(
+    claim: Table, claims: dict[str, Table], constant: Table | None
+) -> tuple[str, ...]:
+    """The verdicts that a claim may have of which no range is proven."""
+    low, high, _, closed = interval(claim)
+    if claim["restates"]:
+        twin = interval(claims[claim["restates"]])
+        meet = below(low, twin[1], twin[3]) and below(twin[0], high, closed)
+        return ("consistent" if meet else "inconsistent",)
+    if constant is not None:
+        if len(constant["needed"]) != 1:
+            return ("not checkable", "undecided")
+        return ("reproduced" if constant["needed"] == [str(low)] else "not reproduced",)
+    if claim["sources"]:
         agrees = any(source["agrees"] for source in claim["sources"])
-        if agrees != verdict.startswith("agrees"):
-            yield "does not have the verdict of its sources"
-    elif verdict in ("reproduced", "not reproduced"):
-        yield f"{verdict!r} has no proof"
+        return ("agrees with public sources" if agrees else "differs from public sources",)
+    if claim["shown_by"]:
+        least, most = map(Fraction, claim["shown_by"]["interval"])
+        assert low is not None
+        assert high is not None
+        return ("consistent" if least <= (low + high) / 2 <= most else "inconsistent",)
+    return ("consistent", "not checkable")  # a count, or nothing that decides it
 
 
 def main() -> int:
