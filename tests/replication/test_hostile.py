@@ -8,7 +8,6 @@ import argparse
 import io
 import os
 import re
-from collections.abc import Iterator
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
@@ -283,8 +282,9 @@ ATOMS = st.one_of(
     ).map(lambda text: f'"{text}"'),
     st.tuples(NUMBERS, UNITS).map(lambda pair: f'"{"".join(pair)}"'),
 )
-KEYS = st.sampled_from([*INPUTS, "from", "to", "points", "scale", "distribution", "mean", "deviation",
-                        "lower", "upper", "average_mass", "average_velocity", "other"])  # fmt: skip
+TABLE_KEYS = ("from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
+              "average_mass", "average_velocity", "other")  # fmt: skip
+KEYS = st.sampled_from([*INPUTS, *TABLE_KEYS])
 TREES = st.recursive(
     ATOMS, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4)
 )
