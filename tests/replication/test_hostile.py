@@ -284,7 +284,10 @@ ATOMS = st.one_of(
 )
 TABLE_KEYS = ("from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
               "average_mass", "average_velocity", "other")  # fmt: skip
-KEYS = st.sampled_from([*INPUTS, *TABLE_KEYS])
+KEYS = st.sampled_from([
+    *INPUTS, "from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
+    "average_mass", "average_velocity", "other",
+])  # fmt: skip
 TREES = st.recursive(
     ATOMS, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4)
 )
