@@ -5,58 +5,52 @@ from fractions import Fraction
 from statistics import NormalDist
 
 import mpmath
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference.exact import Reals, final_depth
-from replication.analysis.approaches import Approach, approaches
-from replication.analysis.scatter import SHARES, scatter, stated_deviations, tied_particles
-from replication.analysis.sensitivity import (
-    INPUTS,
-    elasticities,
-    stated_effects,
-    ten_percent_effects,
-)
 
+from reference.arithmetic import Reals
 from reference.ledger import load
-from replication.audit import assess_claim
-from replication.cases import BETA_3, BETA_5
-from replication.models import arrays
+from reference.motion import final_depth
+from replication.audit import comparison
+from replication.audit.record import Record, Scatter
+from replication.cases import BETA_5
+from replication.models import depth
 from replication.models.impact import Impact
 
-OBSERVED = 0.29803390509065253
-CLAIMS = (
-    "observed-depth-ratio",
-    "ratio-beta-3",
-    "ratio-beta-5",
-    "frank-zook-rha",
-    "frank-zook-stainless",
-)
+INPUTS = ("velocity", "radius", "particle_density", "target_density", "beta", "flow_stress")
 
 
-@pytest.fixture(scope="module")
-def rows() -> list[Approach]:
-    ledger = load()
-    return approaches(ledger, {name: assess_claim(ledger, name) for name in CLAIMS})
+def ratio(impact: Impact) -> float:
+    return depth.final_depth(**impact.motion) / impact.radius
 
 
-def test_every_approach_of_the_report_stands_in_the_table(rows: list[Approach]) -> None:
-    kinds = [row.kind for row in rows]
-    counts = {kind: kinds.count(kind) for kind in kinds}
-    assert counts == {"observed": 2, "sheet": 2, "exact": 2, "Frank-Zook": 4, "hydrocode": 2}
-    by_name = {f"{row.kind}, {row.name}": row.computed for row in rows}
-    assert by_name["observed, CV/PV = 0.058, the line in Figure 1"] == pytest.approx(0.29274, 1e-4)
-    assert by_name["Frank-Zook, armor, as printed"] == pytest.approx(0.12727, abs=5e-6)
+def test_every_approach_of_the_report_stands_in_the_table(record: Record) -> None:
+    kinds = [row.kind for row in record.approaches]
+    assert {kind: kinds.count(kind) for kind in kinds} == {
+        "observed": 2,
+        "sheet": 2,
+        "exact": 2,
+        "constant pressure": 2,
+        "Frank-Zook": 4,
+        "hydrocode": 2,
+    }
+    computed = {f"{row.kind}, {row.name}": row.computed for row in record.approaches}
+    assert computed["observed, CV/PV = 0.058, the line in Figure 1"] == pytest.approx(0.29274, 1e-4)
+    assert computed["Frank-Zook, armor, Eq. 16 as printed"] == pytest.approx(0.12727, abs=5e-6)
 
 
-def test_hydrocodes_are_quoted_and_marked_so(rows: list[Approach]) -> None:
-    quoted = {row.name: row.printed for row in rows if not row.recomputable}
-    assert quoted == {"CTH": "0.41", "Autodyne": "0.52"}
-    assert all(row.computed is None for row in rows if not row.recomputable)
+def test_hydrocodes_are_quoted_and_not_computed(record: Record) -> None:
+    quoted = {row.name: row for row in record.approaches if row.kind == "hydrocode"}
+    claims = load().claims
+    assert {name: row.printed for name, row in quoted.items()} == {
+        "CTH": claims["cth-ratio"].shown,
+        "Autodyne": claims["autodyne-ratio"].shown,
+    }
+    assert all(row.computed is None for row in quoted.values())
 
 
-impacts = st.builds(
+IMPACTS = st.builds(
     Impact,
     velocity=st.floats(1, 5000),
     radius=st.floats(1e-7, 1e-2),
@@ -67,10 +61,10 @@ impacts = st.builds(
 )
 
 
-@given(impacts, st.sampled_from(INPUTS))
+@given(IMPACTS, st.sampled_from(INPUTS))
 def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str) -> None:
     ar = Reals(50)
-    if abs(float(arrays.final_depth(**impact.motion)) / impact.radius - 1) < 1e-6:
+    if abs(ratio(impact) - 1) < 1e-6:
         return  # the second derivative jumps at y = 1, so that differences across it are coarser
 
     def log_depth(share: mpmath.mpf) -> mpmath.mpf:
@@ -82,82 +76,44 @@ def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str)
     h = ar.context.mpf(10) ** -12
     slope = (log_depth(h) - log_depth(-h)) / (2 * h)
     # The difference is off by its h^2, the closed form by rounding, most where q - 1 cancels.
-    assert elasticities(impact)[name] == pytest.approx(float(slope), rel=1e-9, abs=1e-12)
+    assert comparison._elasticities(impact)[name] == pytest.approx(
+        float(slope), rel=1e-9, abs=1e-12
+    )
 
 
-def test_depth_is_proportional_to_size_and_the_ratio_does_not_depend_on_it() -> None:
-    assert elasticities(BETA_5)["radius"] == 1.0
-    (effect,) = (e for e in ten_percent_effects(BETA_5) if e.input == "radius")
-    assert effect.ratios[0] == pytest.approx(effect.ratios[1], rel=1e-14)
-    assert effect.depths[1] / effect.depths[0] == pytest.approx(1.1 / 0.9, rel=1e-14)
+def test_depth_is_proportional_to_size_and_the_ratio_does_not_depend_on_it(record: Record) -> None:
+    for sensitivity in record.sensitivity:
+        assert sensitivity.elasticities["radius"] == 1.0
+        (effect,) = (e for e in sensitivity.ten_percent if e.input == "radius")
+        assert effect.ratios[0] == pytest.approx(effect.ratios[1], rel=1e-14)
+        assert effect.depths[1] / effect.depths[0] == pytest.approx(1.1 / 0.9, rel=1e-14)
 
 
-def test_stated_ranges_come_from_the_ledger() -> None:
-    effects = {effect.input: effect for effect in stated_effects(BETA_5, load())}
-    assert set(effects) == set(INPUTS)
-    assert (effects["velocity"].low, effects["velocity"].high) == (450.0, 550.0)
-    assert (effects["beta"].low, effects["beta"].high) == (3.0, 5.0)
-    assert all(claim in load().claims for e in effects.values() for claim in e.sources)
-    assert all(e.sources for e in effects.values())
+def test_no_stated_range_alone_brings_the_depth_down_to_the_observed(record: Record) -> None:
+    observed = record.claim("observed-depth-ratio").computed
+    assert observed is not None
+    for sensitivity in record.sensitivity:
+        assert {effect.input for effect in sensitivity.stated} == set(INPUTS)
+        assert min(min(effect.ratios) for effect in sensitivity.stated) > 2 * observed
 
 
-def test_no_stated_range_alone_brings_the_depth_down_to_the_observed() -> None:
-    for case in (BETA_3, BETA_5):
-        lowest = min(min(effect.ratios) for effect in stated_effects(case, load()))
-        assert lowest > 2 * OBSERVED
+@pytest.fixture
+def laws(record: Record) -> dict[str, Scatter]:
+    return {law.law.partition(":")[0]: law for law in record.scatter}
 
 
-def test_quantiles_of_the_ratio_are_those_of_the_velocity() -> None:
-    deviations = stated_deviations(load())
-    _, independent = scatter(BETA_5, deviations, OBSERVED)
-    whole = NormalDist(500.0, deviations["velocity"])
-    for share, quantile in zip(SHARES, independent.ratio.quantiles, strict=True):
-        there = replace(BETA_5, velocity=whole.inv_cdf(share))
-        exact = float(arrays.final_depth(**there.motion)) / there.radius
-        # Linear interpolation between points 0.04 deviations apart.
-        assert quantile == pytest.approx(exact, rel=1e-4)
+def test_quantiles_of_each_law(laws: dict[str, Scatter]) -> None:
+    sizes = NormalDist(22, 5.6)
+    for law, power in (("Eq. 1", 1.5), ("drag on a sphere", 0.5)):
+        for point in laws[law].points:
+            size = sizes.inv_cdf(1 - point.share)
+            assert point.velocity == pytest.approx(500 * (22 / size) ** power, rel=1e-14)
+            assert point.ratio == ratio(replace(BETA_5, velocity=point.velocity))
 
 
-def test_tied_quantiles_are_those_of_the_size() -> None:
-    tied, _ = scatter(BETA_5, stated_deviations(load()), OBSERVED)
-    sizes = NormalDist(22e-6, 5.6e-6)
-    for share, quantile in zip(SHARES, tied.velocity.quantiles, strict=True):
-        assert quantile == pytest.approx(500 * (22e-6 / sizes.inv_cdf(1 - share)) ** 1.5, rel=3e-4)
-
-
-def test_depths_of_independent_particles_against_drawn_ones() -> None:
-    deviations = stated_deviations(load())
-    _, independent = scatter(BETA_5, deviations, OBSERVED)
-    random = np.random.default_rng(1)
-    radius = random.normal(11e-6, deviations["diameter"] / 2, 200_000)
-    velocity = random.normal(500.0, deviations["velocity"], 200_000)
-    kept = (radius > 0) & (velocity > 0)
-    depths = arrays.final_depth(velocity[kept], radius[kept], 8900.0, 7850.0, 3.5e9)
-    # 200,000 draws tell a quantile to about 0.2 % in the middle, 0.4 % at the ends.
-    drawn = np.quantile(depths, SHARES)
-    assert np.allclose(independent.depth.quantiles, drawn, rtol=0.01)
-
-
-def test_small_scatter_is_linear() -> None:
-    for one in scatter(BETA_5, {"diameter": 22e-9, "velocity": 0.5}, OBSERVED):
-        for spread in (one.depth, one.ratio, one.velocity):
-            relative = spread.deviation / spread.quantiles[2]
-            assert relative == pytest.approx(spread.first_order, rel=2e-3)
-
-
-def test_the_velocity_for_the_observed_depth_gives_it() -> None:
-    tied, independent = scatter(BETA_3, stated_deviations(load()), OBSERVED)
-    needed = tied.velocity_for_observed
-    there = replace(BETA_3, velocity=needed)
-    assert float(arrays.final_depth(**there.motion)) / 11e-6 == pytest.approx(OBSERVED, 1e-13)
-    assert independent.velocity_for_observed == needed
-    assert independent.share_below_observed < 1e-6
-
-
-def test_equation_1_sends_small_particles_far_above_the_stated_scatter() -> None:
-    small, large, *_ = tied_particles(BETA_5, load())
-    assert (small.diameter, large.diameter) == (10e-6, 30e-6)
-    assert small.velocity == pytest.approx(500 * 2.2**1.5, rel=1e-14)
-    assert large.velocity == pytest.approx(500 * (22 / 30) ** 1.5, rel=1e-14)
-    tied, _ = scatter(BETA_5, stated_deviations(load()), OBSERVED)
-    assert tied.velocity.deviation > 3 * stated_deviations(load())["velocity"]
+def test_equation_1_scatters_the_velocity_far_more_than_the_report_states(
+    laws: dict[str, Scatter],
+) -> None:
+    stated = float(load().value("velocity-deviation"))
+    assert laws["as stated"].mean_deviation == pytest.approx(stated, rel=1e-14)
+    assert laws["Eq. 1"].mean_deviation > 3 * stated

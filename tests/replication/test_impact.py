@@ -82,7 +82,7 @@ def test_units_are_understood_without_rounding_twice(name: str, text: str, value
         ({"radius": "11 MPa"}, "radius: '11 MPa': MPa does not measure what m does"),
         ({"radius": "11 bogus"}, "radius: unknown unit 'bogus'"),
         ({"radius": "eleven"}, "radius: 'eleven' is no finite number"),
-        ({"velocity": "nan"}, "velocity is nan"),
+        ({"velocity": "nan"}, "velocity: .nan. is no finite number"),
         ({"resistance": "0 Pa"}, "resistance is 0.0"),
         ({"radius": "-11 um"}, "radius is -1.1e-05"),
         ({"resistance": "1e9", "beta": "3"}, "resistance stands instead"),

@@ -6,8 +6,8 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference.trajectory import Trajectory
 
+from reference.motion import Trajectory
 from replication.cases import BETA_5
 from replication.models import motion
 from replication.models.depth import (

@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reference import exact
+from reference.arithmetic import Reals
+from reference.motion import sheet_rows
 from replication.cases import BETA_3, BETA_5
 from replication.error.warnings import warnings
 from replication.models.arrays import run_many
@@ -63,9 +64,9 @@ def test_every_row_follows_from_the_one_before(impact: Impact) -> None:
 @given(IMPACTS)
 @settings(max_examples=25, deadline=None)
 def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impact) -> None:
-    reals = exact.Reals(50)
+    reals = Reals(50)
     inputs = (*impact.motion.values(), impact.step)
-    rows = exact.midpoint(reals, *(reals.number(Fraction(value)) for value in inputs))
+    rows = sheet_rows(reals, *(reals.number(Fraction(value)) for value in inputs))
     sheet = run(impact)
     # A row has about a dozen roundings of 2^-53, each relative to a value of at most the impact's;
     # later rows amplify them by less than ten (cosh of the deceleration's growth over an impact).

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference.trajectory import Trajectory
-from replication.analysis import convergence, stability
-from replication.analysis.budget import Budget, exact_motion, split
 
+from reference.motion import Trajectory
 from replication.cases import BETA_3, BETA_5, CASES
+from replication.error import hard_cases, ladder
+from replication.error.budget import Budget, exact_motion, split
 from replication.models import arrays
 from replication.models.impact import Impact
 from replication.models.sheet import run
@@ -71,22 +71,22 @@ def test_a_velocity_that_no_motion_has_leaves_the_budget_undefined() -> None:
     assert budget.total > 0
 
 
-@pytest.mark.parametrize("scheme", convergence.ORDER)
+@pytest.mark.parametrize("scheme", ladder.ORDER)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
 def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
-    found = convergence.converge(impact, convergence.ladder(1e-10, 7), scheme)
-    assert found.levels[-1].time_step_order == pytest.approx(convergence.ORDER[scheme], abs=0.02)
+    found = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
+    assert found.levels[-1].time_step_order == pytest.approx(ladder.ORDER[scheme], abs=0.02)
 
 
 def test_without_drag_the_published_scheme_is_second_order() -> None:
     """Why it is first order: only the drag depends on the velocity that it takes too early."""
     dragless = replace(BETA_5, target_density=1e-6)
-    found = convergence.converge(dragless, convergence.ladder(1e-10, 6))
+    found = ladder.converge(dragless, ladder.ladder(1e-10, 6))
     assert found.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
 
 
 def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
-    found = convergence.converge(BETA_5, convergence.ladder(2e-10, 9))
+    found = ladder.converge(BETA_5, ladder.ladder(2e-10, 9))
     assert found.limit is not None
     gci = found.levels[-1].gci
     assert gci is not None
@@ -97,15 +97,15 @@ def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
 
 
 def test_regimes_go_from_coarse_to_floor() -> None:
-    published = convergence.converge(BETA_5, convergence.ladder(2e-10, 7))
+    published = ladder.converge(BETA_5, ladder.ladder(2e-10, 7))
     assert [level.regime for level in published.levels[:2]] == [
         "order unknown",
         "not yet asymptotic",
     ]
     assert published.levels[-1].regime == "asymptotic"
-    centered = convergence.converge(BETA_5, convergence.ladder(2e-10, 9), "centered")
+    centered = ladder.converge(BETA_5, ladder.ladder(2e-10, 9), "centered")
     assert centered.levels[-1].regime == "stop-rule floor"
-    meaningless = convergence.converge(BETA_5, [1e-7, 5e-8])
+    meaningless = ladder.converge(BETA_5, [1e-7, 5e-8])
     assert {level.regime for level in meaningless.levels} == {"meaningless"}
 
 
@@ -120,27 +120,27 @@ def test_regimes_go_from_coarse_to_floor() -> None:
 )
 def test_the_limit_is_undefined_for_a_reason(steps: list[float], reason: str) -> None:
     case = replace(BETA_5, velocity=0.5) if reason == "equal" else BETA_5
-    found = convergence.converge(case, steps)
+    found = ladder.converge(case, steps)
     assert found.limit is None
     assert reason in found.levels[-1].undefined
 
 
 def test_oscillating_depths_have_no_limit() -> None:
-    found = convergence.converge(BETA_5, convergence.ladder(2e-10, 9), "centered")
+    found = ladder.converge(BETA_5, ladder.ladder(2e-10, 9), "centered")
     undefined = {level.undefined for level in found.levels if level.limit is None}
     assert "the depths oscillate" in undefined
 
 
-def level(step: float, depth: float) -> convergence.Level:
+def level(step: float, depth: float) -> ladder.Level:
     budget = Budget(1.0, 0.0, 0.0, 1.0, 0.0)
-    return convergence.Level(step, 1, depth, 1.0, budget, (), None, None, "")
+    return ladder.Level(step, 1, depth, 1.0, budget, (), None, None, "")
 
 
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("ratio", [2.0, 3.0])
 def test_richardson_on_depths_of_known_order(order: int, ratio: float) -> None:
     levels = [level(h, 5.0 + 0.25 * h**order) for h in (ratio**2, ratio, 1.0)]
-    found = convergence._extrapolated(levels, order)
+    found = ladder._extrapolated(levels, order)
     assert found.observed_order == pytest.approx(order, rel=1e-12)
     assert found.limit == pytest.approx(5.0, rel=1e-14)
     assert found.gci == pytest.approx(1.25 * 0.25 / 5.25, rel=1e-12)
@@ -148,7 +148,7 @@ def test_richardson_on_depths_of_known_order(order: int, ratio: float) -> None:
 
 def test_an_order_that_is_too_good_does_not_shrink_the_index() -> None:
     levels = [level(h, 5.0 + 0.25 * h**4) for h in (4.0, 2.0, 1.0)]
-    found = convergence._extrapolated(levels, 1)
+    found = ladder._extrapolated(levels, 1)
     assert found.observed_order == pytest.approx(4)
     assert found.gci == pytest.approx(3 * 0.25 * 15 / 5.25, rel=1e-12)
 
@@ -166,7 +166,7 @@ def test_an_order_that_is_too_good_does_not_shrink_the_index() -> None:
     ],
 )
 def test_regime(parts: tuple[float, ...], order: float | None, regime: str) -> None:
-    assert convergence._regime(Budget(1.0, *parts), order, 1) == regime
+    assert ladder._regime(Budget(1.0, *parts), order, 1) == regime
 
 
 def test_the_refusal_counts_steps_down_to_the_stop_velocity() -> None:
@@ -181,13 +181,13 @@ def test_the_refusal_counts_steps_down_to_the_stop_velocity() -> None:
 @pytest.mark.parametrize("steps", [[], [1e-10], [1e-10, 1e-10], [1e-10, 2e-10]])
 def test_a_ladder_must_descend(steps: list[float]) -> None:
     with pytest.raises(ValueError, match="two steps or more, each shorter"):
-        convergence.converge(BETA_5, steps)
+        ladder.converge(BETA_5, steps)
 
 
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
-@pytest.mark.parametrize("scheme", convergence.ORDER)
+@pytest.mark.parametrize("scheme", ladder.ORDER)
 def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
-    found = convergence.step_for_digits(BETA_5, digits, scheme)
+    found = ladder.step_for_digits(BETA_5, digits, scheme)
     rest = float(exact_motion(BETA_5).final_depth)
     allowed = 0.5 * 10.0 ** (-5 - digits)  # the depth is 7.67e-6 m
     for step in (found.step, found.step / 2, found.step / 4):
@@ -203,17 +203,17 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
 
 def test_digits_that_the_stop_rule_forbids_are_refused() -> None:
     with pytest.raises(ValueError, match=r"stopping at 1\.0 m/s alone leaves out 2\.05e-11 m"):
-        convergence.step_for_digits(BETA_5, 6)
+        ladder.step_for_digits(BETA_5, 6)
     with pytest.raises(ValueError, match="ask for one or more"):
-        convergence.step_for_digits(BETA_5, 0)
+        ladder.step_for_digits(BETA_5, 0)
     with pytest.raises(ValueError, match="need more than 1,000,000 steps"):
-        convergence.step_for_digits(replace(BETA_5, stop_velocity=0.0), 9)
+        ladder.step_for_digits(replace(BETA_5, stop_velocity=0.0), 9)
 
 
-@pytest.mark.parametrize("case", stability.HARD_CASES, ids=lambda case: case.name)
-def test_hard_case(case: stability.HardCase) -> None:
+@pytest.mark.parametrize("case", hard_cases.HARD_CASES, ids=lambda case: case.name)
+def test_hard_case(case: hard_cases.HardCase) -> None:
     """The closed form holds; the sheet holds, warns, or is refused with the reason."""
-    outcome = stability.outcome(case)
+    outcome = hard_cases.outcome(case)
     if outcome.refused:
         assert outcome.closed_form is None
         assert re.search("must be|nothing would bring|doubles carry", outcome.refused)
@@ -229,7 +229,7 @@ def test_hard_case(case: stability.HardCase) -> None:
 
 
 def test_refusals_name_the_number_of_steps() -> None:
-    outcomes = {case.name: stability.outcome(case) for case in stability.HARD_CASES}
+    outcomes = {case.name: hard_cases.outcome(case) for case in hard_cases.HARD_CASES}
     assert "more than 1,000,000 steps" in outcomes["step far too short"].sheet_refused
     assert outcomes["no resistance"].refused.endswith("nothing would bring the particle to rest")
     assert outcomes["at the stop velocity"].steps == 1
@@ -238,18 +238,18 @@ def test_refusals_name_the_number_of_steps() -> None:
 
 
 def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
-    worst = stability.worst_of(100_000, seed=1)
+    worst = hard_cases.worst_of(100_000, seed=1)
     assert worst.skipped == 0
     assert 0.5 < abs(worst.ulps) <= 4, "and the measure is alive"
 
 
 def test_the_measure_of_ulps_sees_an_error() -> None:
-    inputs = stability.random_cases(200, seed=3)
+    inputs = hard_cases.random_cases(200, seed=3)
     depths = arrays.final_depth(**inputs)
-    cases = list(stability._rows(inputs))
+    cases = list(hard_cases._rows(inputs))
     for depth, case in zip(np.nextafter(depths, np.inf).tolist(), cases, strict=True):
-        before = stability._ulps(float(np.nextafter(depth, 0)), case)
-        after = stability._ulps(depth, case)
+        before = hard_cases._ulps(float(np.nextafter(depth, 0)), case)
+        after = hard_cases._ulps(depth, case)
         assert after - before == pytest.approx(1, abs=0.51)  # an ulp doubles at powers of two
 
 
@@ -284,7 +284,7 @@ def test_stability_as_text_and_json(coldspray: Command) -> None:
     text = coldspray("stability", "--random", 500)[1]
     assert "no resistance: refused: target resistance is 0.0" in text
     record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
-    assert len(record["cases"]) == len(stability.HARD_CASES)
+    assert len(record["cases"]) == len(hard_cases.HARD_CASES)
     assert record["random"]["cases"] == 500
 
 
@@ -293,11 +293,11 @@ def test_stability_as_text_and_json(coldspray: Command) -> None:
     [
         (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of published"),
         (["converge", "--steps", "1 ns"], "two steps or more"),
-        (["converge", "--levels", "1"], "--levels wants 2 to 40"),
+        (["converge", "--levels", "1"], "--levels: a whole number from 2 to 40 is wanted"),
         (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
         (["converge", "--digits", "6"], "lower the stop velocity"),
         (["sheet", "--scheme", "upwind"], "no scheme 'upwind'"),
-        (["stability", "--random", "0"], "--random wants 1 to 10,000,000"),
+        (["stability", "--random", "0"], "--random: a whole number from 1 to 10,000,000 is wanted"),
     ],
 )
 def test_bad_input(arguments: list[str], message: str, coldspray: Command) -> None:
