@@ -1,6 +1,7 @@
 """What a user wrote: files, TOML, numbers with units, read within bounds and quoted in one line."""
 
 import math
+import re
 import stat
 import tomllib
 from pathlib import Path
@@ -34,15 +35,18 @@ def name_of(path: object) -> str:
     return one_line(name if len(name) <= _NAME else f"...{name[-_NAME:]}")
 
 
-def one_line(message: str, longest: int = 500) -> str:
-    r"""A message as one line without control characters, shortened.
+def one_line(message: str, longest: int = 340) -> str:
+    r"""A message as one line without control characters; if it is too long, without its middle.
 
-    >>> one_line("no file\x07 of\nthis name")
-    'no file\\x07 of this name'
+    It ends with what would be right, and what a user wrote, however long, stands before that.
+
+    >>> one_line("no file\x07 of\nthis name"), one_line("no " + 99 * "x" + ": choose one", 30)
+    ('no file\\x07 of this name', 'no xxxxxxxxxx...xx: choose one')
     """
     text = " ".join(message.split())
     safe = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
-    return safe if len(safe) <= longest else f"{safe[:longest]}..."
+    kept = (longest - 3) // 2
+    return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1 :]}"
 
 
 def read_file(path: Path, largest: int = _SIZE) -> bytes:
@@ -66,6 +70,10 @@ class _Float(str):
     __repr__ = str.__str__
 
 
+_DOTTED = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEPTH)
+"""A key of so many parts, which nests as deep; one of a megabyte would take hours to read."""
+
+
 def parse_toml(content: bytes) -> dict[str, Any]:
     r"""A TOML document, its floats as they are written. Raises ValueError if it is none.
 
@@ -76,7 +84,7 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     for byte in content:
         depth += (byte in b"[{") - (byte in b"]}")
         deepest = max(deepest, depth)
-    if deepest > _DEPTH:
+    if deepest > _DEPTH or _DOTTED.search(content):
         raise ValueError(f"is nested more than {_DEPTH} deep")
     try:
         # Notepad and others put a byte order mark before it.

@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
+from errno import EBUSY, EINVAL, EISDIR, ENOENT, ENOTDIR
 from pathlib import Path
 
 __all__ = ["check_folder", "check_target", "draft_of", "write_bytes", "write_folder"]
@@ -87,16 +87,32 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
     for path in (folder / name for name in names):
         there = _existing(path.parent)
         if not there.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is a file; a folder is wanted", str(there))
-        if not os.access(there, os.W_OK):
-            raise PermissionError(EACCES, "cannot be written to", str(there))
+            raise NotADirectoryError(ENOTDIR, "is no folder; a folder is wanted", str(there))
         if path.parent.is_dir():
             check_target(path)
+    with _beside(folder):
+        pass
 
 
 def _existing(folder: Path) -> Path:
-    """The folder, or the nearest above it that exists."""
-    return next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    """The folder, or the nearest above it that is there; a link is there, wherever it leads."""
+    for path in (folder, *folder.absolute().parents):
+        with suppress(FileNotFoundError, NotADirectoryError):
+            path.lstat()
+            return path
+    raise FileNotFoundError(ENOENT, "is not there", str(folder))
+
+
+@contextmanager
+def _beside(folder: Path) -> Iterator[Path]:
+    """A folder for drafts, on the same disk. Raises OSError, naming what cannot be written to."""
+    there = _existing(folder)
+    try:
+        temporary = tempfile.TemporaryDirectory(dir=there, prefix=".coldspray-")
+    except OSError as error:
+        raise type(error)(error.errno, "cannot be written to", str(there)) from error
+    with temporary as name:
+        yield Path(name)
 
 
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -105,12 +121,12 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     They are made beside the folder first and moved in when all are done. Raises OSError.
     """
     check_folder(folder, files)
-    with tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".coldspray-") as temporary:
+    with _beside(folder) as temporary:
         for name, content in files.items():
-            draft = Path(temporary, name)
+            draft = temporary / name
             draft.parent.mkdir(parents=True, exist_ok=True)
             draft.write_bytes(content)
             _to_disk(draft)
         for name in files:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            Path(temporary, name).replace(folder / name)
+            (temporary / name).replace(folder / name)

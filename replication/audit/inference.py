@@ -19,7 +19,8 @@ class Inference:
 
     `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
     `agreeing` is the largest set of evidence that one value can serve; `odd` the rest. Each value
-    of `inner` is proven to serve the agreeing evidence, none outside `outer` does.
+    of `inner` is proven to serve the agreeing evidence, none outside `outer` does. Where no value
+    serves any, all evidence is odd, and the value that the ledger takes is kept.
     """
 
     ledger: Ledger
@@ -61,7 +62,7 @@ class Inference:
         no question: cut off, no value would serve it.
         """
         key = convention.choices_exact, convention.header_exact
-        if key == (True, True):
+        if key == (True, True) or not self.agreeing:
             return self.inner, self.outer
         if key not in self._admitted:
             start = sum(self.inner.ends, Fraction(0)) / 2
@@ -83,11 +84,11 @@ class Inference:
         radius, mass = self.entry.radius, self.entry.mass
         if by_mass and radius in names:
             names = names - {radius} | {mass}
-        ends = {name: self._ends(name, convention) for name in sorted(names)}
+        ends = {name: self.rounded(name, convention) for name in sorted(names)}
         rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
         return {**rounded, self.name: self.entry.search}
 
-    def _ends(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
+    def rounded(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
         """The values of an input that print like it, and for which what shows it alone does so.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
@@ -174,7 +175,7 @@ def _infer(
     agreeing = _agreeing(each)
     if not agreeing:
         nominal = Interval.point(ledger.value(name))
-        return Inference(ledger, name, centered, each, (), nominal, nominal)
+        return Inference(ledger, name, centered, each, (), nominal, Interval(*search))
     inner = _intersection([each[claim].inner for claim in agreeing])[0]
     outer = _intersection([each[claim].outer for claim in agreeing])
     whole = Interval(outer[0][0], outer[-1][1])

@@ -13,7 +13,7 @@ from reference.arithmetic import InexactError, Number, Rationals, Reals
 from reference.enclosure import Box, enclose, explore
 from reference.equations import EquationError
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Rounding
+from reference.printed import Interval, Rounding
 from replication.audit.inference import Inference, infer
 from replication.audit.replica import replica
 from replication.audit.screen import restates
@@ -176,15 +176,20 @@ class Judge:
         return float(Fraction(replica(computation.name, inputs, **settings)) / claim.si)
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        usual = Convention()
+        searched: dict[Convention, Judgement] = {}
         for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
-            convention = replace(usual, rounding=rounding, centered=centered)
+            convention = Convention(rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
             else:
                 for rounded in _input_conventions(self.ledger, claim, convention):
-                    yield self._search(claim, name, rounded)
+                    # A search does not ask how ties go.
+                    even = rounding is Rounding.EVEN
+                    key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
+                    if key not in searched:
+                        searched[key] = self._search(claim, name, key)
+                    yield replace(searched[key], convention=rounded)
                     if not self.every_convention:
                         return
             if not self.every_convention:
@@ -212,15 +217,17 @@ class Judge:
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
-        target = claim.target(convention.rounding)
+        inside, around = _without_and_with_ends(claim, convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         whole_sheet = claim.by_scheme and claim.entry.row is None
+        budget = _BUDGET // 10 if whole_sheet else _BUDGET
         for box in self.box(claim, convention):
-            found = explore(function, box, target, _BUDGET // 10 if whole_sheet else _BUDGET)
+            found = explore(function, box, inside, budget)
             if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
                 ends = enclose(function, self.box(claim, convention)[1]).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
-        verdict = Verdict.NOT_REPRODUCED if found.never else Verdict.UNDECIDED
+        never = found.never and explore(function, box, around, budget).never
+        verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         return _judgement(claim, convention, verdict, (found.lower, found.upper))
 
     def box(self, claim: Claim, convention: Convention) -> tuple[Box, Box]:
@@ -292,6 +299,14 @@ def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
 
 _BUDGET = 100
 """Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
+
+
+def _without_and_with_ends(claim: Claim, rounding: Rounding) -> tuple[Interval, Interval]:
+    """A print without and with the ends on which ties decide: a search does not ask how they go."""
+    own = claim.target(rounding)
+    if rounding is Rounding.CUT or own == claim.target(Rounding.CUT):
+        return own, own
+    return Interval(*own.ends, False, False), Interval(*own.ends)
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:

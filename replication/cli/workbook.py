@@ -25,7 +25,10 @@ def options(command: argparse.ArgumentParser) -> None:
         "--force", action="store_true", help="write over a file that is not as coldspray wrote it"
     )
     command.add_argument(
-        "--rows", type=int, metavar="N", help="time steps to prepare (default: twice those needed)"
+        "--rows",
+        type=shared.whole(1, 10**6),
+        metavar="N",
+        help="time steps to prepare (default: twice those needed)",
     )
     command.add_argument("--quiet", action="store_true", help="no warnings and no other words")
     command.add_argument(

@@ -23,21 +23,18 @@ def state(ledger: Ledger, name: str) -> tuple[object, ...]:
 # that the report does not derive: the exponent of Eq. 1, Goodier's q and (2a), and Walker and
 # Anderson's 7/3 are theirs to say. None of the edits means the same as what is printed.
 UNSEEN = {
-    "eq1": [f"V_p = V(m_o/m)^{{{power}}}" for power in
-            ("2/2", "3/2", "4/2", "1/1", "1/3", "1/4", "2/1")],
+    "eq1": ["V_p = V(m_o/m)^{2/1}"],
     "eq8": [rf"F_r = {q} (2a)^n" for q in (r"\Sigma", "Y_p", "R_t", "Y_t", "E_t")]
-    + [rf"F_r = q ({r})^n" for r in ("1a", "3a", "4a", "a", "2X", "2x", "2R", "2D", "2L")],
-    "eq10": [rf"\beta = {f} \ln(\alpha)" for f in
-             ("1/3", "2/3", "3/3", "4/3", "7/1", "7/2", "7/4", "3/7")]
-    + [r"\beta = 7/3 \log(\alpha)"],
-}  # fmt: skip
+    + [rf"F_r = q ({r})^n" for r in ("a", "2X", "2x", "2R", "2D", "2L")],
+    "eq10": [r"\beta = 3/7 \ln(\alpha)", r"\beta = 7/3 \log(\alpha)"],
+}
 
 
 @pytest.mark.parametrize("name", LEDGER.equations)
 def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
     text = LEDGER.equation_text(name)
     edits = {edit for edit, _ in equation_edits(text, LEDGER.written, LEDGER.dimensions)}
-    assert len(edits) >= 14
+    assert len(edits) >= 11
     printed = state(LEDGER, name)
     unseen = {e for e in edits if state(LEDGER.misprint_equation(name, e), name) == printed}
     assert unseen == set(UNSEEN.get(name, []))

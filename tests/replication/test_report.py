@@ -219,7 +219,7 @@ def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record:
 def test_another_process_writes_the_same_bytes(files: dict[str, bytes], tmp_path: Path) -> None:
     program = (
         "import sys; from pathlib import Path; from replication.audit.audit import audit\n"
-        "from replication.report.files import check, contents, write
+        "from replication.report.files import write\n"
         f"write(audit(), Path(sys.argv[1]), {BESIDE!r})"
     )
     environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}

@@ -1,0 +1,328 @@
+"""Nothing a user writes ends in a traceback, a hang or half a file, whatever it is.
+
+Status 0, 1 or 2; at status 2 nothing on standard output, nothing written, and one short line on
+standard error that has no control characters.
+"""
+
+import argparse
+import io
+import os
+import re
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from functools import cache
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from replication.cases import INPUTS
+from replication.cli import COMMANDS, main
+
+LONGEST = 400
+"""Characters of a message."""
+
+
+def run(*arguments: str) -> tuple[int, str, str]:
+    """Status, standard output and standard error of a command, in this process."""
+    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8") for _ in range(2))
+    with redirect_stdout(out), redirect_stderr(err):
+        try:
+            status = main(arguments)
+        except SystemExit as done:
+            status = int(str(done.code))
+    texts = []
+    for stream in (out, err):
+        stream.flush()
+        stream.seek(0)
+        texts.append(stream.read())
+    return status, texts[0], texts[1]
+
+
+def state(folder: Path) -> dict[str, bytes | None]:
+    """What is in a folder: the contents of files, None for what is none."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
+        for path in folder.rglob("*")
+    }
+
+
+def check(folder: Path, *arguments: str) -> int:
+    """Run a command in a folder and hold what this file promises; its status."""
+    before = state(folder)
+    with chdir(folder):
+        status, out, err = run(*arguments)
+    assert status in (0, 1, 2)
+    assert "Traceback" not in err
+    for line in err.splitlines():
+        assert len(line) <= LONGEST
+        assert line.isprintable()
+    if status == 2:
+        assert out == ""
+        assert err.endswith("\n")
+        assert len(err.splitlines()) == 1
+        assert state(folder) == before
+    else:
+        assert not re.search(r"\b(?:nan|inf(?:inity)?)\b", out.lower())
+    return status
+
+
+# Files and texts that once broke it
+
+FILES = {
+    "deep.toml": "[impact]\nradius = " + 5000 * "[",
+    "tables.toml": 3000 * "[a." + "b" + 3000 * "]",
+    "dotted.toml": "[impact]\nradius" + 5000 * ".a" + " = 1",
+    "inline.toml": "[impact]\nradius = " + 500 * "{a=" + "1" + 500 * "}",
+    "whole.toml": "[impact]\nradius = " + 5000 * "9",
+    "hexadecimal.toml": "[impact]\nradius = 0x" + 5000 * "f",
+    "huge.toml": "[impact]\nradius = 1e99999999999",
+    "nan.toml": "[impact]\nradius = nan",
+    "infinite.toml": "[impact]\nvelocity = -inf",
+    "date.toml": "[impact]\nradius = 1979-05-27",
+    "control.toml": '[impact]\n"\\u001b[31m" = 1',
+    "key.toml": f'[impact]\n{5000 * "k"} = 1',
+    "empty.toml": "",
+    "zero.toml": "\0",
+    "surrogate.toml": '[impact]\nradius = "\\ud800"',
+    "truth.toml": "[impact]\nradius = true",
+    "sweep-whole.toml": "[inputs]\nradius = {from=1e-6, to=2e-6, points=0x" + 5000 * "f" + "}",
+    "sweep-samples.toml": '[sweep]\nsamples = 9223372036854775807\n[inputs]\nradius = '
+    '{distribution="uniform", lower=1e-6, upper=2e-6}',
+    "sweep-long.toml": f'[sweep]\ncase = "{5000 * "c"}"\n[inputs]\n',
+    "sweep-kind.toml": f'[inputs]\nradius = {{distribution="{5000 * "n"}"}}',
+    "sweep-control.toml": '[sweep]\noutputs = ["\\u0007"]\n[inputs]\nradius = 1e-6',
+    "sweep-key.toml": f"[inputs]\n{5000 * 'k'} = 1",
+    "sweep-huge.toml": "[inputs]\nradius = [" + "1e-6, " * 3 + "1e400]",
+    "sweep-list.toml": '[inputs]\nradius = [[1e-6]]',
+    "sweep-scale.toml": '[inputs]\nradius = {from=1e-300, to=1e300, points=3, scale="log"}',
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    own = tmp_path_factory.mktemp("hostile")
+    for name, text in FILES.items():
+        (own / name).write_text(text, "utf-8")
+    (own / "large.toml").write_bytes(b"#" * (2**20 + 1))
+    (own / "loop.xlsx").symlink_to("loop.xlsx")
+    (own / "loop.toml").symlink_to("loop.toml")
+    (own / "loop").symlink_to("loop")
+    os.mkfifo(own / "pipe.csv")
+    return own
+
+
+@pytest.mark.parametrize("name", [*FILES, "large.toml", "loop.toml", ".", "pipe.csv/x"])
+def test_hostile_files(name: str, folder: Path) -> None:
+    for command in (["depth", "--case-file", name], ["sweep", name, "-o", "out.csv"]):
+        assert check(folder, *command) == 2
+
+
+DIGITS = "1" + 400 * "0"
+TABLE = [
+    # units
+    ["depth", "--radius", "-3 dBm"],
+    ["depth", "--radius", "5 " + 100_000 * "a"],
+    ["depth", "--radius", "11 cm_H2O", "--velocity", "400"],
+    ["depth", "--radius", "1 m" + 3000 * "^2"],
+    ["depth", "--radius", "1 m^999999999"],
+    ["depth", "--radius", "1e999999999 um"],
+    ["depth", "--radius", DIGITS + " um"],
+    ["depth", "--radius", 5000 * "9"],
+    ["depth", "--velocity", "１" * 10 + "e３０９"],
+    ["depth", "--radius", "\ud800"],
+    # integers
+    ["converge", "--digits", DIGITS],
+    ["converge", "--levels", DIGITS],
+    ["converge", "--steps", 5000 * "1,"],
+    ["converge", "--digits", "15", "--step", "1e-300"],
+    ["converge", "--levels", "40", "--step", "1e-18"],
+    ["bench", "--repeat", DIGITS],
+    ["bench", "--repeat", "-1"],
+    ["workbook", "--rows", DIGITS],
+    ["workbook", "--rows", 5000 * "9"],
+    ["workbook", "--rows", "99999999999"],
+    ["workbook", "--rows", "-1"],
+    ["stability", "--random", DIGITS],
+    ["stability", "--seed", "-1"],
+    ["power", "--sample", DIGITS],
+    ["power", "--seed", str(2**64)],
+    ["history", "--points", DIGITS],
+    # devices and loops
+    ["depth", "--case-file", "/dev/full"],
+    ["depth", "--case-file", "/dev/zero"],
+    ["sweep", "/dev/zero"],
+    ["workbook", "-o", "loop.xlsx"],
+    ["workbook", "-o", "/dev/full"],
+    ["workbook", "-o", "/dev/null"],
+    ["workbook", "-o", "pipe.csv"],
+    ["audit", "--out", "loop"],
+    ["audit", "--out", "empty.toml"],
+    ["audit", "--out", "/dev/full"],
+    ["audit", "--out", "/proc/coldspray"],
+    ["bench", "--quick", "--out", "loop"],
+    ["sweep", "empty.toml", "-o", "loop.xlsx"],
+    # dashes, and no values
+    ["workbook", "--output=--"],
+    ["workbook", "-o--"],
+    ["audit", "--out=--"],
+    ["bench", "--out=--"],
+    ["depth", "--case-file=--"],
+    ["audit", "--out", ""],
+    ["audit", "--out", "a\0b"],
+    ["depth", "--"],
+    ["--", "depth", "--"],
+    # nan and inf
+    ["history", "--times", "1e300"],
+    ["history", "--times", "nan"],
+    ["history", "--times", "1e999 s"],
+    ["sheet", "--step", "1.8e308"],
+    ["sheet", "--step", "nan"],
+    ["converge", "--step", "1e308"],
+    ["bench", "--quick", "--limit", "1e99999"],
+    ["bench", "--quick", "--limit", "nan"],
+    ["bench", "--quick", "--limit", "-1"],
+    # control characters and length
+    ["depth", "--\x1b[31m"],
+    ["depth", "--a\nb"],
+    ["\x1b[31m"],
+    ["depth", "--radius", "\x1b[31m"],
+    ["depth", "--case", "a\nb\r\x07"],
+    ["claims", "\x1b[2J"],
+    ["claims", 100_000 * "x"],
+    ["sheet", "--scheme", "\x1b\n" + 5000 * "s"],
+    ["converge", "--scheme", "\x1b\n" + 5000 * "s"],
+    ["workbook", "--scheme", "\x1b\n" + 5000 * "s"],
+    ["bench", "--case", "\x1b\n" + 5000 * "s"],
+    ["bench", "--quick", "--out", "a\0"],
+    ["workbook", "-o", 5000 * "n" + ".xlsx"],
+    ["workbook", "-o", 3000 * "n/" + ".xlsx"],
+    ["audit", "--out", 5000 * "n"],
+    ["depth", "--case-file", 5000 * "n"],
+    ["sweep", "\u202e\x1b[31m.toml"],
+    ["depth", *(["x"] * 5000)],
+    [5000 * "c"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "arguments", TABLE, ids=lambda own: re.sub(r"\W+", " ", " ".join(own))[:40]
+)
+def test_what_once_broke_it(arguments: list[str], folder: Path) -> None:
+    assert check(folder, *arguments) == 2
+
+
+# Whatever comes
+
+LIGHT = ("depth", "sheet", "history", "claims")
+"""Commands that any arguments may be tried on: they end soon, and write nothing."""
+
+
+@cache
+def flags(command: str) -> tuple[str, ...]:
+    """The options of a command, as it declares them."""
+    parser = argparse.ArgumentParser(add_help=False)
+    module = next(m for m in COMMANDS if m.__name__.endswith(f".{command}"))
+    module.options(parser)
+    return tuple(flag for action in parser._actions for flag in action.option_strings)
+
+
+NUMBERS = st.one_of(
+    st.floats().map(repr),
+    st.integers().map(str),
+    st.sampled_from(
+        ["1e308", "5e-324", "-0", "1_0", "0x1", "١", "1e", ".", "∞", "½", "1,5", "--1"]
+    ),
+)
+UNITS = st.sampled_from(
+    ["", " ", "um", " m/s", "kg/m^3", " Pa", "ns", "m^9", "%", "dBm", "degC", "µm"]
+)
+VALUES = st.one_of(
+    NUMBERS,
+    st.tuples(NUMBERS, UNITS).map("".join),
+    st.text(max_size=50),
+    st.sampled_from(
+        [*FILES, "large.toml", "loop", ".", "..", "", "/dev/zero", "beta-3", "centered"]
+    ),
+    st.characters().map(lambda character: character * 1000),
+)
+
+
+@st.composite
+def arguments(draw: st.DrawFn, command: str) -> list[str]:
+    own = [command]
+    for flag in draw(st.lists(st.sampled_from(flags(command) or ("",)), max_size=4)):
+        value = draw(VALUES)
+        own += draw(st.sampled_from([[flag, value], [f"{flag}={value}"], [flag], [value]]))
+    return own
+
+
+@pytest.mark.parametrize("command", LIGHT)
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data())
+def test_any_arguments(command: str, folder: Path, data: st.DataObject) -> None:
+    check(folder, *data.draw(arguments(command)))
+
+
+def toml(value: object) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f'"{k}" = {toml(v)}' for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)
+
+
+ATOMS = st.one_of(
+    NUMBERS,
+    st.booleans(),
+    st.text(
+        st.characters(exclude_characters='"\\', exclude_categories=["Cs", "Cc"]), max_size=20
+    ).map(lambda text: f'"{text}"'),
+    st.tuples(NUMBERS, UNITS).map(lambda pair: f'"{"".join(pair)}"'),
+)
+TABLE_KEYS = ("from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
+              "average_mass", "average_velocity", "other")  # fmt: skip
+KEYS = st.sampled_from([
+    *INPUTS, "from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
+    "average_mass", "average_velocity", "other",
+])  # fmt: skip
+TREES = st.recursive(
+    ATOMS, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4)
+)
+DOCUMENTS = st.one_of(
+    st.binary(max_size=200),
+    st.text(max_size=200).map(lambda text: text.encode("utf-8", "surrogatepass")),
+    st.dictionaries(KEYS, TREES, max_size=4).flatmap(
+        lambda table: st.sampled_from(["impact", "inputs"]).map(
+            lambda head: "\n".join(
+                [f"[{head}]", *(f"{k} = {toml(v)}" for k, v in table.items())]
+            ).encode()
+        )
+    ),
+)
+
+
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(DOCUMENTS)
+@example(b"\xef\xbb\xbf[impact]\nradius = 1e-6")
+@example(b"[impact]\nradius = " + b"9" * 4299)
+def test_any_case_file(folder: Path, document: bytes) -> None:
+    (folder / "any.toml").write_bytes(document)
+    check(folder, "depth", "--json", "--case-file", "any.toml")
+
+
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(DOCUMENTS)
+def test_any_plan(folder: Path, document: bytes) -> None:
+    from replication.sweep.read import read_plan
+
+    (folder / "any.toml").write_bytes(document)
+    try:
+        count = read_plan(folder / "any.toml").count
+    except ValueError:
+        count = 0
+    if count <= 10_000:  # a million cases are no fault
+        (folder / "any.csv").unlink(missing_ok=True)
+        check(folder, "sweep", "any.toml", "-o", "any.csv", "--quiet")

@@ -1,0 +1,190 @@
+"""What the table tells of the target density, and what it does not; a bad witness is named."""
+
+import math
+import random
+from dataclasses import replace
+from fractions import Fraction as F
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from reference.ledger import Convention, Ledger, load
+from replication.audit.inference import Inference, infer
+from replication.audit.verdict import Judge, Verdict
+from replication.models import sheet
+from replication.models.impact import Impact
+
+LEDGER = load()
+DENSITY = "inferred:target-density"
+CELLS = {f"a1-{column}-{row}": (column.replace("-", "_"), row)
+         for column in ("deceleration", "velocity-final") for row in range(1, 5)}  # fmt: skip
+
+
+@cache
+def inference(centered: bool = False) -> Inference:
+    return infer(LEDGER, DENSITY, centered=centered)
+
+
+def impact(**changed: Any) -> Impact:
+    own = {name: float(LEDGER.value(f"a1-{claim}")) for name, claim in (
+        ("velocity", "initial-velocity"), ("radius", "radius"), ("particle_density", "density"),
+        ("resistance", "resistance"))}  # fmt: skip
+    return Impact(
+        **{**own, "target_density": 7850.0, "step": 2e-10, "stop_velocity": 1.0, **changed}
+    )
+
+
+def cells(case: Impact, centered: bool = False) -> dict[str, float]:
+    rows = sheet.run(case, "centered" if centered else "published").rows
+    return {name: getattr(rows[row], column) for name, (column, row) in CELLS.items()}
+
+
+def density_where(cell: str, value: float, centered: bool) -> float:
+    """By bisection in the models' doubles."""
+    low, high = 7000.0, 9000.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        lower = cells(impact(target_density=middle), centered)[cell] < value
+        low, high = (middle, high) if lower else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("centered", [False, True])
+def test_the_table_admits_a_stretch_that_single_cells_end(centered: bool) -> None:
+    own = inference(centered)
+    assert own.agreeing == tuple(CELLS)
+    assert own.odd == ()
+    (low, high), (outer_low, outer_high) = own.inner.ends, own.outer.ends
+    assert outer_low <= low < high <= outer_high
+    assert high - low > (outer_high - outer_low) * (1 - F(1, 10**9))
+    # Where these two begin to print otherwise.
+    assert float(low) == pytest.approx(
+        density_where("a1-deceleration-2", 929.5e6, centered), rel=1e-9
+    )
+    assert float(high) == pytest.approx(
+        density_where("a1-deceleration-1", 311.5e6, centered), rel=1e-9
+    )
+
+
+def test_what_more_is_known_narrows_it_and_rounding_widens_it() -> None:
+    own = inference()
+    with_mass = own.with_mass.ends
+    assert [float(end) for end in with_mass] == pytest.approx([7825.14, 7848.857], abs=0.01)
+    ranges = [own.inner, *own.admitted(Convention())]
+    loose = own.admitted(Convention(choices_exact=False))
+    ranges += loose[1:]
+    for narrow, wide in pairwise(ranges):
+        assert wide.ends[0] <= narrow.ends[0] < narrow.ends[1] <= wide.ends[1]
+    assert own.admitted(Convention(header_exact=True)) == (own.inner, own.outer)
+    # With R_t = 3.4951E+09 7900 kg/m3 prints the whole table: a reviewer found it by hand.
+    assert own.admitted(Convention())[0].contains(F(7900))
+
+
+@pytest.mark.parametrize("choices_exact", [True, False])
+def test_no_table_drawn_at_random_leaves_what_is_called_possible(choices_exact: bool) -> None:
+    convention = Convention(choices_exact=choices_exact)
+    found, possible = inference().admitted(convention)
+    draw, kept = random.Random(304), []
+    low, high = map(float, possible.ends)
+
+    def drawn(name: str) -> float:
+        ends = [float(end) for end in inference().rounded(name, convention)]
+        return draw.choice([*ends, draw.uniform(*ends)])
+
+    for _ in range(120):
+        velocity, particle, mass, resistance, step = map(drawn, (
+            "a1-initial-velocity", "a1-density", "a1-mass", "a1-resistance", "a-step"))  # fmt: skip
+        radius = math.cbrt(3 * mass / (4 * math.pi * particle))
+        for k in range(-20, 61):
+            density = low + (high - low) * k / 40
+            case = impact(velocity=velocity, radius=radius, particle_density=particle,
+                          resistance=resistance, step=step, target_density=density)  # fmt: skip
+            shown = {"a1-diameter": 2 * radius, "a1-radius": radius, **cells(case)}
+            if all(LEDGER.claims[n].target().contains(F(v)) for n, v in shown.items()):
+                kept.append(density)
+    assert low <= min(kept) < max(kept) <= high
+    assert max(kept) - min(kept) > 0.6 * float(found.ends[1] - found.ends[0])
+
+
+def test_public_densities() -> None:
+    own = inference()
+    said = {
+        source.id: own.admits(source.value, source.interval)
+        for source in LEDGER.sources.values()
+        if DENSITY in source.claims
+    }
+    assert said == {
+        "304-density-kinslow": "admitted only if the other inputs are rounded",
+        "304-density-en": "admitted only as a number that was rounded",
+        "304-density-793": "excluded",
+        "304-density-mill": "excluded",
+        "carbon-steel-density": "admitted",
+        "hy-100-density": "admitted",
+        "4340-density": "admitted only if the other inputs are rounded",
+        "armco-iron-density": "admitted only if the other inputs are rounded",
+        "s-7-density": "excluded",
+    }
+
+
+def test_evidence_is_checked_where_the_witness_stands() -> None:
+    own = inference()
+    usual, loose = Convention(), Convention(choices_exact=False)
+    assert own.holds_at({DENSITY: F(7850)}, usual)
+    assert not own.holds_at({DENSITY: F(7700)}, usual)
+    # A slower impact asks for a denser target.
+    header = {"a1-resistance": F(35 * 10**8), "a1-density": F(8900), "a1-mass": F("4.962e-11")}
+    slow = {**header, "a1-initial-velocity": F("499.8"), "a-step": F(2, 10**10)}
+    assert [own.holds_at({DENSITY: F(x), **slow}, loose) for x in (7850, 7872)] == [False, True]
+    assert [own.holds_at({DENSITY: F(x), **header}, usual) for x in (7850, 7872)] == [True, False]
+    # With the radius in the point its own print counts, not that of the mass.
+    assert own.holds_at({DENSITY: F(7850), "a1-radius": F(11, 10**6)}, usual)
+
+
+# Bad witnesses
+
+
+def misprinted(name: str, text: str) -> Ledger:
+    return LEDGER.misprint(name, text)
+
+
+@pytest.mark.parametrize("text", ["1.45E+09", "1.54E+08"])
+def test_a_wrong_cell_is_named_and_the_rest_is_judged(text: str) -> None:
+    ledger = misprinted("a1-deceleration-3", text)
+    judge = Judge(ledger)
+    own = judge.inference(DENSITY)
+    assert own.odd == ("a1-deceleration-3",)
+    assert set(own.agreeing) == set(CELLS) - {"a1-deceleration-3"}
+    assert judge.assumed[DENSITY] == 7850
+    assert judge.moved == set()
+    assert judge.assess(ledger.claims["a1-deceleration-3"]).verdict is Verdict.NOT_REPRODUCED
+    for name in ("a1-deceleration-2", "a1-velocity-final-4", "depth-beta-5"):
+        assert judge.assess(ledger.claims[name]).verdict is Verdict.REPRODUCED
+
+
+def test_evidence_that_moves_the_density_is_followed() -> None:
+    """With 3.48 GPa printed for R_t the cells ask for a denser target, and get it."""
+    judge = Judge(misprinted("a1-resistance", "3.48E+09"))
+    assert judge.moved == {DENSITY}
+    assert 7980 < judge.assumed[DENSITY] < 8030
+    assert judge.inference(DENSITY).odd == ()
+
+
+def test_where_nothing_agrees_the_usual_value_is_kept_and_everything_is_odd() -> None:
+    ledger = misprinted("a1-initial-velocity", "400")
+    judge = Judge(ledger)
+    own = judge.inference(DENSITY)
+    assert own.agreeing == ()
+    assert set(own.odd) == set(CELLS)
+    assert judge.assumed[DENSITY] == 7850
+    assert own.admitted(Convention())[1].ends == own.entry.search
+    assert judge.assess(ledger.claims["a1-velocity-final-1"]).verdict is Verdict.NOT_REPRODUCED
+
+
+def test_the_step_is_what_the_times_of_the_table_tell() -> None:
+    """ "0.2 ns" would be 0.15 to 0.25, but four steps print 8.00E-10."""
+    own, loose = inference(), Convention(choices_exact=False)
+    low, high = own.rounded("a-step", loose)
+    assert (float(low), float(high)) == pytest.approx((1.99875e-10, 2.00125e-10), rel=1e-9)
+    assert own.rounded("a-step", replace(loose, choices_exact=True)) == (F(2, 10**10),) * 2
