@@ -282,20 +282,21 @@ def solve(
 
     Parts of the search on which the function only rises or only falls are solved by bisection, the
     others are cut in halves, until the budget of parts runs out; what is still undecided then
-    belongs to the outer intervals.
+    belongs to the outer intervals. So does what is left of parts on some of which the function has
+    no value.
     """
     queue = deque([search])
     inner: list[tuple[Fraction, Fraction]] = []
     outer: list[tuple[Fraction, Fraction]] = []
     while queue:
         part, budget = queue.popleft(), budget - 1
-        range_ = enclose(function, {name: part})
-        if target.excludes(*range_.ends):
+        range_ = _range_or_none(function, {name: part})
+        if range_ is not None and target.excludes(*range_.ends):
             continue
-        if target.encloses(*range_.ends):
+        if range_ is not None and target.encloses(*range_.ends):
             inner.append(part)
             outer.append(part)
-        elif range_.is_monotone:
+        elif range_ is not None and range_.is_monotone:
             first, last = _crossings(function, name, part, target, range_.signs[name] > 0)
             outer.append((first[0], last[1]))
             ends = [_plain(function, {name: (x, x)}) for x in (first[1], last[0])]
@@ -307,6 +308,14 @@ def solve(
         else:
             outer.append(part)
     return Solutions(search, _merged(inner), _merged(outer))
+
+
+def _range_or_none(function: Function, box: Box) -> Range | None:
+    """A proven range, or None where the function has no value, or no bounded one, on some of it."""
+    try:
+        return enclose(function, box)
+    except ArithmeticError:
+        return None
 
 
 def _crossings(

@@ -7,12 +7,12 @@ from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
-from math import inf, nextafter
+from math import inf, isclose, nextafter
 
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
-from reference.equations import MATHML, PLAIN, Node, Notation, evaluate, rendered
+from reference.equations import MATHML, PLAIN, EquationError, Node, Notation, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
 from reference.printed import Interval
 from reference.units import to_si
@@ -255,7 +255,10 @@ class Audit:
     def _formula(
         self, claim: Claim, reading: Reading | None
     ) -> tuple[str, str, str] | tuple[None, None, None]:
-        """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand."""
+        """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand.
+
+        None where it takes more than one equation of the report.
+        """
         if reading is None or reading.verdict is not Verdict.NOT_REPRODUCED:
             return None, None, None
         computation = claim.computations[""]
@@ -267,6 +270,12 @@ class Audit:
             for key, names in claim.inputs.items()
             if key in _SYMBOLS and len(names) == 1
         } | {"D": Fraction(1)}  # L is given in diameters
+        try:
+            value = evaluate(right, Floats(), {key: float(x) for key, x in values.items()})
+        except EquationError:
+            return None, None, None
+        if not isclose(value, reading.computed, rel_tol=1e-9):
+            return None, None, None
         names = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
         put = names | {key: _short(value) for key, value in values.items()}
         marked = [
@@ -498,6 +507,8 @@ _SYMBOLS = {
     "k_t": "k_t",
     "resistance": "R_t",
     "velocity": "V",
+    "elastic_modulus": "E_t",
+    "flow_stress": "Y_t",
 }
 """Input of a computation -> the symbol of the equation that it stands for."""
 

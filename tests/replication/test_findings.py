@@ -1,0 +1,81 @@
+"""Findings: each number in them is computed by the audit, and one that is changed is noticed."""
+
+from fractions import Fraction
+from functools import cache
+
+import pytest
+
+from reference.findings import load as load_findings
+from reference.ledger import Ledger, load
+from replication.audit.audit import audit
+from replication.audit.edits import edits
+from replication.audit.findings import EVIDENCE
+from replication.audit.record import FindingRecord, Record
+
+FINDINGS = load_findings()
+
+
+def test_every_finding_has_evidence_and_all_of_it_is_asserted(record: Record) -> None:
+    assert set(EVIDENCE) == set(FINDINGS)
+    assert [finding.id for finding in record.findings] == [n for n in FINDINGS if n != "headline"]
+    assert record.headline == FINDINGS["headline"].statement
+    for finding in record.findings:
+        assert [part.name for part in finding.evidence] == list(FINDINGS[finding.id].evidence)
+        assert finding.evidence, finding.id
+        assert [part.name for part in finding.evidence if not part.holds] == []
+        assert finding.holds
+
+
+@pytest.mark.parametrize("name", [name for name in FINDINGS if name != "headline"])
+def test_a_changed_number_in_a_finding_is_noticed(name: str, record: Record) -> None:
+    (finding,) = (own for own in record.findings if own.id == name)
+    for part in finding.evidence:
+        assertion, computed = FINDINGS[name].evidence[part.name], part.computed
+        if isinstance(computed, bool):
+            assert not assertion.holds(not computed)
+        elif assertion.relation in ("", "="):
+            value = Fraction(computed)
+            slips = [text for text, kind in edits(assertion.text) if "changed" in kind]
+            assert len(slips) >= 9
+            for text in slips:
+                relation = "= " if assertion.relation else ""
+                altered = type(assertion)(says=relation + text, means=assertion.means)
+                assert not altered.holds(value), (part.name, text)
+        else:
+            opposite = assertion.relation.translate(str.maketrans("<>", "><"))
+            altered = type(assertion)(says=f"{opposite} {assertion.text}", means=assertion.means)
+            assert not altered.holds(Fraction(computed)), part.name
+
+
+PLANTED = {
+    # A misprint of the report, and the findings whose evidence rests on it.
+    "frank-zook-rha": ("0.255", {"frank-zook-pair", "equation-16", "frank-zook-values"}),
+    "observed-depth-ratio": ("0.289", {"observed-digits"}),
+    "fz-resistance-rha": ("9.31E9", {"two-resistances"}),
+    "autodyne-steel-yield": ("430", {"unlike-strengths"}),
+    "diameter-deviation": ("6.5", {"equation-1-scatter"}),
+    "yield-strength": ("251", {"beta-and-flow-stress"}),
+    "copper-yield": ("19", {"rigid-strength"}),
+    "coarse-step": ("0.6", {"two-schemes"}),
+    "cth-ratio": ("0.14", {"cth-pressure"}),
+    "sphere-length-ratio": ("1/3", {"sphere-equivalent"}),
+    "a1-density": ("9800", {"target-density"}),
+}
+
+
+@cache
+def with_misprints() -> dict[str, FindingRecord]:
+    """The findings on a report with all of these misprints, in one audit."""
+    ledger: Ledger = load()
+    for name, (text, _) in PLANTED.items():
+        ledger = ledger.misprint(name, text)
+    spoiled = audit(ledger)
+    assert spoiled.headline != FINDINGS["headline"].statement
+    return {finding.id: finding for finding in spoiled.findings}
+
+
+@pytest.mark.parametrize("name", sorted(set().union(*(names for _, names in PLANTED.values()))))
+def test_a_finding_whose_evidence_is_misprinted_no_longer_holds(name: str) -> None:
+    finding = with_misprints()[name]
+    assert not finding.holds
+    assert not all(part.holds for part in finding.evidence)

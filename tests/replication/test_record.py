@@ -1,0 +1,183 @@
+"""The record of the audit: whole, as its schema says, and the same wherever it is made."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from fractions import Fraction as F
+from math import log
+from pathlib import Path
+
+import jsonschema
+import msgspec
+import pytest
+
+from reference.ledger import INFERRED, load
+from reference.printed import parse
+from replication.audit.record import ClaimRecord, Record, schema
+from replication.audit.verdict import Verdict
+from replication.cases import _CLAIMS, BETA_3, BETA_5
+from replication.plain import json_text
+
+LEDGER = load()
+VERDICTS = {verdict.value for verdict in Verdict}
+
+
+def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> None:
+    document = json.loads(json_text(record))
+    validator = jsonschema.Draft202012Validator(schema())
+    validator.validate(document)
+    for key in document:
+        assert not validator.is_valid({k: v for k, v in document.items() if k != key}), key
+    for key in document["claims"][0]:
+        spoiled = {k: v for k, v in document["claims"][0].items() if k != key}
+        assert not validator.is_valid({**document, "claims": [spoiled]}), key
+    assert not validator.is_valid({**document, "headline": 1})
+
+
+def test_the_record_comes_back_from_its_json(record: Record) -> None:
+    again = msgspec.json.decode(json_text(record).encode(), type=Record)
+    assert json_text(again) == json_text(record)
+    assert again.claim("depth-beta-5") == record.claim("depth-beta-5")
+
+
+@pytest.mark.parametrize("name", LEDGER.claims)
+def test_a_claim_is_complete(name: str, record: Record) -> None:
+    claim = record.claim(name)
+    assert claim.verdict in VERDICTS
+    assert claim.explanation.endswith(".")
+    assert claim.title
+    assert claim.quote
+    assert claim.where
+    assert (claim.interval_exact is None) == (claim.kind == "remark")
+    known = {*LEDGER.claims, *(INFERRED + key for key in LEDGER.inferred)}
+    assert {entry for entries in claim.rests_on.values() for entry in entries} <= known
+    computed = (claim.computed, claim.reference, claim.enclosure_exact, claim.holds or None)
+    assert len({value is None for value in computed}) == 1, "computed with all its proof, or not"
+    if claim.computed is not None:
+        _check_proof(claim)
+    if claim.verdict == "not reproduced" and claim.computed is not None:
+        assert claim.back_solved
+        assert claim.slips
+        assert claim.by_hand
+        assert claim.mathml
+
+
+def _check_proof(claim: ClaimRecord) -> None:
+    assert claim.computed is not None
+    assert claim.reference is not None
+    assert claim.enclosure_exact is not None
+    assert claim.enclosure is not None
+    low, high = (F(str(end)) for end in claim.enclosure_exact)
+    assert claim.enclosure[0] is not None
+    assert claim.enclosure[1] is not None
+    assert F(claim.enclosure[0]) <= low <= high <= F(claim.enclosure[1])
+    slack = abs(F(claim.computed)) / 10**12  # a double is some roundings beside the range
+    assert low - slack <= F(claim.computed) <= high + slack
+    assert claim.holds.endswith(".")
+    conventions = [(j.rounding, j.choices, j.header, j.scheme) for j in claim.otherwise]
+    assert len(set(conventions)) == len(conventions)
+    for judged in claim.otherwise:
+        assert judged.verdict in VERDICTS
+        whole = (claim.verdict, "published")
+        assert (judged.verdict, judged.scheme) != whole, "only what differs is listed"
+
+
+def test_findings_are_named_once_and_rest_on_what_is_there(record: Record) -> None:
+    names = [finding.id for finding in record.findings]
+    assert len(set(names)) == len(names) >= 15
+    for finding in record.findings:
+        assert set(finding.claims) <= {*LEDGER.claims, *LEDGER.equations}
+    for inferred in record.inferred:
+        assert set(inferred.evidence) <= set(LEDGER.claims)
+        assert F(inferred.interval_exact[0]) < F(inferred.assumed) < F(inferred.interval_exact[1])
+        assert inferred.odd == []
+
+
+# What is checked by hand
+
+LINE = re.compile(r"^(?P<left>.+) = (?P<right>[-\d.]+)$")
+
+
+def arithmetic(text: str) -> float:
+    """The value of a line as it stands on the page."""
+    raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+    text = re.sub(r"×10([⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda power: "e" + power[1].translate(raised), text)
+    text = text.replace("·", "*").replace("^", "**").replace("ln", "log")
+    assert re.fullmatch(r"(?:log|[\de.+*/() -])+", text), text
+    return float(eval(text, {"log": log}))  # only digits, signs and log are left
+
+
+def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
+    lines = [
+        line
+        for claim in record.claims
+        for line in (claim.by_hand or "").removesuffix(".").split("; ")
+        if line
+    ]
+    assert len(lines) == 6
+    for line in lines:
+        match = LINE.match(line)
+        assert match is not None, line
+        interval = parse(match["right"]).interval()
+        value = F(arithmetic(match["left"]))
+        # The last line multiplies numbers that stand there with five digits.
+        slack = value / 10**4 if line is lines[2] or line is lines[5] else 0
+        assert interval.meets(type(interval)(value - slack, value + slack)), line
+
+
+# What is assumed where a user says nothing
+
+
+@pytest.mark.parametrize(("case", "beta"), [(BETA_3, 3), (BETA_5, 5)])
+def test_the_cases_are_the_ledgers(case: object, beta: int) -> None:
+    claims = {**_CLAIMS, "beta": f"depth-beta-{beta}-beta"}
+    assert set(claims) == {
+        "velocity", "radius", "particle_density", "target_density", "beta", "flow_stress", "step",
+        "stop_velocity",
+    }  # fmt: skip
+    for name, claim in claims.items():
+        assert getattr(case, name) == float(LEDGER.value(claim)), name
+    printed = {"step": (2e-10, "0.2"), "stop_velocity": (1.0, "1"), "flow_stress": (7e8, "700"),
+               "velocity": (500.0, "500"), "radius": (1.1e-5, None)}  # fmt: skip
+    for name, (value, text) in printed.items():
+        assert getattr(case, name) == value
+        assert text is None or LEDGER.claims[claims[name]].text == text
+
+
+def test_defaults_of_the_model_are_the_reports() -> None:
+    from dataclasses import fields
+
+    from replication.models.impact import Impact
+
+    own = {f.name: f.default for f in fields(Impact) if f.name in ("step", "stop_velocity")}
+    assert own == {
+        "step": float(LEDGER.value("a-step")),
+        "stop_velocity": float(LEDGER.value("a-stop-velocity")),
+    }
+
+
+# The same bytes
+
+ELSEWHERE = (
+    {"PYTHONHASHSEED": "0", "TZ": "UTC", "LC_ALL": "C", "OMP_NUM_THREADS": "1"},
+    {"PYTHONHASHSEED": "7", "TZ": "Asia/Kathmandu", "LC_ALL": "C.UTF-8", "PYTHONOPTIMIZE": "1"},
+)
+
+
+@pytest.mark.slow
+def test_an_audit_elsewhere_has_the_same_bytes(tmp_path: Path) -> None:
+    folders = []
+    for number, environment in enumerate(ELSEWHERE):
+        folder = tmp_path / str(number) / "here"
+        folder.mkdir(parents=True)
+        command = [sys.executable, "-m", "replication", "audit", "--quiet", "--out", "out"]
+        subprocess.run(command, cwd=folder, env={**os.environ, **environment}, check=True)
+        folders.append({p.relative_to(folder): p.read_bytes() for p in folder.rglob("*.*")})
+    first, second = folders
+    assert {path.name for path in first} >= {
+        "audit.json", "audit.html", "audit.md", "audit.csv", "workbook.xlsx", "hard-cases.txt",
+    }  # fmt: skip
+    assert [str(path) for path in first if first[path] != second.get(path)] == []
+    assert set(first) == set(second)
