@@ -8,9 +8,11 @@ from types import ModuleType
 from replication.commands import (
     audit,
     bench,
+    check,
     claims,
     converge,
     depth,
+    diff,
     history,
     sheet,
     stability,
@@ -31,5 +33,7 @@ COMMANDS: tuple[ModuleType, ...] = (
     stability,
     sweep,
     bench,
+    check,
+    diff,
 )
 """In the order in which `coldspray --help` lists them."""

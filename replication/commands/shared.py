@@ -2,14 +2,21 @@
 
 import argparse
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from replication.case import INPUTS, read_case
 from replication.impact import Impact
 
-__all__ = ["case", "given", "input_options", "output_options", "path", "print_json", "warn"]
+if TYPE_CHECKING:
+    from replication.check.difference import Difference
+    from spreadsheets.recalculation import Calculation
+
+__all__ = [
+    "case", "finding_files", "finding_options", "given", "input_options", "output_options", "path", "print_json",
+    "put_findings", "warn",
+]  # fmt: skip
 
 
 def path(text: str) -> Path:
@@ -28,6 +35,46 @@ def output_options(
         form.add_argument("--csv", action="store_true", help="print CSV")
     form.add_argument("--json", action="store_true", help="print JSON")
     command.add_argument("--quiet", action="store_true", help=quiet)
+
+
+def finding_options(command: argparse.ArgumentParser) -> None:
+    """--json, --html, --junit and --quiet: how what was found in a workbook is given."""
+    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument("--html", type=path, metavar="F", help="write a page with the cells marked")
+    command.add_argument("--junit", type=path, metavar="F", help="write a JUnit file")
+    command.add_argument("--quiet", action="store_true", help="print nothing; the status tells")
+
+
+def finding_files(options: argparse.Namespace) -> list[Path]:
+    """The files that are to be written, checked before the work: OSError where that cannot be."""
+    from spreadsheets.safely import check_target
+
+    files = [file for file in (options.html, options.junit) if file is not None]
+    targets = [check_target(file) for file in files]
+    if len(set(targets)) < len(targets):
+        raise ValueError(f"--html and --junit both name {files[0]}: give each its own file")
+    return files
+
+
+def put_findings(
+    options: argparse.Namespace,
+    record: dict[str, Any],
+    differences: "Sequence[Difference]",
+    calculation: "Calculation",
+    kinds: Sequence[str],
+) -> None:
+    """Write the files that were asked for, then print the record as JSON or as text."""
+    from replication.check import junit, page, terminal
+    from spreadsheets.safely import write_bytes
+
+    if options.html is not None:
+        write_bytes(options.html, page.html(record, differences, calculation).encode())
+    if options.junit is not None:
+        write_bytes(options.junit, junit.junit(record, kinds).encode())
+    if options.json:
+        print_json(record)
+    elif not options.quiet:
+        print(terminal.text(record))
 
 
 def input_options(command: argparse.ArgumentParser, default: str = "beta-5") -> None:

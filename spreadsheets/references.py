@@ -1,0 +1,238 @@
+"""A formula as its cell sees it: what it refers to, its shape, and what an engine may be given.
+
+Two formulas have the same shape when the one is the other filled down or across: references become
+distances, as in R1C1 notation (the fingerprints of ExceLint). Names are read as what they stand for.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
+from openpyxl.utils.cell import column_index_from_string, get_column_letter
+
+from spreadsheets.foreign import MAX_FORMULA, Position
+
+__all__ = ["Area", "Formula", "parse"]
+
+MAX_DEPTH = 64
+"""Levels of nesting in Excel. One engine ends the process at some thousands."""
+_MAX_EXPANSIONS = 200
+LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
+
+FUNCTIONS = frozenset(
+    "ABS ACOS AND ASIN ATAN ATAN2 AVERAGE CEILING CHOOSE COLUMN COLUMNS COS COSH COUNT COUNTA"
+    " COUNTBLANK COUNTIF COUNTIFS EXP FALSE FLOOR IF IFERROR IFNA IFS INDEX INT ISBLANK ISERROR"
+    " ISNA ISNUMBER ISTEXT LARGE LN LOG LOG10 LOOKUP MATCH MAX MAXIFS MEDIAN MIN MINIFS MOD N NA"
+    " NOT OFFSET OR PI POWER PRODUCT ROUND ROUNDDOWN ROUNDUP ROW ROWS SIGN SIN SINH SMALL SQRT"
+    " STDEV SUM SUMIF SUMIFS SUMPRODUCT SUMSQ TAN TANH TRUE TRUNC VLOOKUP HLOOKUP XLOOKUP".split()
+)
+"""What an engine may be asked for: functions of bounded cost that reach nothing outside."""
+
+
+class Area(NamedTuple):
+    """All cells between two corners, both counted from 1."""
+
+    sheet: str
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    @property
+    def cells(self) -> int:
+        """How many."""
+        return (self.bottom - self.top + 1) * (self.right - self.left + 1)
+
+    @property
+    def corner(self) -> Position:
+        """The first cell."""
+        return self.sheet, self.top, self.left
+
+    def places(self) -> Iterator[Position]:
+        """Each of them, row by row."""
+        for row in range(self.top, self.bottom + 1):
+            for column in range(self.left, self.right + 1):
+                yield self.sheet, row, column
+
+    def __contains__(self, place: object) -> bool:
+        if not isinstance(place, tuple) or len(place) != 3:
+            return False
+        sheet, row, column = place
+        inside = self.top <= row <= self.bottom and self.left <= column <= self.right
+        return bool(sheet == self.sheet and inside)
+
+
+class Piece(NamedTuple):
+    """One token: its kind, its text, and the area that it refers to, with what is fixed in it."""
+
+    kind: str
+    text: str
+    area: Area | None = None
+    fixed: tuple[bool, bool, bool, bool] = (False, False, False, False)
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula, parsed at its place. `obstacle` says why no engine may compute it, if so."""
+
+    place: Position
+    pieces: tuple[Piece, ...]
+    obstacle: str | None
+
+    @cached_property
+    def areas(self) -> tuple[Area, ...]:
+        """Everything that it refers to."""
+        return tuple(piece.area for piece in self.pieces if piece.area is not None)
+
+    @cached_property
+    def shape(self) -> tuple[str, ...]:
+        """The same for every cell that it is filled into, piece by piece."""
+        return tuple(self._shape(piece) for piece in self.pieces)
+
+    @cached_property
+    def literals(self) -> tuple[float, ...]:
+        """The numbers that are typed into it."""
+        return tuple(float(piece.text) for piece in self.pieces if piece.kind == "number")
+
+    def for_engine(self, sheets: Mapping[str, str]) -> str:
+        """The formula with names resolved and every sheet called as `sheets` says."""
+        return "=" + "".join(
+            piece.text if piece.area is None else _written(piece, sheets[piece.area.sheet])
+            for piece in self.pieces
+        )
+
+    def _shape(self, piece: Piece) -> str:
+        if piece.area is None:
+            return piece.text.upper() if piece.kind == "function" else piece.text
+        sheet, row, column = self.place
+        area, fixed = piece.area, piece.fixed
+        ends = ((area.top, row, 0), (area.left, column, 1), (area.bottom, row, 2), (area.right, column, 3))  # fmt: skip  # noqa: E501
+        steps = [str(end) if fixed[i] else f"[{end - here}]" for end, here, i in ends]
+        prefix = "" if area.sheet == sheet else f"{area.sheet}!"
+        first = f"{prefix}R{steps[0]}C{steps[1]}"
+        return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
+
+
+def parse(
+    text: str, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
+) -> Formula:
+    """Read a formula at its place.
+
+    `sheets` maps the sheets' names in capitals to the names, `names` the defined names in capitals
+    to what they stand for. Never fails: what cannot be read is an obstacle.
+    """
+    obstacle = _unreadable(text)
+    if obstacle:
+        return Formula(place, (Piece("text", text),), obstacle)
+    reader = _Pieces(place, sheets, names)
+    try:
+        pieces = tuple(reader.read(text))
+    except (TokenizerError, IndexError, ValueError):
+        return Formula(place, (Piece("text", text),), "it cannot be read")
+    return Formula(place, pieces, reader.obstacle)
+
+
+def _unreadable(text: str) -> str | None:
+    if len(text) > MAX_FORMULA:
+        return f"it has more than {MAX_FORMULA:,} characters"
+    depth = deepest = 0
+    for character in text:
+        depth += (character in "([{") - (character in ")]}")
+        deepest = max(deepest, depth)
+    return f"it is nested more than {MAX_DEPTH} levels deep" if deepest > MAX_DEPTH else None
+
+
+_CELL = r"(\$?)([A-Za-z]{1,3})(\$?)([1-9][0-9]{0,6})"
+_REFERENCE = re.compile(
+    rf"(?:(?P<sheet>'(?:[^']|'')+'|[^'!\[\]]+)!)?"
+    rf"(?:{_CELL}(?::{_CELL})?|(\$?)([A-Za-z]{{1,3}}):(\$?)([A-Za-z]{{1,3}})"
+    rf"|(\$?)([1-9][0-9]{{0,6}}):(\$?)([1-9][0-9]{{0,6}}))#?"
+)
+
+
+class _Pieces:
+    """Turns tokens into pieces; `obstacle` collects the first reason not to compute."""
+
+    def __init__(
+        self, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
+    ) -> None:
+        self.place, self.sheets, self.names = place, sheets, names
+        self.obstacle: str | None = None
+        self.expansions = 0
+
+    def read(self, text: str) -> Iterator[Piece]:
+        for token in Tokenizer(text).items:
+            yield from self.pieces(token)
+
+    def stop(self, reason: str) -> None:
+        self.obstacle = self.obstacle or reason
+
+    def pieces(self, token: Token) -> Iterator[Piece]:
+        value, kind = token.value, token.type
+        if kind == Token.WSPACE:
+            return
+        if kind == Token.OPERAND and token.subtype == Token.RANGE:
+            yield from self.operand(value)
+        elif kind == Token.OPERAND and token.subtype == Token.NUMBER:
+            yield Piece("number", value)
+        elif kind == Token.FUNC and token.subtype == Token.OPEN:
+            name = value.rstrip("(").upper().removeprefix("_XLFN.").removeprefix("_XLWS.")
+            if name not in FUNCTIONS:
+                self.stop(f"it uses {name[:40]}")
+            yield Piece("function", f"{name}(")
+        else:
+            if kind == Token.ARRAY:
+                self.stop("it holds an array")
+            yield Piece("sign", value)
+
+    def operand(self, value: str) -> Iterator[Piece]:
+        match = _REFERENCE.fullmatch(value)
+        if match is not None and (area := self.area(match)) is not None:
+            yield area
+            return
+        meaning = self.names.get(f"'{self.place[0]}'!{value}".upper(), self.names.get(value.upper()))
+        if meaning is None or self.expansions > _MAX_EXPANSIONS:
+            outside = "[" in value or "|" in value
+            self.stop("it refers outside the workbook" if outside else f"nothing is called {value[:40]}")
+            yield Piece("name", value)
+            return
+        self.expansions += 1
+        inner = tuple(self.read(f"={meaning.removeprefix('=')}"))
+        yield from inner if len(inner) == 1 else (Piece("sign", "("), *inner, Piece("sign", ")"))
+
+    def area(self, match: re.Match[str]) -> Piece | None:
+        named = match["sheet"]
+        sheet = self.place[0] if named is None else self.sheets.get(_unquoted(named).upper())
+        if sheet is None:
+            return None
+        g = match.groups()[1:]
+        if g[1] is not None:
+            first = (g[2], int(g[3]), g[0], column_index_from_string(g[1]))
+            last = first if g[5] is None else (g[6], int(g[7]), g[4], column_index_from_string(g[5]))
+        elif g[9] is not None:
+            first = ("$", 1, g[8], column_index_from_string(g[9]))
+            last = ("$", LAST_ROW, g[10], column_index_from_string(g[11]))
+        else:
+            first, last = (g[12], int(g[13]), "$", 1), (g[14], int(g[15]), "$", LAST_COLUMN)
+        area = Area(
+            sheet, min(first[1], last[1]), min(first[3], last[3]),
+            max(first[1], last[1]), max(first[3], last[3]),
+        )  # fmt: skip
+        if area.bottom > LAST_ROW or area.right > LAST_COLUMN:
+            return None
+        fixed = (bool(first[0]), bool(first[2]), bool(last[0]), bool(last[2]))
+        return Piece("area", match[0], area, fixed)
+
+
+def _unquoted(sheet: str) -> str:
+    return sheet[1:-1].replace("''", "'") if sheet.startswith("'") else sheet
+
+
+def _written(piece: Piece, sheet: str) -> str:
+    area = piece.area
+    assert area is not None
+    first = f"{sheet}!{get_column_letter(area.left)}{area.top}"
+    return first if area.cells == 1 else f"{first}:{get_column_letter(area.right)}{area.bottom}"
