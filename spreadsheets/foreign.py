@@ -7,12 +7,15 @@ file of a kilobyte keeps it busy for hours, and it gives formulas or stored valu
 """
 
 import math
+import os
 import re
 import shutil
+import signal
 import subprocess
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
@@ -31,7 +34,7 @@ MAX_UNPACKED = 192 * 2**20
 """Bytes of a file, packed and unpacked; the largest sheet allowed below takes some 40 MB."""
 MAX_ENTRIES = 10_000
 MAX_CELLS = 400_000
-MAX_FORMULAS = 120_000
+MAX_FORMULAS = 60_000
 """A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
 MAX_PART = 8 * 2**20
 """Bytes of a part that is held as a tree: the list of sheets, names, relations."""
@@ -40,6 +43,10 @@ MAX_TEXT = 32_767
 MAX_FORMULA = 8_192
 """Characters of a formula in Excel."""
 CONVERT_LIMIT_S = 120
+_MEMORY = 4 * 2**30
+"""Bytes that LibreOffice may address; it starts with less than two of the four gigabytes."""
+_SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
+"""How .xls files begin, and encrypted workbooks of any kind."""
 
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
 
@@ -98,7 +105,10 @@ def read(path: Path) -> Book:
     if _is_xlsx(path):
         return _read(path)
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
-        raise WorkbookError(f"{path}: is no workbook; a file such as .xlsx or .xlsm is wanted")
+        with path.open("rb") as file:
+            sealed = file.read(len(_SEALED)) == _SEALED
+        what = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
+        raise WorkbookError(f"{path}: {what}; an open .xlsx or .xlsm file is wanted")
     with TemporaryDirectory(prefix="coldspray-") as folder:
         book = _read(_converted(path, Path(folder)), shown=path)
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
@@ -129,28 +139,65 @@ def _read(path: Path, shown: Path | None = None) -> Book:
 
 
 def _converted(path: Path, folder: Path) -> Path:
-    """The same workbook as .xlsx, saved by LibreOffice in a profile of its own."""
+    """The same workbook as .xlsx, saved by LibreOffice in a profile of its own, where macros are off."""
     soffice = shutil.which("soffice") or shutil.which("libreoffice")
     if soffice is None:
         raise WorkbookError(
             f"{path}: {path.suffix} files are read by way of LibreOffice, which is not installed; "
             "save it as .xlsx"
         )
-    profile = (folder / "profile").as_uri()
-    options = ["--headless", "--norestore", f"-env:UserInstallation={profile}"]
+    if zipfile.is_zipfile(path):
+        _check_unpacked(path)
     source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
-    command = [soffice, *options, "--convert-to", "xlsx", "--outdir", str(folder / "out"), source]
-    try:
-        # A first run in a new profile may end with a wish to start again.
-        for _ in range(2):
-            subprocess.run(command, capture_output=True, timeout=CONVERT_LIMIT_S, check=False)
-            if (folder / "out" / "workbook.xlsx").is_file():
-                return folder / "out" / "workbook.xlsx"
-    except subprocess.TimeoutExpired as error:
-        raise WorkbookError(
-            f"{path}: LibreOffice did not open it within {CONVERT_LIMIT_S} s"
-        ) from error
+    options = ["--headless", "--norestore", f"-env:UserInstallation={(folder / 'profile').as_uri()}"]
+    command = [soffice, *options, "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source)]
+    for _ in range(2):  # a first run in a new profile may end with a wish to start again
+        _run(command, path)
+        if (folder / "out" / "workbook.xlsx").is_file():
+            return folder / "out" / "workbook.xlsx"
     raise WorkbookError(f"{path}: LibreOffice cannot open it")
+
+
+def _check_unpacked(path: Path) -> None:
+    left = MAX_UNPACKED
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for name in archive.namelist():
+                with archive.open(name) as stream:
+                    while left >= 0 and (chunk := stream.read(2**20)):
+                        left -= len(chunk)
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
+        raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
+    if left < 0:
+        raise WorkbookError(f"{path}: is refused: it unpacks to too many bytes; {_LIMITS}")
+
+
+def _run(command: list[str], path: Path) -> None:
+    """Run LibreOffice within bounds of time, memory and disk, and leave none of its processes."""
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(
+        command, stdout=quiet, stderr=quiet, start_new_session=True,
+        preexec_fn=_limited if os.name == "posix" else None,
+    ) as process:
+        try:
+            process.wait(CONVERT_LIMIT_S)
+        except subprocess.TimeoutExpired as error:
+            raise WorkbookError(
+                f"{path}: LibreOffice did not open it within {CONVERT_LIMIT_S} s"
+            ) from error
+        finally:
+            if hasattr(os, "killpg"):
+                with suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+            process.kill()
+
+
+def _limited() -> None:
+    """Bound the memory and the file size of a process that is about to start."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
 class _Reader:
@@ -228,13 +275,11 @@ class _Reader:
         }
 
     def tree(self, part: str) -> ET.Element:
-        builder = _Tree()
-        self.parse(part, builder, MAX_PART)
-        root = builder.close()
+        root = self.parse(part, _Tree(), MAX_PART)
         assert isinstance(root, ET.Element)
         return root
 
-    def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> None:
+    def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
         """Feed a part to a target, counting what comes out of the archive, not what it says."""
         parser = ET.XMLParser(target=target)  # noqa: S314  (its targets refuse document types)
         taken = 0
@@ -245,8 +290,7 @@ class _Reader:
                 if self.left < 0 or taken > limit:
                     raise WorkbookError(f"is refused: it unpacks to too many bytes; {_LIMITS}")
                 parser.feed(chunk)
-        if taken == 0:
-            raise WorkbookError(f"is damaged: its part {part} is empty")
+        return parser.close()
 
     def count(self, formula: bool) -> None:
         self.cells += 1

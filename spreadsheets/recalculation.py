@@ -38,6 +38,13 @@ class Calculation:
         value = None if place is None else self.values.get(place)
         return float(value) if isinstance(value, float) else None
 
+    def error(self, place: Position) -> str | None:
+        """The error that a formula gives, but for #N/A, which people let it give on purpose."""
+        value = self.values.get(place)
+        if place in self.formulas and isinstance(value, str) and value.startswith("#"):
+            return None if value == "#N/A" else value
+        return None
+
     @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a name, with it."""
@@ -112,12 +119,12 @@ def calculate(book: Book) -> Calculation:
     reasons = dict(refused)
     for place, value in computed.items():
         stored = book[place]
-        if isinstance(value, str) and value.startswith("#") and not stored.error:
+        wrong = isinstance(value, str) and value.startswith("#")
+        if wrong and stored.value is not None and not stored.error:
             # An engine's error beside a value that its author saw says that the engine cannot.
             reasons[place] = f"the engine gives {value}"
-            if stored.value is not None:
-                continue
-        values[place] = value
+        else:
+            values[place] = value
     return Calculation(book, formulas, values, reasons)
 
 

@@ -7,7 +7,7 @@ distances, as in R1C1 notation (the fingerprints of ExceLint). Names are read as
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
@@ -153,6 +153,12 @@ _REFERENCE = re.compile(
 )
 
 
+@lru_cache(maxsize=4096)
+def _tokens(text: str) -> tuple[Token, ...]:
+    """The tokens of a formula; names mean the same again and again."""
+    return tuple(Tokenizer(text).items)
+
+
 class _Pieces:
     """Turns tokens into pieces; `obstacle` collects the first reason not to compute."""
 
@@ -164,7 +170,7 @@ class _Pieces:
         self.expansions = 0
 
     def read(self, text: str) -> Iterator[Piece]:
-        for token in Tokenizer(text).items:
+        for token in _tokens(text):
             yield from self.pieces(token)
 
     def stop(self, reason: str) -> None:

@@ -25,6 +25,8 @@ __all__ = ["Input", "Setting", "agreement", "braked", "find", "solve"]
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
 worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
+_ROUNDED = 12
+"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _MAX_CANDIDATES = 4_000
 _MAX_CHOICES = 64
 
@@ -55,7 +57,8 @@ class Setting:
     """A table with its inputs, and the powers of ten between its columns and SI units.
 
     `slips` are units of heads that contradict the rest: role -> the power of ten that is wrong.
-    `negative`: decelerations are negative in the workbook. `read` are all cells outside the table
+    `negative`: decelerations are negative in the workbook. `digits`: how many digits the numbers
+    have, if they are typed and rounded. `read` are all cells outside the table
     that it reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs
     that it does not read.
     """
@@ -67,9 +70,15 @@ class Setting:
     slips: Mapping[str, int]
     rows: Rows
     negative: bool
+    digits: int | None = None
     read: frozenset[Position] = frozenset()
     derived: Mapping[str, Input] = field(default_factory=dict)
     unread: tuple[Input, ...] = ()
+
+    @property
+    def near(self) -> float:
+        """The relative distance below which a cell follows a rule."""
+        return NEAR if self.digits is None else 10.0 ** (2 - self.digits)
 
     def with_case(self, case: Case) -> "Setting":
         """The same table with another case."""
@@ -88,21 +97,34 @@ def find(
     `mapped` are the cells that the user named. Raises ValueError, saying what to give, when two
     cells could be the same input and the rows do not decide.
     """
-    read = _read(table, calculation)
+    inside = table.places
+    from_table = _read((place for place in inside if place in calculation.formulas), calculation)
+    read = {place: far for place, far in from_table.items() if place not in inside}
     candidates = list(_candidates(calculation, tables))
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
-    typed = [cell for cell in reads if cell.place not in calculation.formulas]
-    choices = _by_role(typed, report)
+    nearest = {
+        role: _nearest(cells, read, calculation)
+        for role, cells in _by_role(reads, _hinted(report, table), bool(read)).items()
+    }
+    choices = {
+        role: typed
+        for role, cells in nearest.items()
+        if (typed := [cell for cell in cells if cell.place not in calculation.formulas])
+    }
     for role, place in mapped.items():
         choices[role] = [_mapped(role, place, candidates, calculation, report)]
-    unread = _by_role([c for c in candidates if read and c not in reads
-                       and c.place not in calculation.formulas], report)  # fmt: skip
+    others = (cell for cell in candidates if read and cell.place not in read and cell.label)
+    typed = [cell for cell in others if cell.place not in calculation.formulas]
+    unread = _by_role(typed, report, read=True)
     if "stop_velocity" not in choices and len(unread.get("stop_velocity", ())) == 1:
         # Whoever ends the rows by hand reads the stop velocity with his eyes.
         choices["stop_velocity"] = unread.pop("stop_velocity")
     setting = _settled(table, choices, calculation, report)
     taken = {own.place for own in setting.inputs.values()}
-    again = _by_role([cell for cell in reads if cell.place not in taken], report)
+    left = [cell for cell in reads if cell.place not in taken]
+    again = {
+        role: _nearest(cells, read, calculation) for role, cells in _by_role(left, report).items()
+    }
     derived = {
         role: own if own is not None and own.place else again[role][0]
         for role in ("mass", "diameter", "resistance")
@@ -112,18 +134,38 @@ def find(
     return replace(setting, read=frozenset(read), derived=derived, unread=single)
 
 
-def _read(table: Table, calculation: Calculation) -> set[Position]:
-    """Every cell outside the table that its formulas read, directly or through others."""
-    stack = [place for place in table.places if place in calculation.formulas]
-    seen = set(stack)
-    while stack:
-        formula = calculation.formulas.get(stack.pop())
-        for area in formula.areas if formula else ():
-            if area.cells <= 64:
-                new = [place for place in area.places() if place not in seen]
-                seen.update(new)
-                stack.extend(new)
-    return seen - set(table.places)
+def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
+    """Every cell that some cells' formulas read, and through how many others; 0 for themselves."""
+    edge = list(cells)
+    found = dict.fromkeys(edge, 0)
+    distance = 0
+    while edge:
+        distance += 1
+        formulas = (formula for place in edge if (formula := calculation.formulas.get(place)))
+        areas = (area for formula in formulas for area in formula.areas if area.cells <= 64)
+        edge = list({p for area in areas for p in area.places() if p not in found})
+        found.update(dict.fromkeys(edge, distance))
+    return found
+
+
+def _nearest(
+    cells: Sequence[Input], read: Mapping[Position, int], calculation: Calculation
+) -> list[Input]:
+    """Of the cells for one role those that are read most directly; constants behind conversions."""
+    far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
+    near = [cell for cell in cells if far[cell] == min(far.values())]
+    sources = {_source(cell.place, calculation) for cell in near if cell.place}
+    return [cell for cell in cells if cell.place in sources] or near
+
+
+def _source(place: Position, calculation: Calculation) -> Position:
+    """The cell that a formula brings into another unit, if it reads only that."""
+    for _ in range(8):
+        formula = calculation.formulas.get(place)
+        if formula is None or len(formula.areas) != 1 or formula.areas[0].cells > 1:
+            break
+        place = formula.areas[0].corner
+    return place
 
 
 # ---- cells by label, name and value
@@ -167,28 +209,45 @@ def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
     above = [text(row - i, column) for i in range(1, 3)]
     right = [text(row, column + i) for i in range(1, 3)]
     for cells in (left, above, right):
-        for cell in cells:
-            if cell and not is_unit(cell):
-                return cell, unit or unit_in(cell)
+        words = [cell for cell in cells if cell and not is_unit(cell)]
+        known = (cell for cell in words if input_roles(cell, unit))
+        if words:  # "β | resistance over flow stress | 3": the nearest that says something
+            label = next(known, words[0])
+            return label, unit or unit_in(label)
     return "", unit
 
 
-def _by_role(cells: Sequence[Input], report: Report) -> dict[str, list[Input]]:
-    """Cells by role: first those whose label has one meaning, then by value for roles left over."""
+def _by_role(
+    cells: Sequence[Input], report: Report, read: bool = False
+) -> dict[str, list[Input]]:
+    """Cells by role: first those whose label has one meaning, then by value for roles left over.
+
+    `read`: the table reads them all.
+    """
     found: dict[str, list[Input]] = {}
     for cell in cells:
         if len(cell.roles) == 1:
             (role,) = cell.roles
             found.setdefault(role, []).append(_as_role(cell, role, report))
     for cell in cells:
-        unlabelled = not cell.label or cell.unit is not None
-        roles = cell.roles or (_like_the_report(cell, report) if unlabelled else ())
+        # A label that says nothing known may be in another language, if the table reads the cell.
+        any_label = read or not cell.label or cell.unit is not None
+        roles = cell.roles or (_like_the_report(cell, report) if any_label else ())
         left = [role for role in roles if role not in found]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, role, report))
             how = cell.how if cell.roles else "value"
             found.setdefault(nearest, []).append(replace(_as_role(cell, nearest, report), how=how))
     return found
+
+
+def _hinted(report: Report, table: Table) -> Report:
+    """The report's values, and those that the table itself shows of velocity and step."""
+    speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
+    first = tuple(itertools.islice((speed for speed in speeds if speed), 1))
+    times = [table.number("time", k) for k in (2, 3)]
+    step = tuple(b - a for a, b in [times] if a is not None and b is not None)
+    return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
 def _like_the_report(cell: Input, report: Report) -> list[str]:
@@ -205,14 +264,18 @@ def _distance(cell: Input, role: str, report: Report) -> float:
 
 
 def _as_role(cell: Input, role: str, report: Report) -> Input:
-    """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand."""
+    """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
+
+    If it has the digits of the report's, any power of ten will do.
+    """
     factor = Fraction(1)
     if INPUTS[role] != "1":
         if cell.unit:
             factor = to_si(cell.unit)
         elif role in report and cell.si > 0:
-            power = min((math.log10(value / cell.si) for value in report[role]), key=abs)
-            factor = Fraction(1000) ** round(power / 3)
+            ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
+            same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
+            factor = Fraction(10) ** (3 * round(_round(ratios[0]) / 3) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
 
 
@@ -233,10 +296,18 @@ def _mapped(
 # ---- the setting that the rows agree with
 
 
+_FOLLOWS = {
+    "diameter": {"radius"}, "mass": {"particle_density"}, "resistance": {"beta", "flow_stress"},
+}  # fmt: skip
+
+
 def _settled(
     table: Table, choices: Mapping[str, list[Input]], calculation: Calculation, report: Report
 ) -> Setting:
     """One cell for each role: where there are several, those that the rows agree with."""
+    for role, enough in _FOLLOWS.items():  # what follows from others can be done without
+        if enough <= set(choices) and len(choices.get(role, ())) > 1:
+            choices = {name: cells for name, cells in choices.items() if name != role}
     several = {
         role: cells
         for role, cells in choices.items()
@@ -275,23 +346,36 @@ def _setting(
     inputs = _completed(chosen, columns, calculation, report)
     names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
              "stop_velocity")  # fmt: skip
-    for name in names:
-        _check(inputs.get(name))
+    for own in inputs.values():
+        _check(own)
     case = Case(**{name: inputs[name].si for name in names if name in inputs})
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
-    setting = Setting(table, inputs, case, powers, slips, Rows(columns, case), negative)
+    digits = _digits(table, calculation)
+    setting = Setting(table, inputs, case, powers, slips, Rows(columns, case), negative, digits)
     return _solved_back(setting, calculation, report)
 
 
-def _check(own: Input | None) -> None:
+def _check(own: Input) -> None:
     """Raise ValueError for an input that no motion has."""
-    if own is not None and not 1e-100 < own.si < 1e100 and own.role != "stop_velocity":
+    if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
         where = "its rows" if own.place is None else address(own.place, True)
         raise ValueError(
             f"{where}: taken for {title(own.role)}, is {own.si:g}; a number greater than zero is "
             f"wanted, or --map {own.role}=CELL"
         )
+
+
+def _digits(table: Table, calculation: Calculation) -> int | None:
+    """How many digits the table's numbers have, if they are typed and rounded; else None."""
+    roles = [role for role in ("depth", "deceleration") if role in table.lines]
+    places = [table.place(role, k) for role in roles for k in range(1, table.steps + 1)]
+    if any(place in calculation.formulas for place in places):
+        return None
+    numbers = [number for place in places if (number := calculation.number(place))]
+    texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
+    most = max((len(text.strip("0")) for text in texts), default=17)
+    return most if most <= _ROUNDED else None
 
 
 def _powers(
@@ -326,14 +410,15 @@ def _powers(
     brake = typical(ratio(change(speed, k + later), number("deceleration", k)) for k in rows)
     named = {role: _power(line.unit) for role, line in table.lines.items()}
     start = next((v for k in range(table.steps + 1) if (v := abs(number(speed, k)))), 1.0)
-    impact = inputs["velocity"].si if "velocity" in inputs else report["velocity"][0]
+    impact = inputs["velocity"].si if "velocity" in inputs else 0.0
+    impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed], _round(impact / start)} - {None}
     steps = [inputs["step"].si] if "step" in inputs else []
     if step and named.get("time") is not None:
         steps.append(step * 10.0 ** (named["time"] or 0))
     if step or move:
         steps.append((step or move) * 1000.0 ** round(_round(report["step"][0] / (step or move)) / 3))
-    best: tuple[tuple[int, float], dict[str, int]] | None = None
+    best: tuple[tuple[int, int], dict[str, int]] | None = None
     for power in speeds:
         for dt in [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]:
             v = 10.0 ** (power or 0)
@@ -343,7 +428,7 @@ def _powers(
                 for role in table.lines
             }
             against = sum(named[role] not in (None, power) for role, power in powers.items())
-            far = abs(math.log10(dt / report["step"][0])) + abs(math.log10(start * v / impact))
+            far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
             if best is None or (against, far) < best[0]:
                 best = (against, far), powers
     assert best is not None
@@ -426,9 +511,11 @@ def _shortest(value: float, near: float) -> float:
     return next((d for d in decimals if math.isclose(d, value, rel_tol=near)), value)
 
 
-def agreement(setting: Setting, near: float = NEAR, rules: Sequence[Rule] = BRAKES[:2]) -> float:
+def agreement(
+    setting: Setting, near: float | None = None, rules: Sequence[Rule] = BRAKES[:2]
+) -> float:
     """Which share of the rows brakes as its own depth and velocity say, by the best of the rules."""
-    return max(_agrees(setting, rule, near) for rule in rules)
+    return max(_agrees(setting, rule, setting.near if near is None else near) for rule in rules)
 
 
 def _agrees(setting: Setting, rule: Rule, near: float) -> float:

@@ -94,7 +94,7 @@ def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
         typed = any(
             math.isclose(number, wanted, rel_tol=1e-12)
             for wanted in values
-            if not _plain(wanted)
+            if math.isfinite(wanted) and not _plain(wanted)
             for number in formula.literals
         )
     return typed and not any(

@@ -43,8 +43,6 @@ from spreadsheets.recalculation import Calculation
 
 __all__ = ["Verdict", "judge", "rank"]
 
-_ROUNDED = 12
-"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _LIMIT = 20_000
 """Rows that a run computed for comparison may have."""
 
@@ -76,13 +74,12 @@ class Verdict:
 def judge(setting: Setting, calculation: Calculation, report: Report) -> Verdict:
     """Every difference between a table and the report's sheet, but for its printed numbers."""
     judged = _Judge(setting, calculation, report)
-    digits = judged.digits()
     judged.units()
     judged.inputs()
-    if digits is None:
+    if setting.digits is None:
         judged.cell_by_cell()
     else:
-        judged.as_rounded(digits)
+        judged.as_rounded(setting.digits)
     judged.stop()
     return judged.verdict()
 
@@ -115,6 +112,8 @@ class _Judge:
         self, kind: str, cells: Sequence[Position], expected: Text, found: Text, text: str
     ) -> None:
         order = rank(cells[0], self.setting, self.calculation)
+        if isinstance(expected, float) and not math.isfinite(expected):
+            expected = None
         self.found.append(Difference(cells[0], kind, expected, found, text, tuple(cells), order))
 
     def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
@@ -131,17 +130,6 @@ class _Judge:
     def held(self, place: Position) -> Text:
         value = self.calculation.values.get(place)
         return value if isinstance(value, float | str) else None
-
-    def digits(self) -> int | None:
-        """How many digits the table's numbers have, if they are typed and rounded; else None."""
-        roles = [role for role in ("depth", "deceleration") if role in self.table.lines]
-        places = [place for role in roles for place in self.cells(role, 1)]
-        if any(place in self.calculation.formulas for place in places):
-            return None
-        numbers = [number for place in places if (number := self.calculation.number(place))]
-        texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
-        most = max((len(text.strip("0")) for text in texts), default=17)
-        return most if most <= _ROUNDED else None
 
     # ---- units and inputs
 
@@ -284,7 +272,8 @@ class _Judge:
         speed = abs(rows("velocity_initial", k) or 0.0)
         size = speed if part == "end" else abs(wanted)
         # Where no column holds the deceleration, the velocities' own rounding is in it.
-        slack = 0.0 if "deceleration" in rows.columns else 1e-15 * speed / self.case.step
+        rounded = part == "brake" and "deceleration" not in rows.columns
+        slack = 1e-15 * speed / self.case.step if rounded else 0.0
         return abs(found - wanted) <= NEAR * size + slack
 
     def choose(self) -> None:
@@ -292,6 +281,8 @@ class _Judge:
         chosen = {"start": next((r for r in STARTS if self.follows("start", r, 1)), STARTS[0])}
         unknown = []
         for part, rules in (("advance", ADVANCES), ("brake", BRAKES), ("end", ENDINGS)):
+            if part == "end" and "deceleration" not in self.table.lines:
+                continue  # the brake is known by it
             shares = [self.share(part, rule) for rule in rules]
             chosen[part] = rules[shares.index(max(shares))] if max(shares) >= 0.5 else rules[0]
             if max(shares) < 0.5:
@@ -403,6 +394,8 @@ class _Judge:
                 place, expected = self.table.place(role, k), self.expected(role, k)
                 if place in odd:
                     kind, text = odd.pop(place)
+                    if error := self.calculation.error(place):
+                        kind, text = "odd formula", f"{text}; it gives {error}"
                 elif place not in accused and self.fails(role, k, expected):
                     kind, text = self.lone(role, k, expected)
                 else:
@@ -421,6 +414,8 @@ class _Judge:
         if role == "time":
             before = rows.columns["time"].get(k - 1, (k - 1) * self.case.step)
             return before + self.case.step if k else None
+        if role == "velocity_final" and k == 0:
+            return self.case.velocity
         if role.startswith("velocity") and k > (role == "velocity_initial"):
             if role == "velocity_initial" and "velocity_final" in rows.columns:
                 return rows("velocity_final", k - 1)
@@ -436,7 +431,10 @@ class _Judge:
         column = self.setting.rows.columns[role]
         found = column.get(k)
         if found is None:
-            return min(column) < k < max(column)
+            inside = bool(column) and min(column) < k < max(column)
+            return self.breaks(self.table.place(role, k)) or (
+                inside and not self.calculation.error(self.table.place(role, k))
+            )
         if expected is None:
             return False
         size = abs(expected)
@@ -444,11 +442,21 @@ class _Judge:
             size = max(size, abs(self.setting.rows("velocity_initial", max(k - 1, 0)) or 0.0))
         return abs(found - expected) > NEAR * size
 
+    def breaks(self, place: Position) -> bool:
+        """Whether a cell gives an error that comes from no other cell of the table."""
+        formula = self.calculation.formulas.get(place)
+        if formula is None or not self.calculation.error(place):
+            return False
+        read = (cell for area in formula.areas if area.cells == 1 for cell in [area.corner])
+        return not any(cell != place and self.calculation.error(cell) for cell in read)
+
     def lone(self, role: str, k: int, expected: float | None) -> tuple[str, str]:
         """The kind of a cell that alone is not what the cells before it give."""
         place = self.table.place(role, k)
         found, typed = self.setting.rows.columns[role].get(k), place not in self.calculation.formulas
         what = f"{title(role)} of row {k} is not what the cells before it give"
+        if error := self.calculation.error(place):
+            return "odd formula", f"{title(role)} of row {k} gives {error}, as do all cells that read it"
         if found is None:
             return "typed number" if typed else "odd formula", f"no number in {title(role)} of row {k}"
         if role == "time" and k == 1 and found == 0:
@@ -467,12 +475,14 @@ class _Judge:
             if own.place is None:
                 continue
             for role in self.table.lines:
+                places = self.cells(role, 0)
                 cells = [
                     place
-                    for k, place in enumerate(self.cells(role, 0))
+                    for k, place in enumerate(places)
                     if place not in accused and self.typed_in(own, role, k, place)
                 ]
-                if cells:
+                # A number in a few formulas of many is one of their own, such as the row's.
+                if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
                     found = self.calculation.book[cells[0]].formula or self.held(cells[0])
                     where = address(own.place, with_sheet=own.place[0] != cells[0][0])
                     text = f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change there changes nothing here"  # noqa: E501
@@ -524,7 +534,7 @@ class _Judge:
     def differing(self, role: str, rows: Sequence[int], mass: float) -> list[int]:
         """The rows whose value no order gives."""
         case, column = replace(self.case, own_mass=mass), self.setting.rows.columns[role]
-        return [k for k in rows if column[k] not in self.ordered(role, k, case)]
+        return [k for k in rows if column[k] not in (self.ordered(role, k, case) or {column[k]})]
 
     def ordered(self, role: str, k: int, case: Case) -> set[float]:
         rows = self.setting.rows

@@ -1,5 +1,6 @@
 """What `check` and `diff` found, as one JSON document that text, page and JUnit file are made from."""
 
+import math
 import unicodedata
 from collections import Counter
 from typing import Any
@@ -17,8 +18,8 @@ __all__ = ["check_record", "diff_record", "safe"]
 
 
 def check_record(check: Check) -> dict[str, Any]:
-    """The document of `coldspray check --json`."""
-    return {
+    """The document of `coldspray check --json`; a number beyond doubles is null."""
+    return _finite({
         "file": str(check.path),
         "verdict": _verdict(check),
         "clean": check.first is None,
@@ -29,7 +30,7 @@ def check_record(check: Check) -> dict[str, Any]:
         "final_depths": [_depth(verdict) for verdict in check.verdicts],
         "claims": [_claim(number) for number in check.held],
         "notes": list(check.calculation.book.notes),
-    }
+    })
 
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
@@ -49,6 +50,14 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
         "claims": [],
         "notes": [note for c in comparison.calculations for note in c.book.notes],
     }
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _difference(difference: Difference) -> dict[str, Any]:
@@ -82,7 +91,7 @@ def _verdict(check: Check) -> str:
     if not faults:
         others = check.summary.get("other input", 0)
         inputs = f", with {count(others, 'other input')}" if others else ""
-        if all(verdict.ends for verdict in check.verdicts):
+        if any(verdict.ends for verdict in check.verdicts):
             return f"Clean: the report's sheet{inputs}, cell by cell."
         return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
     if not causes:
@@ -94,7 +103,7 @@ def _verdict(check: Check) -> str:
         own, right = verdict.final_depth, verdict.right_depth
         if own is not None and right is not None and _apart(own, right):
             return f"{sentence}; the final depth is {_um(own)}, and should be {_um(right)}."
-    if all(v.right_depth is not None and v.ends for v in check.verdicts):
+    if all(v.right_depth and v.final_depth and v.ends for v in check.verdicts):
         return f"{sentence}; the final depth is right all the same."
     return f"{sentence}."
 

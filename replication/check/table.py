@@ -20,6 +20,8 @@ __all__ = ["Line", "Table", "address", "area_of", "tables"]
 LEAST_ROWS = 4
 """Fewer numbers below each other are no table; the report itself prints five rows."""
 _MAX_LINES = 60
+_SAMPLE = 500
+"""Rows that are looked at to see whether two columns may belong together."""
 _GAP = 3
 """Cells that a column may lack: a blank or an error in its middle."""
 _CLOSE = 0.02
@@ -173,18 +175,22 @@ def tables(calculation: Calculation, mapped: Mapping[str, Line]) -> list[Table]:
         if not any(_copied(table, depth, calculation) for table in found):
             chosen = {"depth": depth, "velocity": velocity}
             table = _completed(chosen, lines, found, {}, calculation)
-            if table is not None:
+            # Other quantities grow like this, too: it takes a third one, or names.
+            if table is not None and (len(table.lines) > 2 or set(table.how.values()) == {"head"}):
                 found.append(table)
+    found = [table for table in found if not _viewed(table, found, calculation)]
     sheets = list(calculation.book.sheets)
     return sorted(found, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
 
 
 def _lines(calculation: Calculation) -> Iterator[Line]:
     """Runs of numbers, down the columns and along the rows, those of the same line joined."""
-    by_sheet: dict[str, dict[tuple[int, int], float]] = {s: {} for s in calculation.book.sheets}
+    by_sheet: dict[str, dict[tuple[int, int], float | None]] = {s: {} for s in calculation.book.sheets}
     for (sheet, row, column), value in calculation.values.items():
         if isinstance(value, float) and math.isfinite(value):
             by_sheet[sheet][row, column] = value
+        elif calculation.error((sheet, row, column)):
+            by_sheet[sheet][row, column] = None  # part of a table, though gone wrong
     for sheet, numbers in by_sheet.items():
         for across in (False, True):
             by_line: dict[int, list[int]] = {}
@@ -193,11 +199,12 @@ def _lines(calculation: Calculation) -> Iterator[Line]:
                 by_line.setdefault(line, []).append(at)
             for line, places in sorted(by_line.items()):
                 for first, last in _runs(sorted(places), sheet, line, across, calculation):
-                    cells = (
+                    cells = [
                         numbers.get((line, i) if across else (i, line))
                         for i in range(first, last + 1)
-                    )
-                    yield Line(sheet, line, first, tuple(cells), across)
+                    ]
+                    if sum(cell is not None for cell in cells) >= LEAST_ROWS:
+                        yield Line(sheet, line, first, tuple(cells), across)
 
 
 def _runs(
@@ -252,14 +259,14 @@ def _headed(line: Line, calculation: Calculation) -> Line:
 def _pairs(lines: Sequence[Line], calculation: Calculation) -> list[tuple[Line, Line]]:
     """Depths with their velocities, the surest first."""
     scored = []
-    longest = sorted(lines, key=lambda line: -len(line.values))
+    longest = sorted(lines, key=lambda line: (not line.roles, -len(line.values)))
     depths = [line for line in longest if _may_be(line, "depth", line.rises)][:_MAX_LINES]
     speeds = [line for line in longest if _may_be(line, "velocity", line.falls)][:_MAX_LINES]
     for depth in depths:
         for speed in speeds:
             if depth.sheet != speed.sheet or depth.across != speed.across or depth is speed:
                 continue
-            score = _score(depth, speed)
+            score = _score(depth, speed, calculation)
             if score >= 0.75:
                 distance = abs(depth.number - speed.number)
                 scored.append((score, len(depth.values), -distance, depth, speed))
@@ -272,16 +279,33 @@ def _may_be(line: Line, role: str, looks: bool) -> bool:
     return named or (looks and not line.roles)
 
 
-def _score(depth: Line, speed: Line) -> float:
-    """From 0 to 2: 1 for heads that say so, 1 for values that fit; less a little if they differ."""
+def _score(depth: Line, speed: Line, calculation: Calculation) -> float:
+    """From 0 to 2.5: 1 for heads that say so, 1 for values that fit, a little for their formulas.
+
+    Values that do not fit may be those of a sheet gone wrong: then each depth reads the one before.
+    """
     rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
     if len(rows) < LEAST_ROWS:
         return 0.0
+    rows = rows[:: 1 + len(rows) // _SAMPLE]
     steps = [(_difference(depth, row), speed.at(row)) for row in rows]
     fit = _constant([a / b for a, b in steps if a is not None and b])
+    grows = _reads(depth, depth, 1, calculation)
+    if fit < 0.5 and not grows:
+        return 0.0
     named = ("depth" in depth.roles) + any(r.startswith("velocity") for r in speed.roles)
     final = speed.roles == {"velocity_final"}
-    return fit + 0.5 * named - 0.2 * final
+    reads = any(_reads(depth, speed, back, calculation) for back in (0, 1))
+    return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final
+
+
+def _reads(line: Line, other: Line, back: int, calculation: Calculation) -> bool:
+    """Whether most cells of a line are formulas that read another line's cell, so many rows back."""
+    rows = range(line.first + 1, line.last + 1)
+    rows = rows[:: 1 + len(rows) // _SAMPLE]
+    formulas = ((row, calculation.formulas.get(line.place(row))) for row in rows)
+    reads = sum(f is not None and any(other.place(row - back) in a for a in f.areas) for row, f in formulas)
+    return reads >= 0.5 * len(rows)
 
 
 def _difference(line: Line, row: int) -> float | None:
@@ -289,14 +313,14 @@ def _difference(line: Line, row: int) -> float | None:
     return None if here is None or before is None else here - before
 
 
-def _constant(ratios: Sequence[float]) -> float:
+def _constant(ratios: Sequence[float], close: float = _CLOSE) -> float:
     """Which share of some ratios is the same number."""
     if len(ratios) < LEAST_ROWS - 1:
         return 0.0
     middle = median(ratios)
     if not middle or not math.isfinite(middle):
         return 0.0
-    return sum(abs(ratio / middle - 1) < _CLOSE for ratio in ratios) / len(ratios)
+    return sum(abs(ratio / middle - 1) < close for ratio in ratios) / len(ratios)
 
 
 def _overlap(a: Line, b: Line) -> bool:
@@ -317,6 +341,14 @@ def _copied(table: Table, depth: Line, calculation: Calculation) -> bool:
     formulas = [f for row in rows if (f := calculation.formulas.get(depth.place(row)))]
     reads = (any(own.place(row) in area for area in f.areas) for row, f in zip(rows, formulas, strict=False))  # noqa: E501
     return not formulas or any(reads)
+
+
+def _viewed(table: Table, others: Sequence[Table], calculation: Calculation) -> bool:
+    """Whether a table only shows what another one holds."""
+    shown = {place for other in others if other is not table for place in other.places}
+    places = [table.place("depth", k) for k in range(1, table.steps + 1)]
+    formulas = [calculation.formulas.get(place) for place in places]
+    return all(f is not None and any(area.corner in shown for area in f.areas) for f in formulas)
 
 
 def _mapped(
@@ -410,14 +442,14 @@ def _which_velocity(speed: Line, beside: Sequence[Line], mapped: Mapping[str, Li
     return best[0]
 
 
-def _braking(brake: Line, speed: Line, later: int) -> float:
+def _braking(brake: Line, speed: Line, later: int, close: float = _CLOSE) -> float:
     """The share of rows in which a deceleration takes the velocity down by a constant times it."""
     ratios = []
     for row in range(brake.first, brake.last + 1):
         change, a = _difference(speed, row + later), brake.at(row)
         if change is not None and a:
             ratios.append(change / a)
-    return _constant(ratios)
+    return _constant(ratios, close)
 
 
 def _fits(wanted: str, line: Line, speed: Line, role: str) -> float:
@@ -433,7 +465,8 @@ def _fits(wanted: str, line: Line, speed: Line, role: str) -> float:
         same = sum(math.isclose(a, b, rel_tol=1e-9) for a, b in both) / max(len(both), 1)
         return named + same * line.falls
     if wanted == "deceleration":
-        fit = _braking(line, speed, 1 if role == "velocity_initial" else 0)
+        later = 1 if role == "velocity_initial" else 0
+        fit = _braking(line, speed, later) + 0.5 * _braking(line, speed, later, 1e-9)
         return named + fit * (not line.falls)
     numbers = [value for value in line.values if value is not None]
     steps = [b - a for a, b in zip(numbers, numbers[1:], strict=False)]
@@ -458,7 +491,13 @@ def _rows(
         role: "--map" if role in mapped else "head" if role in line.roles else "values"
         for role, line in roles.items()
     }
-    ordered = {role: roles[role] for role in COLUMNS if role in roles}
+    ordered = {
+        role: roles[role]
+        for role in COLUMNS
+        if role in roles and any(roles[role].at(row) is not None for row in range(zero, last + 1))
+    }
+    if len(ordered.keys() & {"velocity_initial", "velocity_final"}) == 0 or "depth" not in ordered:
+        return None
     helpers = tuple(line for line in beside if line not in roles.values())
     return Table(ordered, zero, last - zero, how, helpers)
 
@@ -466,7 +505,8 @@ def _rows(
 def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
     """The last row, without those that only hold zero or repeat it once the motion has ended."""
     for row in range(last, zero + 2, -1):
-        held = depth.at(row) == depth.at(row - 1) and speed.at(row) == speed.at(row - 1)
-        if not held and (depth.at(row) or speed.at(row)):
+        x, v = depth.at(row), speed.at(row)
+        held = x == depth.at(row - 1) and v == speed.at(row - 1)
+        if x is None or v is None or not (held or x == v == 0):
             return row if row < last - 1 else last
     return last

@@ -47,7 +47,7 @@ def _plain(text: str) -> str:
     return re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
 
 
-_ATOM = r"(?:micron|sec|[numck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N)"
+_ATOM = r"(?:micron|sec|[numck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N|dyn)"
 _POWER = r"(?:\^|\*\*)?-?[1-4]"
 _EXPRESSION = re.compile(
     rf"(?:1/)?\(?{_ATOM.replace('[numck]', '[numµμck]')}(?:{_POWER})?"
@@ -134,8 +134,8 @@ _COLUMN_SYMBOLS = {
     "time": rf"t{_INDEX}",
     "depth": rf"(?:x|s|z|h|p){_INDEX}(?:\(t\))?",
 }
-_INITIAL = r"init|start|begin|anfang|\balt|\bold|vorher|avant|d[ée]but|before|prev|[a-z](?:_?i|_?a|_?old)$"
-_FINAL = r"final|\bend|ende|\bneu|\bnew|nach|apr[eè]s|after|next|\bfin\b|nouv|[a-z](?:_?f|_?e|_?new)$"
+_INITIAL = r"ini[tz]|start|begin|anfang|\balt|\bold|vorher|avant|d[ée]but|before|prev|^.?_?(?:i|a|old)$"
+_FINAL = r"final|finale|\bend|ende|\bneu|\bnew|nach|apr[eè]s|after|next|\bfin\b|nouv|^.?_?(?:f|e|new)$"
 
 
 @cache
@@ -181,8 +181,8 @@ _INPUT_WORDS: tuple[tuple[str, str, str], ...] = (
     ("stop_velocity", rf"(?=.*(?:{_STOP}))(?=.*(?:{_SPEED}|\bv\b|below|m/s))", "$^"),
     ("velocity", _SPEED, _STOP),
     ("step", r"time.?step|time.?incr|increment|zeitschritt|schrittweite|pas de temps|\bpas\b|delta.?t\b|^step|[δ∆]t", r"half|halb|demi|number|anzahl|nombre|steps"),
-    ("beta", r"\bbeta\b|β|b[êe]ta\b", "$^"),
     ("resistance", r"resistan|widerstand|r[ée]sistan", "$^"),
+    ("beta", r"\bbeta\b|β|b[êe]ta\b", "$^"),
     ("flow_stress", r"flow.?stress|yield|strength|flie(?:ß|ss)|streck|festigkeit|contrainte|[ée]coulement|limite.*[ée]last", "copper|kupfer|cuivre"),
     ("radius", r"radius|rayon|halbmesser", r"depth|tiefe|profond|/|contact|kontakt"),
     ("diameter", r"diam|durchmesser", r"contact|kontakt|depth|/"),

@@ -9,7 +9,7 @@ from replication.check.difference import NO_FAULT, Difference, count
 from replication.check.inputs import find
 from replication.check.judge import Verdict, judge, rank
 from replication.check.printed import Held, held, report_inputs
-from replication.check.table import LEAST_ROWS, Line, tables
+from replication.check.table import LEAST_ROWS, Line, address, tables
 from replication.check.words import COLUMNS, INPUTS
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
@@ -136,6 +136,12 @@ def _nothing(calculation: Calculation) -> str:
         return (
             f"no table of depth and velocity is found; {typed:,} cells hold numbers as text, with "
             "which nothing can be calculated: convert them to numbers"
+        )
+    wrong = sorted(filter(calculation.error, calculation.formulas), key=calculation.order.__getitem__)
+    if wrong:
+        return (
+            f"no table of depth and velocity is found; {count(len(wrong), 'formula')} give errors, "
+            f"{address(wrong[0], True)} first: {calculation.error(wrong[0])}"
         )
     numbers = Counter(p[0] for p, value in calculation.values.items() if isinstance(value, float))
     where = ", ".join(f"{n:,} on {sheet[:40]!r}" for sheet, n in numbers.most_common(3)) or "none"

@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from foreign_layouts import BRAKE, DEPTH, END, START, TIME, Foreign, Place, letters
+from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, Place, letters
 
 Values = dict[Place, float | str | bool]
 
@@ -173,13 +173,12 @@ def middle_velocity(f: Foreign, _: Values) -> Planted | None:
         return None
     for k in range(1, f.steps + 1):
         text = _formula(f, BRAKE, k)
-        if text is None or "A(x)" in f.cells.values() or "force" in f.cells.values():
+        helped = "A(x)" in f.cells.values() or "force" in f.cells.values()
+        if text is None or helped or not f.si or (START, k) not in f.where:
             return None
         v = ref(f.where[START, k])
         sign = "+" if text.startswith("=-") else "-"
         inner = text[1:]
-        if f.name in ("german", "natural-units") or f.name.startswith("random"):
-            return None
         middle = f"({v}{sign}({inner})*{step}/2)"
         guarded = re.fullmatch(r"=IF\((ISNUMBER\(\w+\)),(.*),\"\"\)", text)
         if guarded:
@@ -209,6 +208,8 @@ def explicit_euler(f: Foreign, _: Values) -> Planted | None:
     for k in range(2, f.steps + 1):
         text = _formula(f, DEPTH, k)
         if text is None:
+            return None
+        if (START, k) not in f.where:
             return None
         now, before = ref(f.where[START, k]), ref(f.where[START, k - 1])
         changed = re.sub(rf"(?<![\w$]){now}(?!\d)", before, text)
@@ -334,7 +335,7 @@ FAULTS: tuple[Callable[[Foreign, Values], Planted | None], ...] = (
 
 
 def fill_builders() -> None:
-    from foreign_layouts import BY_HAND
+    from foreign.layouts import BY_HAND
     from replication.impact import BETA_5
 
     for layout in BY_HAND:

@@ -5,7 +5,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from foreign_layouts import Foreign, Place
+from foreign.layouts import Foreign, Place
 
 Values = dict[Place, float | str | bool]
 

@@ -2,7 +2,7 @@
 
 import random
 
-from foreign_layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters
+from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters
 
 from replication.impact import Impact
 

@@ -5,7 +5,7 @@ heads as somebody would type them, and where what stands. Rows are numbered as i
 is the impact, row 1 the first step. `faults.py` spoils them, `writers.py` makes files of them.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from replication.impact import Impact
@@ -545,11 +545,235 @@ def printed_digits(impact: Impact) -> Foreign:
     return f
 
 
+def italian(impact: Impact) -> Foreign:
+    """Words that the program does not know, no row 0, no cell for the mass."""
+    f = Foreign("italian", impact)
+    s = "calcolo"
+    _labelled(f, s, [("raggio", "radius"), ("densità rame", "particle_density"),
+                     ("densità acciaio", "target_density"), ("Rt", "resistance"),
+                     ("velocità", "velocity"), ("passo", "step")])  # fmt: skip
+    heads = ["tempo", "velocità iniziale", "profondità", "decelerazione", "velocità finale"]
+    for letter, head in zip("ABCDE", heads, strict=True):
+        f.put(s, f"{letter}9", head)
+    for k in range(1, f.steps + 1):
+        r = 9 + k
+        f.put(s, f"A{r}", f"={k}*$B$6")
+        f.put(s, f"B{r}", "=$B$5" if k == 1 else f"=E{r - 1}")
+        f.put(s, f"C{r}", f"=B{r}*$B$6/2" if k == 1 else f"=C{r - 1}+B{r}*$B$6")
+        mass = "(4/3*PI()*$B$1^3*$B$2)"
+        f.put(s, f"D{r}", f"=(0.5*$B$3*B{r}^2+$B$4)*PI()*(2*$B$1*C{r}-C{r}^2)/{mass}")
+        f.put(s, f"E{r}", f"=B{r}-D{r}*$B$6")
+    f.table(s, 9, {TIME: "A", START: "B", DEPTH: "C", BRAKE: "D", END: "E"})
+    return f
+
+
+def no_words(impact: Impact) -> Foreign:
+    """Not one word: numbers at row 500, the table in columns AA to AE."""
+    f = Foreign("no-words", impact)
+    s = "Sheet1"
+    roles = ("velocity", "radius", "particle_density", "target_density", "resistance", "step")
+    for r, role in enumerate(roles, 500):
+        f.put(s, f"T{r}", _value(impact, role))
+        f.inputs[role] = place(s, f"T{r}")
+    f.put(s, "T506", "=T502*4/3*PI()*T501*T501*T501")
+    f.put(s, "AA510", 0)
+    f.put(s, "AB510", "=T500")
+    f.put(s, "AC510", 0)
+    for k in range(1, f.steps + 1):
+        r = 510 + k
+        f.put(s, f"AA{r}", f"=AA{r - 1}+$T$505")
+        f.put(s, f"AB{r}", f"=AB{r - 1}" if k == 1 else f"=AE{r - 1}")
+        f.put(s, f"AC{r}", f"=AB{r}*$T$505/2" if k == 1 else f"=AC{r - 1}+AB{r}*$T$505")
+        f.put(s, f"AD{r}", f"=(0.5*$T$503*AB{r}^2+$T$504)*PI()*(2*$T$501*AC{r}-AC{r}^2)/$T$506")
+        f.put(s, f"AE{r}", f"=AB{r}-AD{r}*$T$505")
+    f.table(s, 510, {TIME: "AA", START: "AB", DEPTH: "AC", BRAKE: "AD", END: "AE"})
+    return f
+
+
+def centimetres(impact: Impact) -> Foreign:
+    """Centimetres, grams and dynes."""
+    f = Foreign("centimetres", impact, si=False)
+    s = "cgs"
+    given = [
+        ("R [cm]", 1.1e-3, "radius"), ("rho_p [g/cm3]", 8.9, "particle_density"),
+        ("rho_t [g/cm3]", 7.85, "target_density"),
+        ("R_t [dyn/cm2]", impact.target_resistance * 10, "resistance"),
+        ("V [cm/s]", 5e4, "velocity"), ("dt [s]", 2e-10, "step"),
+    ]  # fmt: skip
+    for r, (label, value, role) in enumerate(given, 1):
+        f.put(s, f"A{r}", label)
+        f.put(s, f"B{r}", value)
+        f.inputs[role] = (s, r, 2)
+    f.put(s, "A7", "M [g]")
+    f.put(s, "B7", "=4/3*PI()*B1^3*B2")
+    for letter, head in zip(
+        "ABCDE", ["t [s]", "v0 [cm/s]", "x [cm]", "a [cm/s2]", "v1 [cm/s]"], strict=True
+    ):
+        f.put(s, f"{letter}9", head)
+    for letter, content in zip("ABCD", [0, "=B5", 0, 0], strict=True):
+        f.put(s, f"{letter}10", content)
+    for k in range(1, f.steps + 1):
+        r = 10 + k
+        f.put(s, f"A{r}", f"=A{r - 1}+$B$6")
+        f.put(s, f"B{r}", "=$B$5" if k == 1 else f"=E{r - 1}")
+        f.put(s, f"C{r}", f"=B{r}*$B$6/2" if k == 1 else f"=C{r - 1}+B{r}*$B$6")
+        f.put(s, f"D{r}", f"=(0.5*$B$3*B{r}^2+$B$4)*PI()*(2*$B$1*C{r}-C{r}^2)/$B$7")
+        f.put(s, f"E{r}", f"=B{r}-D{r}*$B$6")
+    f.table(s, 10, {TIME: "A", START: "B", DEPTH: "C", BRAKE: "D", END: "E"})
+    return f
+
+
+def no_deceleration(impact: Impact) -> Foreign:
+    """The velocity in one formula with its deceleration, which has no column."""
+    f = Foreign("no-deceleration", impact)
+    s = "Daten"
+    _labelled(f, s, [("Radius", "radius"), ("Dichte Cu", "particle_density"),
+                     ("Dichte Stahl", "target_density"), ("Widerstand", "resistance"),
+                     ("V0", "velocity"), ("dt", "step")], letters="IJ")  # fmt: skip
+    f.put(s, "I7", "Masse")
+    f.put(s, "J7", "=4/3*PI()*J1^3*J2")
+    for letter, head in zip("ABCDE", ["n", "t", "v alt", "x", "v neu"], strict=True):
+        f.put(s, f"{letter}1", head)
+    for k in range(1, f.steps + 1):
+        r = 1 + k
+        f.put(s, f"A{r}", k)
+        f.put(s, f"B{r}", f"=A{r}*$J$6")
+        f.put(s, f"C{r}", "=$J$5" if k == 1 else f"=E{r - 1}")
+        f.put(s, f"D{r}", f"=C{r}*$J$6/2" if k == 1 else f"=D{r - 1}+C{r}*$J$6")
+        force = f"(0.5*$J$3*C{r}^2+$J$4)*PI()*(2*$J$1*D{r}-D{r}^2)"
+        f.put(s, f"E{r}", f"=C{r}-{force}/$J$7*$J$6")
+    f.table(s, 1, {TIME: "B", START: "C", DEPTH: "D", END: "E"})
+    return f
+
+
+def merged_heads(impact: Impact) -> Foreign:
+    """Heads in three rows, "velocity" over "start" and "end"; every factor in the formulas."""
+    f = Foreign("merged-heads", impact, si=False)
+    s = "Sheet"
+    given = [
+        ("Impact velocity", "m/s", 500, "velocity"), ("Particle diameter", "µm", 22, "diameter"),
+        ("Copper density", "g/cm3", 8.9, "particle_density"),
+        ("Steel density", "g/cm3", 7.85, "target_density"),
+        ("Steel flow stress", "MPa", 700, "flow_stress"), ("beta", "", impact.beta or 0, "beta"),
+        ("Time step", "ns", 0.2, "step"),
+    ]  # fmt: skip
+    for r, (label, unit, value, role) in enumerate(given, 3):
+        f.put(s, f"A{r}", label)
+        f.put(s, f"B{r}", value)
+        if unit:
+            f.put(s, f"C{r}", unit)
+        f.inputs[role] = (s, r, 2)
+    f.put(s, "B13", "Velocity")
+    f.put(s, "D13", "Penetration")
+    f.put(s, "E13", "Decel.")
+    for letter, head, unit in zip(
+        "ABCDE", ["time", "start", "end", "", ""], ["ns", "m/s", "m/s", "µm", "m/s²"], strict=True
+    ):
+        if head:
+            f.put(s, f"{letter}14", head)
+        f.put(s, f"{letter}15", unit)
+    for letter, content in zip("ABDE", [0, "=B3", 0, 0], strict=True):
+        f.put(s, f"{letter}16", content)
+    for k in range(1, f.steps + 1):
+        r = 16 + k
+        f.put(s, f"A{r}", f"={k}*$B$9")
+        f.put(s, f"B{r}", "=B16" if k == 1 else f"=C{r - 1}")
+        f.put(s, f"D{r}", f"=B{r}*$B$9/1000/2" if k == 1 else f"=D{r - 1}+B{r}*$B$9/1000")
+        force = f"(0.5*$B$6*1000*B{r}^2+$B$8*$B$7*1000000)*PI()*($B$4*D{r}-D{r}^2)/1000000000000"
+        f.put(s, f"E{r}", f"={force}/(PI()/6*($B$4/1000000)^3*$B$5*1000)")
+        f.put(s, f"C{r}", f"=B{r}-E{r}*$B$9/1000000000")
+    f.table(s, 16, {TIME: "A", START: "B", DEPTH: "D", BRAKE: "E", END: "C"})
+    return f
+
+
+def velocity_at_end(impact: Impact) -> Foreign:
+    """Each row shows the velocity at its end; inputs on a sheet of their own."""
+    f = Foreign("velocity-at-end", impact)
+    s, t = "Input", "run 1"
+    _labelled(f, s, [("V", "velocity"), ("R", "radius"), ("rho particle", "particle_density"),
+                     ("rho target", "target_density"), ("Yield strength target", "flow_stress"),
+                     ("beta", "beta"), ("dt", "step"), ("v_stop", "stop_velocity")])  # fmt: skip
+    f.put(s, "A10", "m")
+    f.put(s, "B10", "=4/3*PI()*B2^3*B3")
+    f.put(s, "A11", "Rt")
+    f.put(s, "B11", "=B5*B6")
+    for letter, head in zip("ABCDE", ["step", "time", "v", "x", "a"], strict=True):
+        f.put(t, f"{letter}3", head)
+    for letter, content in zip("ABCDE", [0, 0, "=Input!$B$1", 0, 0], strict=True):
+        f.put(t, f"{letter}4", content)
+    for k in range(1, f.steps + 1):
+        r = 4 + k
+        f.put(t, f"A{r}", k)
+        f.put(t, f"B{r}", f"=A{r}*Input!$B$7")
+        step = "Input!$B$7"
+        f.put(t, f"D{r}", f"=C{r - 1}*{step}/2" if k == 1 else f"=D{r - 1}+C{r - 1}*{step}")
+        force = f"(0.5*Input!$B$4*C{r - 1}^2+Input!$B$11)*PI()*(2*Input!$B$2*D{r}-D{r}^2)"
+        f.put(t, f"E{r}", f"={force}/Input!$B$10")
+        f.put(t, f"C{r}", f"=C{r - 1}-E{r}*{step}")
+    f.table(t, 4, {TIME: "B", END: "C", DEPTH: "D", BRAKE: "E"})
+    return f
+
+
+def named_constants(impact: Impact) -> Foreign:
+    """Inputs are names that stand for numbers; filled down too far, #N/A below the stop."""
+    f = Foreign("named-constants", impact)
+    s = "Sheet"
+    f.names = {
+        "dt": "0.0000000002", "rho_t": "7850", "rho_p": "8900", "Rad": "0.000011", "V_imp": "500",
+        "Rt": f"{impact.target_resistance:.0f}",
+    }  # fmt: skip
+    for letter, head in zip("BCDEFG", ["n", "t", "v_i", "x", "a", "v_f"], strict=True):
+        f.put(s, f"{letter}2", head)
+    for letter, content in zip("BCDEFG", [0, "=B3*dt", "=V_imp", 0, 0, "=V_imp"], strict=True):
+        f.put(s, f"{letter}3", content)
+    for r in range(4, 203):
+        f.put(s, f"B{r}", r - 3)
+        f.put(s, f"C{r}", f"=B{r}*dt")
+        f.put(s, f"D{r}", "=V_imp" if r == 4 else f"=IF(N(G{r - 1})<1,NA(),G{r - 1})")
+        f.put(s, f"E{r}", f"=D{r}*dt/2" if r == 4 else f"=E{r - 1}+D{r}*dt")
+        area, mass = f"(2*Rad*E{r}-E{r}*E{r})", "(rho_p*4/3*PI()*Rad*Rad*Rad)"
+        f.put(s, f"F{r}", f"=(0.5*rho_t*D{r}*D{r}+Rt)*PI()*{area}/{mass}")
+        f.put(s, f"G{r}", f"=D{r}-F{r}*dt")
+    f.table(s, 3, {TIME: "C", START: "D", DEPTH: "E", BRAKE: "F", END: "G"})
+    return f
+
+
+def six_digits(impact: Impact) -> Foreign:
+    """A table exported with six digits: no formulas, no inputs, units in the heads."""
+    f = Foreign("six-digits", impact, si=False)
+    s = "export"
+    for letter, head in zip("ABCD", ["t_ns", "v_m_per_s", "x_um", "a_m_per_s2"], strict=True):
+        f.put(s, f"{letter}1", head)
+    for k, row in enumerate(run(impact).rows):
+        for letter, value, factor in zip("ABCD", row, (1e9, 1, 1e6, 1), strict=False):
+            f.put(s, f"{letter}{2 + k}", float(f"{(value or 0) * factor:.6g}"))
+    f.table(s, 2, {TIME: "A", START: "B", DEPTH: "C", BRAKE: "D"})
+    return f
+
+
+def _labelled(
+    f: Foreign, sheet: str, labels: list[tuple[str, str]], letters: str = "AB"
+) -> None:
+    """Inputs in SI below each other, from row 1."""
+    for r, (label, role) in enumerate(labels, 1):
+        f.put(sheet, f"{letters[0]}{r}", label)
+        f.put(sheet, f"{letters[1]}{r}", _value(f.impact, role))
+        f.inputs[role] = place(sheet, f"{letters[1]}{r}")
+
+
+def _value(impact: Impact, role: str) -> float:
+    value = impact.target_resistance if role == "resistance" else getattr(impact, role)
+    assert isinstance(value, float)
+    return value
+
+
 BY_HAND: tuple[Callable[[Impact], Foreign], ...] = (
     table_a1, german, french, sideways, no_time, one_velocity, side_by_side, guarded, pasted,
-    natural_units, named_everything, printed_digits,
+    natural_units, named_everything, printed_digits, italian, no_words, centimetres,
+    no_deceleration, merged_heads, velocity_at_end, named_constants, six_digits,
 )  # fmt: skip
 
 
-def all_of(impacts: Iterable[Impact]) -> list[Foreign]:
-    return [layout(impact) for impact in impacts for layout in BY_HAND]
+def by_hand(impact: Impact) -> list[Foreign]:
+    """Every layout, filled with that impact."""
+    return [layout(impact) for layout in BY_HAND]
