@@ -16,7 +16,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
@@ -149,8 +149,20 @@ def _converted(path: Path, folder: Path) -> Path:
     if zipfile.is_zipfile(path):
         _check_unpacked(path)
     source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
-    options = ["--headless", "--norestore", f"-env:UserInstallation={(folder / 'profile').as_uri()}"]
-    command = [soffice, *options, "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source)]
+    options = [
+        "--headless",
+        "--norestore",
+        f"-env:UserInstallation={(folder / 'profile').as_uri()}",
+    ]
+    command = [
+        soffice,
+        *options,
+        "--convert-to",
+        "xlsx",
+        "--outdir",
+        str(folder / "out"),
+        str(source),
+    ]
     for _ in range(2):  # a first run in a new profile may end with a wish to start again
         _run(command, path)
         if (folder / "out" / "workbook.xlsx").is_file():
@@ -176,7 +188,10 @@ def _run(command: list[str], path: Path) -> None:
     """Run LibreOffice within bounds of time, memory and disk, and leave none of its processes."""
     quiet = subprocess.DEVNULL
     with subprocess.Popen(
-        command, stdout=quiet, stderr=quiet, start_new_session=True,
+        command,
+        stdout=quiet,
+        stderr=quiet,
+        start_new_session=True,
         preexec_fn=_limited if os.name == "posix" else None,
     ) as process:
         try:
@@ -281,7 +296,7 @@ class _Reader:
 
     def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
         """Feed a part to a target, counting what comes out of the archive, not what it says."""
-        parser = ET.XMLParser(target=target)  # noqa: S314  (its targets refuse document types)
+        parser = ET.XMLParser(target=target)
         taken = 0
         with self.archive.open(self.parts[part]) as stream:
             while chunk := stream.read(2**16):

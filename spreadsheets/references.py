@@ -23,11 +23,7 @@ _MAX_EXPANSIONS = 200
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 
 FUNCTIONS = frozenset(
-    "ABS ACOS AND ASIN ATAN ATAN2 AVERAGE CEILING CHOOSE COLUMN COLUMNS COS COSH COUNT COUNTA"
-    " COUNTBLANK COUNTIF COUNTIFS EXP FALSE FLOOR IF IFERROR IFNA IFS INDEX INT ISBLANK ISERROR"
-    " ISNA ISNUMBER ISTEXT LARGE LN LOG LOG10 LOOKUP MATCH MAX MAXIFS MEDIAN MIN MINIFS MOD N NA"
-    " NOT OFFSET OR PI POWER PRODUCT ROUND ROUNDDOWN ROUNDUP ROW ROWS SIGN SIN SINH SMALL SQRT"
-    " STDEV SUM SUMIF SUMIFS SUMPRODUCT SUMSQ TAN TANH TRUE TRUNC VLOOKUP HLOOKUP XLOOKUP".split()
+    ["ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN", "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP", "FALSE", "FLOOR", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK", "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH", "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI", "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH", "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH", "TRUE", "TRUNC", "VLOOKUP", "HLOOKUP", "XLOOKUP"]
 )
 """What an engine may be asked for: functions of bounded cost that reach nothing outside."""
 
@@ -97,6 +93,10 @@ class Formula:
         """The numbers that are typed into it."""
         return tuple(float(piece.text) for piece in self.pieces if piece.kind == "number")
 
+    def reads(self, place: Position) -> bool:
+        """Whether a cell is among what it refers to."""
+        return any(place in area for area in self.areas)
+
     def for_engine(self, sheets: Mapping[str, str]) -> str:
         """The formula with names resolved and every sheet called as `sheets` says."""
         return "=" + "".join(
@@ -139,7 +139,7 @@ def _unreadable(text: str) -> str | None:
     if len(text) > MAX_FORMULA:
         return f"it has more than {MAX_FORMULA:,} characters"
     depth = deepest = 0
-    for character in text:
+    for character in text if len(text) > MAX_DEPTH else "":
         depth += (character in "([{") - (character in ")]}")
         deepest = max(deepest, depth)
     return f"it is nested more than {MAX_DEPTH} levels deep" if deepest > MAX_DEPTH else None
@@ -199,10 +199,14 @@ class _Pieces:
         if match is not None and (area := self.area(match)) is not None:
             yield area
             return
-        meaning = self.names.get(f"'{self.place[0]}'!{value}".upper(), self.names.get(value.upper()))
+        meaning = self.names.get(
+            f"'{self.place[0]}'!{value}".upper(), self.names.get(value.upper())
+        )
         if meaning is None or self.expansions > _MAX_EXPANSIONS:
             outside = "[" in value or "|" in value
-            self.stop("it refers outside the workbook" if outside else f"nothing is called {value[:40]}")
+            self.stop(
+                "it refers outside the workbook" if outside else f"nothing is called {value[:40]}"
+            )
             yield Piece("name", value)
             return
         self.expansions += 1
@@ -217,7 +221,9 @@ class _Pieces:
         g = match.groups()[1:]
         if g[1] is not None:
             first = (g[2], int(g[3]), g[0], column_index_from_string(g[1]))
-            last = first if g[5] is None else (g[6], int(g[7]), g[4], column_index_from_string(g[5]))
+            last = (
+                first if g[5] is None else (g[6], int(g[7]), g[4], column_index_from_string(g[5]))
+            )
         elif g[9] is not None:
             first = ("$", 1, g[8], column_index_from_string(g[9]))
             last = ("$", LAST_ROW, g[10], column_index_from_string(g[11]))

@@ -12,7 +12,7 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from replication.check.difference import Difference
-from replication.check.table import address, area_of
+from replication.check.lines import address, area_of
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Formula, Piece
@@ -126,7 +126,9 @@ class _Diff:
         cells: Sequence[Position] = (),
     ) -> None:  # fmt: skip
         rank = self.rank(place, kind)
-        shown = [v if isinstance(v, float | str) or v is None else str(v) for v in (expected, found)]
+        shown = [
+            v if isinstance(v, float | str) or v is None else str(v) for v in (expected, found)
+        ]
         self.differences.append(
             Difference(place, kind, shown[0], shown[1], text, tuple(cells) or (place,), rank)
         )
@@ -134,7 +136,12 @@ class _Diff:
     def rank(self, place: Position, kind: str) -> tuple[float, ...]:
         """Layout first, then typed cells, then formulas in order of calculation."""
         if kind not in ("formula", "value"):
-            return (0, list(self.after.book.sheets).index(place[0]) if place[0] in self.after.book.sheets else 0)
+            return (
+                0,
+                list(self.after.book.sheets).index(place[0])
+                if place[0] in self.after.book.sheets
+                else 0,
+            )
         return (1, self.after.order.get(place, -1), kind == "value")
 
     # ---- where each cell has gone
@@ -161,9 +168,7 @@ class _Diff:
             cells = [(other, *c) for c in block]
             self.add(cells[0], "added", None, _span(cells), f"{len(cells)} cells are new", cells)
 
-    def moved(
-        self, name: str, other: str, left: dict[Cell, str], free: dict[Cell, str]
-    ) -> None:
+    def moved(self, name: str, other: str, left: dict[Cell, str], free: dict[Cell, str]) -> None:
         """Blocks that stand elsewhere: the same cells at the same distances."""
         by_form: dict[frozenset[tuple[int, int, str]], list[Cell]] = {}
         for block in _blocks(free)[:_MAX_BLOCKS]:
@@ -172,14 +177,19 @@ class _Diff:
             there = by_form.pop(_form(block, left), None)
             if there is None:
                 continue
-            down, right = _corner(there)[0] - _corner(block)[0], _corner(there)[1] - _corner(block)[1]
+            down, right = (
+                _corner(there)[0] - _corner(block)[0],
+                _corner(there)[1] - _corner(block)[1],
+            )
             for row, column in block:
                 self.where[name, row, column] = (other, row + down, column + right)
                 del left[row, column]
                 del free[row + down, column + right]
             old = _span([(name, *c) for c in block])
             cells = [(other, *c) for c in sorted(there)]
-            self.add(cells[0], "moved", old, _span(cells), f"{old} now stands at {_span(cells)}", cells)
+            self.add(
+                cells[0], "moved", old, _span(cells), f"{old} now stands at {_span(cells)}", cells
+            )
 
     def shifts(
         self, name: str, other: str, rows: Mapping[int, int], columns: Mapping[int, int]
@@ -188,7 +198,10 @@ class _Diff:
         for what, places in (("rows", rows), ("columns", columns)):
             for first, last, by in _shifted(places):
                 show = (lambda n: str(n)) if what == "rows" else _letter
-                was, now = f"{show(first)} to {show(last)}", f"{show(first + by)} to {show(last + by)}"
+                was, now = (
+                    f"{show(first)} to {show(last)}",
+                    f"{show(first + by)} to {show(last + by)}",
+                )
                 place = (other, first + by, 1) if what == "rows" else (other, 1, first + by)
                 self.add(place, "moved", was, now, f"{what} {was} of {name!r} are now {now}")
 
@@ -290,7 +303,9 @@ def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
     for (row, column), cell in calculation.book.sheets[sheet].items():
         formula = calculation.formulas.get((sheet, row, column))
         if formula is not None:
-            pieces = ("@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces)
+            pieces = (
+                "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
+            )
             found[row, column] = "=" + "".join(pieces)
         elif isinstance(cell.value, str):
             found[row, column] = f"'{cell.value}"

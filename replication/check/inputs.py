@@ -15,7 +15,8 @@ from statistics import median
 from reference.units import to_si
 from replication.check.difference import power_of_ten, scaled, title
 from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
-from replication.check.table import Table, address
+from replication.check.lines import address
+from replication.check.table import Table
 from replication.check.words import INPUTS, input_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
@@ -217,9 +218,7 @@ def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
     return "", unit
 
 
-def _by_role(
-    cells: Sequence[Input], report: Report, read: bool = False
-) -> dict[str, list[Input]]:
+def _by_role(cells: Sequence[Input], report: Report, read: bool = False) -> dict[str, list[Input]]:
     """Cells by role: first those whose label has one meaning, then by value for roles left over.
 
     `read`: the table reads them all.
@@ -273,7 +272,9 @@ def _as_role(cell: Input, role: str, report: Report) -> Input:
         if cell.unit:
             factor = to_si(cell.unit)
         elif role in report and cell.si > 0:
-            ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
+            ratios = sorted(
+                (value / cell.si for value in report[role]), key=lambda r: abs(_round(r))
+            )
             same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
             factor = Fraction(10) ** (3 * round(_round(ratios[0]) / 3) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
@@ -316,7 +317,9 @@ def _settled(
     chosen = {role: cells[0] for role, cells in choices.items()}
     tried: list[tuple[float, Setting]] = []
     for cells in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
-        setting = _setting(table, chosen | dict(zip(several, cells, strict=True)), calculation, report)
+        setting = _setting(
+            table, chosen | dict(zip(several, cells, strict=True)), calculation, report
+        )
         tried.append((agreement(setting), setting))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
@@ -417,12 +420,18 @@ def _powers(
     if step and named.get("time") is not None:
         steps.append(step * 10.0 ** (named["time"] or 0))
     if step or move:
-        steps.append((step or move) * 1000.0 ** round(_round(report["step"][0] / (step or move)) / 3))
+        steps.append(
+            (step or move) * 1000.0 ** round(_round(report["step"][0] / (step or move)) / 3)
+        )
     best: tuple[tuple[int, int], dict[str, int]] | None = None
     for power in speeds:
         for dt in [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]:
             v = 10.0 ** (power or 0)
-            wanted = {"time": ratio(dt, step), "depth": ratio(dt * v, move), "deceleration": v / dt * brake}
+            wanted = {
+                "time": ratio(dt, step),
+                "depth": ratio(dt * v, move),
+                "deceleration": v / dt * brake,
+            }
             powers = {
                 role: _whole(wanted[role], named[role]) if role in wanted else power or 0
                 for role in table.lines
@@ -476,7 +485,13 @@ def _completed(
     add("radius", report["radius"][0], "report")
     if "mass" in inputs:
         volume = 4 / 3 * math.pi * inputs["radius"].si * inputs["radius"].si * inputs["radius"].si
-        add("particle_density", inputs["mass"].si / volume if volume else 0.0, "follows", "mass", "radius")
+        add(
+            "particle_density",
+            inputs["mass"].si / volume if volume else 0.0,
+            "follows",
+            "mass",
+            "radius",
+        )
     if "step" not in inputs:
         step, typed = _step(columns, report), _typed(calculation)
         add("step", step, "formulas" if step in typed else "rows")
@@ -496,7 +511,9 @@ def _step(columns: Mapping[str, Mapping[int, float]], report: Report) -> float:
     if not steps:
         speeds = columns.get("velocity_initial") or columns["velocity_final"]
         x = columns["depth"]
-        steps = [(x[k] - x[k - 1]) / v for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)]
+        steps = [
+            (x[k] - x[k - 1]) / v for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)
+        ]
     step = abs(median(steps)) if steps else 0.0
     return _shortest(step, 1e-6) if 0 < step < math.inf else report["step"][0]
 

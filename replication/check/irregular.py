@@ -5,7 +5,8 @@ from collections import Counter
 from collections.abc import Iterator
 
 from replication.check.inputs import Input
-from replication.check.table import Line, Table, address
+from replication.check.lines import Line, address
+from replication.check.table import Table
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 from spreadsheets.references import Formula
@@ -38,7 +39,10 @@ def irregular(
                 yield place, _odd(formulas[place], pattern, calculation)
         elif calculation.number(place) is not None:
             usual_text = _filled(pattern, place, calculation)
-            yield place, ("typed number", f"a number is typed where {short(usual_text)} would stand")
+            yield (
+                place,
+                ("typed number", f"a number is typed where {short(usual_text)} would stand"),
+            )
 
 
 def _exact(formula: Formula) -> tuple[str, ...]:
@@ -58,7 +62,10 @@ def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[
     typed = Counter(formula.literals) - Counter(pattern.literals)
     if typed and len(formula.areas) < len(pattern.areas):
         numbers = " and ".join(f"{number:g}" for number in typed)
-        return "typed constant", f"{numbers} is typed where its column reads a cell: {text}, not {usual}"
+        return (
+            "typed constant",
+            f"{numbers} is typed where its column reads a cell: {text}, not {usual}",
+        )
     return "odd formula", f"{text} is unlike its column, where {usual} would stand"
 
 
@@ -80,8 +87,10 @@ def short(text: str) -> str:
 
 def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
     """Whether a formula has an input's value as a number, and does not read its cell."""
+    if not formula.literals or own.place is None or own.role == "beta":
+        return False
     value = calculation.number(own.place)
-    if value is None or own.place is None or not formula.literals or own.role == "beta":
+    if value is None:
         return False
     if own.role == "stop_velocity":
         texts = [piece.text for piece in formula.pieces]

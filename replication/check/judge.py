@@ -28,6 +28,7 @@ from replication.check.scheme import (
     ADVANCES,
     BRAKES,
     ENDINGS,
+    REPORT,
     STARTS,
     Case,
     Rule,
@@ -36,7 +37,7 @@ from replication.check.scheme import (
     orders,
     with_input,
 )
-from replication.check.table import address
+from replication.check.lines import address
 from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
@@ -101,7 +102,7 @@ class _Judge:
     def __init__(self, setting: Setting, calculation: Calculation, report: Report) -> None:
         self.setting, self.calculation, self.report = setting, calculation, report
         self.table = setting.table
-        self.rules = Rules()
+        self.rules = REPORT
         self.found: list[Difference] = []
 
     @property
@@ -218,7 +219,10 @@ class _Judge:
         assert place is not None
         number = self.calculation.number(place) or 0.0
         factor = cell.factor
-        if cell.unit is None and (power := power_of_ten(wanted / number) if number else None) is not None:
+        if (
+            cell.unit is None
+            and (power := power_of_ten(wanted / number) if number else None) is not None
+        ):
             factor = Fraction(10) ** power
         held = scaled(number, factor)
         right = math.isclose(held, wanted, rel_tol=NEAR)
@@ -231,7 +235,13 @@ class _Judge:
                 text = f"{title(role)} is 1e{abs(power)} times too {size} for {rests}"
                 self.add("unit", [place], expected, number, f"{text}: a unit is not converted")
             elif not right:
-                self.add("odd formula", [place], expected, number, f"{title(role)} is not what {rests} give")
+                self.add(
+                    "odd formula",
+                    [place],
+                    expected,
+                    number,
+                    f"{title(role)} is not what {rests} give",
+                )
         elif self.calculated and (not right or any(s in self.setting.unread for s in sources)):
             text = f"{title(role)} is typed as a number, though it rests on {rests}: a change there changes nothing"  # noqa: E501
             self.add("typed constant", [place], expected, number, text)
@@ -283,11 +293,14 @@ class _Judge:
         for part, rules in (("advance", ADVANCES), ("brake", BRAKES), ("end", ENDINGS)):
             if part == "end" and "deceleration" not in self.table.lines:
                 continue  # the brake is known by it
-            shares = [self.share(part, rule) for rule in rules]
-            chosen[part] = rules[shares.index(max(shares))] if max(shares) >= 0.5 else rules[0]
-            if max(shares) < 0.5:
+            share, best = self.share(part, rules[0]), rules[0]
+            for rule in rules[1:] if share < 0.9 else ():
+                other = self.share(part, rule)
+                share, best = max((share, best), (other, rule), key=lambda entry: entry[0])
+            chosen[part] = best if share >= 0.5 else rules[0]
+            if share < 0.5:
                 unknown.append(part)
-        self.rules = Rules(**chosen)
+        self.rules = replace(REPORT, **chosen)
         for part in unknown:
             self.unknown(part)
         self.named()
@@ -296,7 +309,7 @@ class _Judge:
         """A difference for each rule that is not the report's."""
         for part, rule in self.rules.others():
             role, first = self.column(part), _FIRST[part]
-            own = Rules().part(part)
+            own = REPORT.part(part)
             first = next(
                 (k for k in range(first, self.table.steps) if not self.follows(part, own, k)), first
             )
@@ -315,7 +328,7 @@ class _Judge:
         """A column that follows no rule known here: say what else would explain it."""
         role = self.column(part)
         cells = self.cells(role, _FIRST[part])
-        wanted = Rules().part(part).value(self.case, self.setting.rows, _FIRST[part])
+        wanted = REPORT.part(part).value(self.case, self.setting.rows, _FIRST[part])
         kind, text = self.cause(part, role)
         self.add(kind, cells, self.shown(role, wanted), self.held(cells[0]), text)
 
@@ -332,9 +345,11 @@ class _Judge:
     def increment(self, part: str, k: int) -> tuple[float, float] | None:
         """What a row adds to the one before, and what it would add by the report's rule."""
         rows = self.setting.rows
-        start = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}[part]
+        start = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}[
+            part
+        ]
         found = braked(rows, self.case, k) if part == "brake" else rows(_ROLE[part], k)
-        wanted = Rules().part(part).value(self.case, rows, k)
+        wanted = REPORT.part(part).value(self.case, rows, k)
         if start is None or found is None or wanted is None:
             return None
         return found - start, wanted - start
@@ -345,7 +360,10 @@ class _Judge:
         literals = self.literals(role)
         if power := power_of_ten(ratio):
             size = "large" if power > 0 else "small"
-            return "unit", f"every {what} is 1e{abs(power)} times too {size}: a unit is not converted"
+            return (
+                "unit",
+                f"every {what} is 1e{abs(power)} times too {size}: a unit is not converted",
+            )
         for number in literals:
             if part == "brake" and _near(number / math.pi, ratio):
                 return "typed constant", f"pi is typed as {number:g}"
@@ -378,7 +396,7 @@ class _Judge:
 
     def literals(self, role: str) -> set[float]:
         """The numbers typed into a column's formulas."""
-        places = (place for place in self.cells(role, 1))
+        places = self.cells(role, 0)
         formulas = (self.calculation.formulas.get(place) for place in places)
         return {abs(number) for formula in formulas if formula for number in formula.literals}
 
@@ -453,12 +471,21 @@ class _Judge:
     def lone(self, role: str, k: int, expected: float | None) -> tuple[str, str]:
         """The kind of a cell that alone is not what the cells before it give."""
         place = self.table.place(role, k)
-        found, typed = self.setting.rows.columns[role].get(k), place not in self.calculation.formulas
+        found, typed = (
+            self.setting.rows.columns[role].get(k),
+            place not in self.calculation.formulas,
+        )
         what = f"{title(role)} of row {k} is not what the cells before it give"
         if error := self.calculation.error(place):
-            return "odd formula", f"{title(role)} of row {k} gives {error}, as do all cells that read it"
+            return (
+                "odd formula",
+                f"{title(role)} of row {k} gives {error}, as do all cells that read it",
+            )
         if found is None:
-            return "typed number" if typed else "odd formula", f"no number in {title(role)} of row {k}"
+            return (
+                "typed number" if typed else "odd formula",
+                f"no number in {title(role)} of row {k}",
+            )
         if role == "time" and k == 1 and found == 0:
             return "other scheme", "the times are those at the beginning of the rows"
         if role == "depth" and k == 1 and not typed:
@@ -471,10 +498,13 @@ class _Judge:
     def typed_inputs(self) -> None:
         """Inputs whose value stands in formulas that do not read their cell."""
         accused = {cell for d in self.found for cell in d.cells}
+        typed = {role: self.literals(role) for role in self.table.lines}
         for own in (*self.setting.unread, *self.setting.inputs.values()):
             if own.place is None:
                 continue
             for role in self.table.lines:
+                if not typed[role] and own.role != "velocity":
+                    continue
                 places = self.cells(role, 0)
                 cells = [
                     place
@@ -501,8 +531,10 @@ class _Judge:
 
     def order(self) -> None:
         """Columns whose last digits no order of the report's operations gives."""
-        factors = {own.factor for own in (*self.setting.inputs.values(), *self.setting.derived.values())}
-        if any(self.setting.powers.values()) or factors != {Fraction(1)} or self.rules != Rules():
+        factors = {
+            own.factor for own in (*self.setting.inputs.values(), *self.setting.derived.values())
+        }
+        if any(self.setting.powers.values()) or factors != {Fraction(1)} or self.rules != REPORT:
             return  # converting units costs last digits, too
         accused = {cell for d in self.found if d.kind not in NO_FAULT for cell in d.cells}
         for role in ("depth", "deceleration", "velocity_final"):
@@ -520,7 +552,9 @@ class _Judge:
                     f"this one by {ulps} ulp: the formula calculates in another order, on which no "
                     "printed digit depends"
                 )
-                self.add("operation order", cells, self.shown(role, wanted), self.held(cells[0]), text)
+                self.add(
+                    "operation order", cells, self.shown(role, wanted), self.held(cells[0]), text
+                )
 
     def masses(self) -> Iterator[float]:
         """The mass as its cell has it; without a cell, as any order of its product gives it."""
@@ -548,8 +582,8 @@ class _Judge:
 
     def as_rounded(self, digits: int) -> None:
         """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
-        schemes = [Rules(), *(
-            replace(Rules(), **{part: rule})
+        schemes = [REPORT, *(
+            replace(REPORT, **{part: rule})
             for part, rules in (("brake", BRAKES), ("start", STARTS), ("advance", ADVANCES), ("end", ENDINGS))
             for rule in rules[1:]
         )]  # fmt: skip
@@ -595,7 +629,13 @@ class _Judge:
         if 2 * steps < whole:
             self.add("not calculated", [place], None, None, f"{text}: {steps} of {of}")
         else:
-            self.add("other scheme", [place], None, self.held(place), f"other stop: {text}, {steps} of {of}")
+            self.add(
+                "other scheme",
+                [place],
+                None,
+                self.held(place),
+                f"other stop: {text}, {steps} of {of}",
+            )
 
     def final(self, k: int) -> float | None:
         """The velocity at the end of a row, computed where the table ends before it shows it."""
@@ -619,7 +659,9 @@ class _Judge:
             for role in set(run) & set(rows.columns)
             for k, value in run[role].items()
         ]
-        differing = sum(own is not None and abs(own - value) > 1e-9 * abs(value) for value, own in pairs)
+        differing = sum(
+            own is not None and abs(own - value) > 1e-9 * abs(value) for value, own in pairs
+        )
         found = sorted((self.with_effect(d) for d in self.found), key=lambda d: d.rank)
         right = run["depth"][max(run["depth"])] if ends else None
         return Verdict(self.setting, self.rules, found, rows("depth", steps), right, differing)
@@ -627,9 +669,11 @@ class _Judge:
     def with_effect(self, difference: Difference) -> Difference:
         """The difference with the final depth that it alone would give."""
         fixed: dict[tuple[str, int], float] = {}
-        rules, until = Rules(), None
+        rules, until = REPORT, None
         if difference.kind == "other scheme":
-            named = [part for part, rule in self.rules.others() if rule.says in difference.explanation]
+            named = [
+                part for part, rule in self.rules.others() if rule.says in difference.explanation
+            ]
             rules = replace(rules, **{part: self.rules.part(part) for part in named})
             until = None if named else self.table.steps
         elif difference.kind in ("typed number", "odd formula", "typed constant"):
@@ -638,7 +682,7 @@ class _Judge:
                 value = self.setting.rows.columns.get(role, {}).get(k)
                 if value is not None:
                     fixed[role, k] = value
-        if rules == Rules() and until is None and not fixed:
+        if rules == REPORT and until is None and not fixed:
             return difference
         run = march(self.case, rules, fixed, limit=2 * self.table.steps + 100, until=until)
         return replace(difference, effect=run["depth"][max(run["depth"])])
@@ -675,4 +719,3 @@ def _joined(found: Iterable[Difference], across: bool) -> Iterator[Difference]:
 def _like(difference: Difference) -> str:
     """The explanation without its numbers."""
     return re.sub(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", "#", difference.explanation)
-

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from replication.check.difference import Difference
 from replication.check.record import safe
-from replication.check.table import address
+from replication.check.lines import address
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -25,7 +25,9 @@ class _Drawn(NamedTuple):
     rows: list[tuple[str, list[dict[str, Any] | None]]]
 
 
-def html(record: Mapping[str, Any], differences: Sequence[Difference], calculation: Calculation) -> str:
+def html(
+    record: Mapping[str, Any], differences: Sequence[Difference], calculation: Calculation
+) -> str:
     """The page of a record: no script, nothing from outside, its style named by hash.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.

@@ -66,8 +66,12 @@ def held(
     `alone`: it is the only table, so labelled results are its own; `ends`: it goes down to the stop.
     """
     stated = ("velocity", "radius", "particle_density", "step")
-    resistances = [math.isclose(r, setting.case.resistance, rel_tol=1e-9) for r in report["resistance"]]
-    alike = (math.isclose(setting.inputs[role].si, report[role][0], rel_tol=1e-9) for role in stated)
+    resistances = [
+        math.isclose(r, setting.case.resistance, rel_tol=1e-9) for r in report["resistance"]
+    ]
+    alike = (
+        math.isclose(setting.inputs[role].si, report[role][0], rel_tol=1e-9) for role in stated
+    )
     if not any(resistances) or not all(alike):
         return
     case = _CASES[resistances.index(True)]
@@ -77,7 +81,12 @@ def held(
         if own is not None and own.place is None:
             own = setting.derived.get(role)
         value = calculation.number(own.place) if own is not None else None
-        if own is not None and own.place and value is not None and (table_a1 or role != "resistance"):
+        if (
+            own is not None
+            and own.place
+            and value is not None
+            and (table_a1 or role != "resistance")
+        ):
             yield _judged(name, own.place, Fraction(value) * own.factor)
     for k in range(_ROWS if table_a1 else 0):
         for role, column in setting.rows.columns.items():
@@ -111,7 +120,11 @@ def _labelled(calculation: Calculation, table: Table) -> Iterator[tuple[str, Pos
     for (sheet, row, column), text in calculation.values.items():
         kind = result_of(text) if isinstance(text, str) else None
         if kind is not None:
-            for place in ((sheet, row, column + 1), (sheet, row, column + 2), (sheet, row + 1, column)):
+            for place in (
+                (sheet, row, column + 1),
+                (sheet, row, column + 2),
+                (sheet, row + 1, column),
+            ):
                 inside = any(line.covers(place) for line in lines)
                 if calculation.number(place) is not None and not inside:
                     yield kind, place

@@ -9,9 +9,9 @@ from replication.check.diff import Comparison
 from replication.check.difference import Difference, count, unit_text
 from replication.check.judge import Verdict
 from replication.check.printed import Held
-from replication.check.table import address, area_of
-from replication.check.workbook import Check
+from replication.check.lines import address, area_of
 from replication.check.words import INPUTS
+from replication.check.workbook import Check
 from spreadsheets.foreign import Position
 
 __all__ = ["check_record", "diff_record", "safe"]
@@ -19,18 +19,20 @@ __all__ = ["check_record", "diff_record", "safe"]
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
-    return _finite({
-        "file": str(check.path),
-        "verdict": _verdict(check),
-        "clean": check.first is None,
-        "summary": check.summary,
-        "first": check.first and _difference(check.first),
-        "differences": [_difference(d) for d in check.differences],
-        "taken": [_taken(verdict) for verdict in check.verdicts],
-        "final_depths": [_depth(verdict) for verdict in check.verdicts],
-        "claims": [_claim(number) for number in check.held],
-        "notes": list(check.calculation.book.notes),
-    })
+    return _finite(
+        {
+            "file": str(check.path),
+            "verdict": _verdict(check),
+            "clean": check.first is None,
+            "summary": check.summary,
+            "first": check.first and _difference(check.first),
+            "differences": [_difference(d) for d in check.differences],
+            "taken": [_taken(verdict) for verdict in check.verdicts],
+            "final_depths": [_depth(verdict) for verdict in check.verdicts],
+            "claims": [_claim(number) for number in check.held],
+            "notes": list(check.calculation.book.notes),
+        }
+    )
 
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
@@ -126,7 +128,12 @@ def _depth(verdict: Verdict) -> dict[str, Any]:
             nearest = min(effects, key=lambda d: abs(effects[d] - own))
             if abs(effects[nearest] - own) < 0.05 * abs(own - right):
                 explains = address(nearest.place, True)
-    return {"found": own, "expected": right, "explained_by": explains, "differing": verdict.differing}
+    return {
+        "found": own,
+        "expected": right,
+        "explained_by": explains,
+        "differing": verdict.differing,
+    }
 
 
 def _taken(verdict: Verdict) -> dict[str, Any]:
@@ -142,7 +149,7 @@ def _taken(verdict: Verdict) -> dict[str, Any]:
                 "cells": table.area(role),
                 "head": line.head,
                 "unit": unit_text(role, setting.powers[role]),
-                "by": table.how[role],
+                "by": "--map" if line.given else "head" if role in line.roles else "values",
             }
             for role, line in table.lines.items()
         },
@@ -181,7 +188,9 @@ def safe(text: object, limit: int = 90) -> str:
     ('a\\nb\\x1b[31m', 'ab...')
     """
     cut = str(text)[: limit + 1]
-    plain = "".join(c if c == " " or unicodedata.category(c)[0] not in "CZ" else _escaped(c) for c in cut)
+    plain = "".join(
+        c if c == " " or unicodedata.category(c)[0] not in "CZ" else _escaped(c) for c in cut
+    )
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 

@@ -7,10 +7,10 @@ goes wrong fails, not the hundred that follow from it.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 __all__ = [
-    "ADVANCES", "BRAKES", "ENDINGS", "STARTS", "Case", "Rows", "Rule", "Rules", "deceleration",
+    "ADVANCES", "BRAKES", "ENDINGS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules", "deceleration",
     "march",
 ]  # fmt: skip
 
@@ -90,10 +90,10 @@ class Rule:
 class Rules:
     """A whole scheme: how each column is filled."""
 
-    start: Rule = field(default_factory=lambda: STARTS[0])
-    advance: Rule = field(default_factory=lambda: ADVANCES[0])
-    brake: Rule = field(default_factory=lambda: BRAKES[0])
-    end: Rule = field(default_factory=lambda: ENDINGS[0])
+    start: Rule
+    advance: Rule
+    brake: Rule
+    end: Rule
 
     def part(self, name: str) -> Rule:
         """The rule of a part: start, advance, brake or end."""
@@ -245,6 +245,10 @@ ENDINGS = (
 )  # fmt: skip
 
 
+REPORT = Rules(STARTS[0], ADVANCES[0], BRAKES[0], ENDINGS[0])
+"""The report's own scheme."""
+
+
 def _times(a: float | None, b: float | None) -> float | None:
     return None if a is None or b is None else a * b
 
@@ -285,7 +289,7 @@ def march(
     >>> len(rows["depth"]) - 1, f"{rows['depth'][131] * 1e6:.2f}"
     (131, '7.67')
     """
-    rules, fixed = rules or Rules(), fixed or {}
+    rules, fixed = rules or REPORT, fixed or {}
     columns: dict[str, dict[int, float]] = {role: {} for role in ORDER}
     rows = Rows(columns, case)
     columns["velocity_initial"][0] = case.velocity

@@ -66,11 +66,21 @@ def _table(taken: Record) -> Iterator[str]:
         f"  sheet {safe(taken['sheet'], 40)!r}: {taken['steps']} steps {taken['direction']}, {named}"
     )
     columns = [
-        (f"    {name.replace('_', ' ')}", column["cells"], f"in {column['unit']}", _by(column, "head"))
+        (
+            f"    {name.replace('_', ' ')}",
+            column["cells"],
+            f"in {column['unit']}",
+            _by(column, "head"),
+        )
         for name, column in taken["columns"].items()
     ]
     inputs = [
-        (f"    {name.replace('_', ' ')}", safe(own["cell"] or "-", 40), _value(own), _by(own, "label"))
+        (
+            f"    {name.replace('_', ' ')}",
+            safe(own["cell"] or "-", 40),
+            _value(own),
+            _by(own, "label"),
+        )
         for name, own in taken["inputs"].items()
     ]
     yield from aligned([*columns, *inputs])

@@ -134,8 +134,12 @@ _COLUMN_SYMBOLS = {
     "time": rf"t{_INDEX}",
     "depth": rf"(?:x|s|z|h|p){_INDEX}(?:\(t\))?",
 }
-_INITIAL = r"ini[tz]|start|begin|anfang|\balt|\bold|vorher|avant|d[ée]but|before|prev|^.?_?(?:i|a|old)$"
-_FINAL = r"final|finale|\bend|ende|\bneu|\bnew|nach|apr[eè]s|after|next|\bfin\b|nouv|^.?_?(?:f|e|new)$"
+_INITIAL = (
+    r"ini[tz]|start|begin|anfang|\balt|\bold|vorher|avant|d[ée]but|before|prev|^.?_?(?:i|a|old)$"
+)
+_FINAL = (
+    r"final|finale|\bend|ende|\bneu|\bnew|nach|apr[eè]s|after|next|\bfin\b|nouv|^.?_?(?:f|e|new)$"
+)
 
 
 @cache

@@ -9,7 +9,8 @@ from replication.check.difference import NO_FAULT, Difference, count
 from replication.check.inputs import find
 from replication.check.judge import Verdict, judge, rank
 from replication.check.printed import Held, held, report_inputs
-from replication.check.table import LEAST_ROWS, Line, address, tables
+from replication.check.lines import LEAST, Line, address, headed
+from replication.check.table import tables
 from replication.check.words import COLUMNS, INPUTS
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
@@ -60,10 +61,10 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     found, or a cell could be two things, with what would help.
     """
     calculation = calculate(read(path))
-    columns, cells = _mapped(mapping or {}, calculation)
+    given, cells = _mapped(mapping or {}, calculation)
     report = report_inputs()
     try:
-        found = tables(calculation, columns)
+        found = tables(calculation, given)
         if not found:
             raise ValueError(_nothing(calculation))
         settings = [find(table, calculation, found, cells, report) for table in found]
@@ -88,25 +89,25 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
 
 def _mapped(
     mapping: Mapping[str, str], calculation: Calculation
-) -> tuple[dict[str, Line], dict[str, Position]]:
+) -> tuple[list[Line], dict[str, Position]]:
     """The columns and the cells that the user named."""
-    columns: dict[str, Line] = {}
+    columns: list[Line] = []
     cells: dict[str, Position] = {}
     for given, where in mapping.items():
         area = _area(given, where, calculation)
-        one = area.cells == 1
-        role = "velocity_initial" if given == "velocity" and not one else given
-        if role in INPUTS and one:
-            cells[role] = area.corner
-        elif role in COLUMNS and 1 in (area.bottom - area.top + 1, area.right - area.left + 1):
+        if given in INPUTS and area.cells == 1:
+            cells[given] = area.corner
+        elif given in ("velocity", *COLUMNS) and 1 in (area.bottom - area.top + 1, area.right - area.left + 1):
             across = area.top == area.bottom
             first = area.left if across else area.top
             values = tuple(calculation.number(place) for place in area.places())
-            if sum(value is not None for value in values) < LEAST_ROWS:
-                raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST_ROWS} numbers")
-            columns[role] = Line(area.sheet, area.top if across else area.left, first, values, across)
+            if sum(value is not None for value in values) < LEAST:
+                raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
+            number = area.top if across else area.left
+            line = Line(area.sheet, number, first, values, across, given=given)
+            columns.append(headed(line, calculation))
         else:
-            wanted = "one cell" if role in INPUTS else "one column or one row"
+            wanted = "one cell" if given in INPUTS else "one column or one row"
             raise ValueError(f"--map {given}={where}: {wanted} is wanted")
     return columns, cells
 
@@ -137,7 +138,9 @@ def _nothing(calculation: Calculation) -> str:
             f"no table of depth and velocity is found; {typed:,} cells hold numbers as text, with "
             "which nothing can be calculated: convert them to numbers"
         )
-    wrong = sorted(filter(calculation.error, calculation.formulas), key=calculation.order.__getitem__)
+    wrong = sorted(
+        filter(calculation.error, calculation.formulas), key=calculation.order.__getitem__
+    )
     if wrong:
         return (
             f"no table of depth and velocity is found; {count(len(wrong), 'formula')} give errors, "
@@ -236,7 +239,9 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
             reason = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
             reasons.setdefault(reason, []).append(place)
     for place, reason in calculation.uncomputed.items():
-        reasons.setdefault(f"not computed here, their stored values are taken: {reason}", []).append(place)
+        reasons.setdefault(
+            f"not computed here, their stored values are taken: {reason}", []
+        ).append(place)
     for reason, places in reasons.items():
         formulas = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}"
         formula = calculation.book[places[0]].formula

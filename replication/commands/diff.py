@@ -13,7 +13,9 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("second", type=shared.path, metavar="B.xlsx", help="the other")
     command.add_argument("--values-only", action="store_true", help="leave formulas aside")
     command.add_argument("--ulp", metavar="N", help="equal if at most N doubles apart")
-    command.add_argument("--relative", metavar="X", help="equal if at most X times the number apart")
+    command.add_argument(
+        "--relative", metavar="X", help="equal if at most X times the number apart"
+    )
     command.add_argument("--digits", metavar="N", help="equal if they print alike to N digits")
     shared.finding_options(command)
 

@@ -40,7 +40,9 @@ def output_options(
 def finding_options(command: argparse.ArgumentParser) -> None:
     """--json, --html, --junit and --quiet: how what was found in a workbook is given."""
     command.add_argument("--json", action="store_true", help="print JSON")
-    command.add_argument("--html", type=path, metavar="F", help="write a page with the cells marked")
+    command.add_argument(
+        "--html", type=path, metavar="F", help="write a page with the cells marked"
+    )
     command.add_argument("--junit", type=path, metavar="F", help="write a JUnit file")
     command.add_argument("--quiet", action="store_true", help="print nothing; the status tells")
 

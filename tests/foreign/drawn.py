@@ -32,7 +32,13 @@ UNITS = {
 }
 LABELS = {
     "radius": ["R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"],
-    "particle_density": ["density of particle", "rho_p", "Dichte Kupfer", "masse volumique Cu", "ρp"],
+    "particle_density": [
+        "density of particle",
+        "rho_p",
+        "Dichte Kupfer",
+        "masse volumique Cu",
+        "ρp",
+    ],
     "target_density": ["density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"],
     "velocity": ["V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"],
     "resistance": ["R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"],
@@ -65,7 +71,11 @@ def drawn(seed: int, impact: Impact) -> Foreign:
 
     def at(line: int, along: int) -> str:
         """The cell of a line of the table, `along` cells from its heads."""
-        return f"{letters(corner + along)}{table + line}" if across else f"{letters(corner + line)}{table + along}"  # noqa: E501
+        return (
+            f"{letters(corner + along)}{table + line}"
+            if across
+            else f"{letters(corner + line)}{table + along}"
+        )
 
     si = _inputs(f, r, data, simple)
     prefix = "" if data == sheet else f"{data}!"
@@ -81,21 +91,32 @@ def drawn(seed: int, impact: Impact) -> Foreign:
         lines = ["n", *[name for name in lines if name != "n"]]
     gap = 2 if r.random() < 0.15 else 1
     line = {name: i * gap for i, name in enumerate(lines)}
-    units = {role: ("m/s", "") if simple or role not in UNITS else r.choice(UNITS[role]) for role in order}
+    units = {
+        role: ("m/s", "") if simple or role not in UNITS else r.choice(UNITS[role])
+        for role in order
+    }
     if simple:
         units = {role: (UNITS.get(role, [("m/s", "")])[0]) for role in order}
     first = 2 if with_units == "row" else 1
     if across:
         first += 0
     for name in lines:
-        head = r.choice(HEADS[name]) if name in HEADS else {"area": "A(x)", "energy": "E_kin", "n": "n"}[name]
+        head = (
+            r.choice(HEADS[name])
+            if name in HEADS
+            else {"area": "A(x)", "energy": "E_kin", "n": "n"}[name]
+        )
         unit = units[name][0] if name in units else ""
         if with_units != "head":
             bare = head
             for mark in (" (UNIT)", " [UNIT]", "/UNIT", " in UNIT", ", UNIT"):
                 bare = bare.replace(mark, "")
             head = bare
-        f.put(sheet, at(line[name], 0), head.replace("UNIT", f"({unit})" if "/UNIT" in head and "/" in unit else unit))  # noqa: E501
+        f.put(
+            sheet,
+            at(line[name], 0),
+            head.replace("UNIT", f"({unit})" if "/UNIT" in head and "/" in unit else unit),
+        )
         if with_units == "row" and unit:
             f.put(sheet, at(line[name], 1), unit)
     negative = r.random() < 0.2 and BRAKE in order
@@ -168,7 +189,11 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
             f.put(sheet, f"{letters(col + i)}{row}", f"{label} [{unit}]")
             here = f"{letters(col + i)}{row + 1}"
         else:
-            f.put(sheet, f"{letters(col)}{row + i}", label if simple or beside else f"{label} [{unit}]")
+            f.put(
+                sheet,
+                f"{letters(col)}{row + i}",
+                label if simple or beside else f"{label} [{unit}]",
+            )
             here = f"{letters(col + 1)}{row + i}"
             if beside and not simple:
                 f.put(sheet, f"{letters(col + 2)}{row + i}", unit)

@@ -3,9 +3,9 @@
 import copy
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, Place, letters
+from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters
 
 Values = dict[Place, float | str | bool]
 
@@ -300,11 +300,10 @@ def other_velocity(f: Foreign, _: Values) -> Planted | None:
     place = f.inputs.get("velocity")
     if place is None or _formula(f, DEPTH, 3) is None or f.name == "guarded":
         return None
-    from dataclasses import replace
-
-    g = BUILDERS[f.name](replace(f.impact, velocity=450.0)) if f.name in BUILDERS else None
-    if g is None or g.cells[g.inputs["velocity"]] not in (450.0,):
-        return None
+    layout = next((layout for layout in BY_HAND if layout(f.impact).name == f.name), None)
+    g = layout(replace(f.impact, velocity=450.0)) if layout else f
+    if g.cells[g.inputs["velocity"]] != 450.0:
+        return None  # its velocity is typed in another unit
     return Planted("other input", "other input", g, (g.inputs["velocity"],), status=0)
 
 
@@ -313,7 +312,11 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
     if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
         return None
     g = _copy(f)
-    labels = [p for p, t in f.cells.items() if isinstance(t, str) and t.startswith(("Endtiefe", "Final depth"))]  # noqa: E501
+    labels = [
+        p
+        for p, t in f.cells.items()
+        if isinstance(t, str) and t.startswith(("Endtiefe", "Final depth"))
+    ]
     if labels:
         sheet, row, column = labels[0]
         unit = 1 if "µm" in str(f.cells[labels[0]]) else 1e-6
@@ -326,20 +329,8 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
     return Planted("misprint", "printed number", g, ((sheet, row, column + 1),))
 
 
-BUILDERS: dict[str, Callable[..., Foreign]] = {}
 FAULTS: tuple[Callable[[Foreign, Values], Planted | None], ...] = (
     stale_value, typed_number, typed_right_number, odd_formula, odd_sign, typed_constant,
     typed_column, operation_order, no_half_step, middle_velocity, explicit_euler,
     drag_without_half, early_stop, wrong_head, wrong_unit_input, other_velocity, misprint,
 )  # fmt: skip
-
-
-def fill_builders() -> None:
-    from foreign.layouts import BY_HAND
-    from replication.impact import BETA_5
-
-    for layout in BY_HAND:
-        BUILDERS[layout(BETA_5).name] = layout
-
-
-_ = TIME

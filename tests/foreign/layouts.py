@@ -751,9 +751,7 @@ def six_digits(impact: Impact) -> Foreign:
     return f
 
 
-def _labelled(
-    f: Foreign, sheet: str, labels: list[tuple[str, str]], letters: str = "AB"
-) -> None:
+def _labelled(f: Foreign, sheet: str, labels: list[tuple[str, str]], letters: str = "AB") -> None:
     """Inputs in SI below each other, from row 1."""
     for r, (label, role) in enumerate(labels, 1):
         f.put(sheet, f"{letters[0]}{r}", label)

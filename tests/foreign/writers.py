@@ -40,9 +40,7 @@ def calculated(f: Foreign, path: Path) -> Values:
     }
 
 
-def with_xlsxwriter(
-    f: Foreign, path: Path, values: Values, wrong: Values | None = None
-) -> Path:
+def with_xlsxwriter(f: Foreign, path: Path, values: Values, wrong: Values | None = None) -> Path:
     """Formulas with their values, all 17 digits, as Excel stores them; some of them `wrong`."""
     import xlsxwriter
 
