@@ -1,9 +1,9 @@
 """Somebody else's workbook -> its cells: formulas and stored values, read once, within bounds.
 
 The file is hostile until shown otherwise. It is read as a stream by a parser that refuses document
-types (so no entities, inner or outer) and counts what it unpacks; nothing in it is run, looked up or
-followed. openpyxl is not used for this: it fills merged and linked ranges cell by cell, so that a
-file of a kilobyte keeps it busy for hours, and it gives formulas or stored values, not both at once.
+types (so no entities, inner or outer) and counts what it unpacks; nothing in it is run, looked up
+or followed. openpyxl is not used for this: it fills merged and linked ranges cell by cell, so that
+a file of a kilobyte keeps it busy for hours, and it gives formulas or stored values, not both.
 """
 
 import math
@@ -139,7 +139,7 @@ def _read(path: Path, shown: Path | None = None) -> Book:
 
 
 def _converted(path: Path, folder: Path) -> Path:
-    """The same workbook as .xlsx, saved by LibreOffice in a profile of its own, where macros are off."""
+    """The same workbook as .xlsx, saved by LibreOffice in a new profile, where macros are off."""
     soffice = shutil.which("soffice") or shutil.which("libreoffice")
     if soffice is None:
         raise WorkbookError(

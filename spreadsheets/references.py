@@ -1,11 +1,11 @@
 """A formula as its cell sees it: what it refers to, its shape, and what an engine may be given.
 
 Two formulas have the same shape when the one is the other filled down or across: references become
-distances, as in R1C1 notation (the fingerprints of ExceLint). Names are read as what they stand for.
+distances, as in R1C1 notation (the fingerprints of ExceLint). Names are what they stand for.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -22,9 +22,16 @@ MAX_DEPTH = 64
 _MAX_EXPANSIONS = 200
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 
-FUNCTIONS = frozenset(
-    ["ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN", "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP", "FALSE", "FLOOR", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK", "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH", "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI", "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH", "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH", "TRUE", "TRUNC", "VLOOKUP", "HLOOKUP", "XLOOKUP"]
-)
+FUNCTIONS = frozenset((
+    "ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN",
+    "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP",
+    "FALSE", "FLOOR", "HLOOKUP", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK",
+    "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH",
+    "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI",
+    "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH",
+    "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH",
+    "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
+))  # fmt: skip
 """What an engine may be asked for: functions of bounded cost that reach nothing outside."""
 
 
@@ -53,21 +60,23 @@ class Area(NamedTuple):
             for column in range(self.left, self.right + 1):
                 yield self.sheet, row, column
 
-    def __contains__(self, place: object) -> bool:
-        if not isinstance(place, tuple) or len(place) != 3:
-            return False
+    def covers(self, place: Position) -> bool:
+        """Whether a cell is one of them."""
         sheet, row, column = place
         inside = self.top <= row <= self.bottom and self.left <= column <= self.right
-        return bool(sheet == self.sheet and inside)
+        return sheet == self.sheet and inside
 
 
 class Piece(NamedTuple):
-    """One token: its kind, its text, and the area that it refers to, with what is fixed in it."""
+    """One token: its kind, its text, and the area that it refers to.
+
+    `ends` are the area's rows and columns as they are written, each with whether "$" fixes it.
+    """
 
     kind: str
     text: str
     area: Area | None = None
-    fixed: tuple[bool, bool, bool, bool] = (False, False, False, False)
+    ends: tuple[tuple[int, bool], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -95,7 +104,7 @@ class Formula:
 
     def reads(self, place: Position) -> bool:
         """Whether a cell is among what it refers to."""
-        return any(place in area for area in self.areas)
+        return any(area.covers(place) for area in self.areas)
 
     def for_engine(self, sheets: Mapping[str, str]) -> str:
         """The formula with names resolved and every sheet called as `sheets` says."""
@@ -108,9 +117,11 @@ class Formula:
         if piece.area is None:
             return piece.text.upper() if piece.kind == "function" else piece.text
         sheet, row, column = self.place
-        area, fixed = piece.area, piece.fixed
-        ends = ((area.top, row, 0), (area.left, column, 1), (area.bottom, row, 2), (area.right, column, 3))  # fmt: skip  # noqa: E501
-        steps = [str(end) if fixed[i] else f"[{end - here}]" for end, here, i in ends]
+        area, here = piece.area, (row, column, row, column)
+        steps = [
+            str(end) if fixed else f"[{end - own}]"
+            for (end, fixed), own in zip(piece.ends, here, strict=True)
+        ]
         prefix = "" if area.sheet == sheet else f"{area.sheet}!"
         first = f"{prefix}R{steps[0]}C{steps[1]}"
         return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
@@ -220,23 +231,27 @@ class _Pieces:
             return None
         g = match.groups()[1:]
         if g[1] is not None:
-            first = (g[2], int(g[3]), g[0], column_index_from_string(g[1]))
-            last = (
-                first if g[5] is None else (g[6], int(g[7]), g[4], column_index_from_string(g[5]))
-            )
+            ends = _ends(g[0:4]) + _ends(g[0:4] if g[5] is None else g[4:8])
         elif g[9] is not None:
-            first = ("$", 1, g[8], column_index_from_string(g[9]))
-            last = ("$", LAST_ROW, g[10], column_index_from_string(g[11]))
+            ends = _ends(("", g[9], "$", "1")) + _ends(("", g[11], "$", str(LAST_ROW)))
+            ends = (ends[0], (ends[1][0], bool(g[8])), ends[2], (ends[3][0], bool(g[10])))
         else:
-            first, last = (g[12], int(g[13]), "$", 1), (g[14], int(g[15]), "$", LAST_COLUMN)
-        area = Area(
-            sheet, min(first[1], last[1]), min(first[3], last[3]),
-            max(first[1], last[1]), max(first[3], last[3]),
-        )  # fmt: skip
-        if area.bottom > LAST_ROW or area.right > LAST_COLUMN:
+            ends = (
+                (int(g[13]), bool(g[12])),
+                (1, True),
+                (int(g[15]), bool(g[14])),
+                (LAST_COLUMN, True),
+            )
+        rows, columns = sorted((ends[0][0], ends[2][0])), sorted((ends[1][0], ends[3][0]))
+        if rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
             return None
-        fixed = (bool(first[0]), bool(first[2]), bool(last[0]), bool(last[2]))
-        return Piece("area", match[0], area, fixed)
+        area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
+        return Piece("area", match[0], area, ends)
+
+
+def _ends(corner: Sequence[str]) -> tuple[tuple[int, bool], tuple[int, bool]]:
+    """Row and column of a corner such as $B$7, given as its four parts, and which are fixed."""
+    return (int(corner[3]), bool(corner[2])), (column_index_from_string(corner[1]), bool(corner[0]))
 
 
 def _unquoted(sheet: str) -> str:

@@ -1,8 +1,8 @@
 """Two workbooks side by side: what was inserted, removed or moved, then formulas, then values.
 
-Rows and columns are aligned by what their cells are, not by what they hold: a heading by its text, a
-formula by its operations, a number by being one. So a changed input is one difference, an inserted
-row is one, and each formula is compared with where its references have gone.
+Rows and columns are aligned by what their cells are, not by what they hold: a heading by its text,
+a formula by its operations, a number by being one. So a changed input is one difference, an
+inserted row is one, and each formula is compared with where its references have gone.
 """
 
 import math
@@ -23,13 +23,15 @@ KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
 
 _MAX_BLOCKS = 200
+_MAX_SIMILAR = 2_500
+"""Blocks to look for elsewhere, and pairs of lines to compare with each other."""
 
 Cell = tuple[int, int]
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far two numbers may be apart and still be called equal; any one that is given suffices."""
+    """How far apart two numbers may be and still be called equal; any of them suffices."""
 
     ulp: int = 0
     relative: float = 0.0
@@ -74,7 +76,7 @@ def _number(
 
 @dataclass
 class Comparison:
-    """What `coldspray diff` has to say; places are those of the second workbook, where it has them."""
+    """What `coldspray diff` has found; places are those of the second workbook, if it has them."""
 
     paths: tuple[Path, Path]
     calculations: tuple[Calculation, Calculation]
@@ -355,11 +357,27 @@ def _matched(
     while end < min(len(a), len(b)) - start and keys[0][-1 - end] == keys[1][-1 - end]:
         end += 1
     pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
-    matcher = SequenceMatcher(None, keys[0][start : len(a) - end], keys[1][start : len(b) - end])
-    for tag, i1, i2, j1, j2 in matcher.get_opcodes():
+    middle = keys[0][start : len(a) - end], keys[1][start : len(b) - end]
+    for tag, i1, i2, j1, j2 in SequenceMatcher(None, *middle).get_opcodes():
         if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
             pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
+        elif tag == "replace" and (i2 - i1) * (j2 - j1) <= _MAX_SIMILAR:
+            similar = _similar(middle[0][i1:i2], middle[1][j1:j2])
+            pairs += [(start + i1 + i, start + j1 + j) for i, j in similar]
     return {a[i]: b[j] for i, j in sorted(pairs)}
+
+
+def _similar(
+    old: Sequence[tuple[str, ...]], new: Sequence[tuple[str, ...]]
+) -> Iterator[tuple[int, int]]:
+    """Lines of two lists that are mostly the same, in their order."""
+    after = 0
+    for i, line in enumerate(old):
+        for j in range(after, len(new)):
+            if line and SequenceMatcher(None, line, new[j]).ratio() > 0.5:
+                yield i, j
+                after = j + 1
+                break
 
 
 def _shifted(places: Mapping[int, int]) -> Iterator[tuple[int, int, int]]:

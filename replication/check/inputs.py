@@ -14,8 +14,8 @@ from statistics import median
 
 from reference.units import to_si
 from replication.check.difference import power_of_ten, scaled, title
-from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
 from replication.check.lines import address
+from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
 from replication.check.table import Table
 from replication.check.words import INPUTS, input_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
@@ -37,7 +37,7 @@ Report = Mapping[str, tuple[float, ...]]
 
 @dataclass(frozen=True)
 class Input:
-    """One input: its value in SI, the cell that holds it (None if no cell does) and how it is known.
+    """One input: its value in SI, its cell (None if no cell holds it) and how it is known.
 
     `roles` is what its label allows, `unit` what the workbook says, `factor` what the cell's number
     was multiplied by.
@@ -316,10 +316,9 @@ def _settled(
     }
     chosen = {role: cells[0] for role, cells in choices.items()}
     tried: list[tuple[float, Setting]] = []
-    for cells in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
-        setting = _setting(
-            table, chosen | dict(zip(several, cells, strict=True)), calculation, report
-        )
+    for picked in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
+        inputs = chosen | dict(zip(several, picked, strict=True))
+        setting = _setting(table, inputs, calculation, report)
         tried.append((agreement(setting), setting))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
@@ -531,7 +530,7 @@ def _shortest(value: float, near: float) -> float:
 def agreement(
     setting: Setting, near: float | None = None, rules: Sequence[Rule] = BRAKES[:2]
 ) -> float:
-    """Which share of the rows brakes as its own depth and velocity say, by the best of the rules."""
+    """Which share of the rows brakes as its depth and velocity say, by the best of some rules."""
     return max(_agrees(setting, rule, setting.near if near is None else near) for rule in rules)
 
 

@@ -107,7 +107,7 @@ def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
             for number in formula.literals
         )
     return typed and not any(
-        own.place in area or _converts(area.corner, own.place, calculation)
+        own.place == area.corner or _converts(area.corner, own.place, calculation)
         for area in formula.areas
         if area.cells == 1
     )

@@ -141,7 +141,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
 
 
 def _runs(places: Sequence[int], filled: Counter[int]) -> Iterator[tuple[int, int]]:
-    """First and last of each run; a missing cell or two end it only where others are missing, too."""
+    """First and last of each run; a few missing cells end it only where others are missing, too."""
     first = places[0]
     for before, here in pairwise([*places, math.inf]):
         gap = range(int(before) + 1, int(here)) if here - before - 1 <= _GAP else None

@@ -7,8 +7,8 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 from replication.check.difference import Difference
-from replication.check.record import safe
 from replication.check.lines import address
+from replication.check.record import safe
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -108,7 +108,7 @@ def _sheet(
 
 
 def _kept(used: set[int], marked: set[int], most: int) -> list[int | None]:
-    """All lines, or the first and those around what is marked, with None where some are left out."""
+    """All lines, or the first and those around what is marked; None where some are left out."""
     everything = sorted(used)
     if len(everything) > most:
         near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}

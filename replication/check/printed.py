@@ -63,7 +63,7 @@ def held(
 ) -> Iterator[Held]:  # fmt: skip
     """The printed numbers that a table of one of the report's cases holds, each judged.
 
-    `alone`: it is the only table, so labelled results are its own; `ends`: it goes down to the stop.
+    `alone`: it is the only table, so labelled results are its own; `ends`: it goes to the stop.
     """
     stated = ("velocity", "radius", "particle_density", "step")
     resistances = [

@@ -1,4 +1,4 @@
-"""What `check` and `diff` found, as one JSON document that text, page and JUnit file are made from."""
+"""What `check` and `diff` found, as one JSON document; text, page and JUnit file show that."""
 
 import math
 import unicodedata
@@ -8,8 +8,8 @@ from typing import Any
 from replication.check.diff import Comparison
 from replication.check.difference import Difference, count, unit_text
 from replication.check.judge import Verdict
-from replication.check.printed import Held
 from replication.check.lines import address, area_of
+from replication.check.printed import Held
 from replication.check.words import INPUTS
 from replication.check.workbook import Check
 from spreadsheets.foreign import Position
@@ -19,20 +19,19 @@ __all__ = ["check_record", "diff_record", "safe"]
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
-    return _finite(
-        {
-            "file": str(check.path),
-            "verdict": _verdict(check),
-            "clean": check.first is None,
-            "summary": check.summary,
-            "first": check.first and _difference(check.first),
-            "differences": [_difference(d) for d in check.differences],
-            "taken": [_taken(verdict) for verdict in check.verdicts],
-            "final_depths": [_depth(verdict) for verdict in check.verdicts],
-            "claims": [_claim(number) for number in check.held],
-            "notes": list(check.calculation.book.notes),
-        }
-    )
+    record = {
+        "file": str(check.path),
+        "verdict": _verdict(check),
+        "clean": check.first is None,
+        "summary": check.summary,
+        "first": check.first and _difference(check.first),
+        "differences": [_difference(d) for d in check.differences],
+        "taken": [_taken(verdict) for verdict in check.verdicts],
+        "final_depths": [_depth(verdict) for verdict in check.verdicts],
+        "claims": [_claim(number) for number in check.held],
+        "notes": list(check.calculation.book.notes),
+    }
+    return {name: _finite(entry) for name, entry in record.items()}
 
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
@@ -97,7 +96,9 @@ def _verdict(check: Check) -> str:
             return f"Clean: the report's sheet{inputs}, cell by cell."
         return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
     if not causes:
-        return f"The sheet is right, but {count(len(faults), 'number')} is not as the report prints it."
+        return (
+            f"The sheet is right, but {count(len(faults), 'number')} beside it is not as printed."
+        )
     if all(d.kind == "operation order" for d in causes):
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
@@ -119,7 +120,7 @@ def _apart(own: float, right: float) -> bool:
 
 
 def _depth(verdict: Verdict) -> dict[str, Any]:
-    """The final depth, what it should be, and the one difference that alone gives it, if one does."""
+    """The final depth, what it should be, and the one difference that alone explains it, if any."""
     own, right = verdict.final_depth, verdict.right_depth
     explains = None
     if own is not None and right is not None and _apart(own, right):

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 __all__ = [
-    "ADVANCES", "BRAKES", "ENDINGS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules", "deceleration",
-    "march",
+    "ADVANCES", "BRAKES", "ENDINGS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules",
+    "deceleration", "march", "orders", "with_input",
 ]  # fmt: skip
 
 ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
@@ -206,7 +206,7 @@ BRAKES = (
          "the contact area is that of the whole sphere, pi R², at every depth"),
     Rule("area beyond the radius",
          _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.diameter * x - x * x)),
-         "the contact area shrinks again where the depth exceeds the radius; the report keeps pi R²"),
+         "the contact area shrinks again beyond the depth R, where the report keeps pi R²"),
     Rule("drag at the row before", _with(lambda c, x, _, rows, k: None if (
         v := rows("velocity_initial", k - 1)) is None else deceleration(c, x, v)),
          "the drag is taken at the initial velocity of the row before"),
@@ -233,14 +233,15 @@ ADVANCES = (
         r, k, c.step, _mean(r("velocity_initial", k - 1), r("velocity_final", k - 1))),
          "the depth moves on by the mean of the velocities of the row before"),
     Rule("half steps throughout", lambda c, r, k: _moved(
-        r, k, c.step / 2, r("velocity_initial", k)), "every step moves the depth by half a step only"),
+        r, k, c.step / 2, r("velocity_initial", k)),
+         "every step moves the depth by half a step only"),
 )  # fmt: skip
 
 ENDINGS = (
     Rule("whole step", lambda c, r, k: _slowed(r, k, c.step)),
     Rule("half a step", lambda c, r, k: _slowed(r, k, c.step / 2),
          "the velocity falls by the deceleration times half a step only"),
-    Rule("by energy", lambda c, r, k: _by_energy(r, k),
+    Rule("by energy", lambda _, r, k: _by_energy(r, k),
          "the velocity follows from v² - 2 a times the step in depth"),
 )  # fmt: skip
 

@@ -86,7 +86,9 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
             continue
         table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
         # Other quantities grow like this, too: it takes a third one, or names for both.
-        if table and (len(table.lines) > 2 or all(r in l.roles for r, l in table.lines.items())):
+        if table and (
+            len(table.lines) > 2 or all(role in table.lines[role].roles for role in table.lines)
+        ):
             found.append(table)
     if given:
         found = [table for table in found if all(line in table.lines.values() for line in given)]
@@ -140,7 +142,7 @@ def _score(depth: Line, speed: Line, calculation: Calculation) -> float:
 
 
 def _reads(line: Line, other: Line, back: int, calculation: Calculation) -> bool:
-    """Whether most cells of a line are formulas that read another line's cell, so many rows back."""
+    """Whether most cells of a line are formulas that read another's cell, so many rows back."""
     rows = range(line.first + 1, line.last + 1)[:: 1 + len(line.values) // _SAMPLE]
     formulas = ((at, calculation.formulas.get(line.place(at))) for at in rows)
     reads = sum(f is not None and f.reads(other.place(at - back)) for at, f in formulas)

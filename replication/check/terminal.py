@@ -62,9 +62,8 @@ def _list(title: str, lines: Sequence[str], of: int) -> Iterator[str]:
 def _table(taken: Record) -> Iterator[str]:
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
-    yield (
-        f"  sheet {safe(taken['sheet'], 40)!r}: {taken['steps']} steps {taken['direction']}, {named}"
-    )
+    sheet = repr(safe(taken["sheet"], 40))
+    yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
     columns = [
         (
             f"    {name.replace('_', ' ')}",

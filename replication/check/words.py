@@ -174,8 +174,19 @@ def _measures(role: str, unit: str) -> bool:
 
 _SPEED = r"velocit|speed|geschw|vitesse|\bvel\b"
 _STOP = r"stop|abbruch|arr[êe]t|\bend|thresh|cut.?off|minim|limit|seuil|below|schwell"
-_PARTICLE = r"partic|partik|teilchen|copper|kupfer|cuivre|\bcu\b|sphere|kugel|sph[èe]re|projectil|impactor|pulver|powder|poudre|bille"
+_PARTICLE = (
+    r"partic|partik|teilchen|copper|kupfer|cuivre|\bcu\b|sphere|kugel|sph[èe]re|projectil"
+    r"|impactor|pulver|powder|poudre|bille"
+)
 _TARGET = r"target|ziel|cible|steel|stahl|acier|substrat|\bplate\b|platte|plaque|inox|304"
+_STEP = (
+    r"time.?step|time.?incr|increment|zeitschritt|schrittweite|pas de temps|\bpas\b|delta.?t\b"
+    r"|^step|[δ∆]t"
+)
+_STRESS = (
+    r"flow.?stress|yield|strength|flie(?:ß|ss)|streck|festigkeit|contrainte|[ée]coulement"
+    r"|limite.*[ée]last"
+)
 _INPUT_WORDS: tuple[tuple[str, str, str], ...] = (
     # role, words it must have, words it must not have
     ("particle_density", rf"(?=.*(?:densit|dichte|volumique|rho|ρ))(?=.*(?:{_PARTICLE}))", "$^"),
@@ -184,10 +195,10 @@ _INPUT_WORDS: tuple[tuple[str, str, str], ...] = (
     ("target_density", r"densit|dichte|volumique|^rho$|^ρ$", _PARTICLE),
     ("stop_velocity", rf"(?=.*(?:{_STOP}))(?=.*(?:{_SPEED}|\bv\b|below|m/s))", "$^"),
     ("velocity", _SPEED, _STOP),
-    ("step", r"time.?step|time.?incr|increment|zeitschritt|schrittweite|pas de temps|\bpas\b|delta.?t\b|^step|[δ∆]t", r"half|halb|demi|number|anzahl|nombre|steps"),
+    ("step", _STEP, r"half|halb|demi|number|anzahl|nombre|steps"),
     ("resistance", r"resistan|widerstand|r[ée]sistan", "$^"),
     ("beta", r"\bbeta\b|β|b[êe]ta\b", "$^"),
-    ("flow_stress", r"flow.?stress|yield|strength|flie(?:ß|ss)|streck|festigkeit|contrainte|[ée]coulement|limite.*[ée]last", "copper|kupfer|cuivre"),
+    ("flow_stress", _STRESS, "copper|kupfer|cuivre"),
     ("radius", r"radius|rayon|halbmesser", r"depth|tiefe|profond|/|contact|kontakt"),
     ("diameter", r"diam|durchmesser", r"contact|kontakt|depth|/"),
     ("mass", r"\bmass\b|masse\b|[a-z]masse\b", "volumique"),

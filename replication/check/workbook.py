@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from replication.check.difference import NO_FAULT, Difference, count
+from replication.check.findings import rank
 from replication.check.inputs import find
-from replication.check.judge import Verdict, judge, rank
-from replication.check.printed import Held, held, report_inputs
+from replication.check.judge import Verdict, judge
 from replication.check.lines import LEAST, Line, address, headed
+from replication.check.printed import Held, held, report_inputs
 from replication.check.table import tables
 from replication.check.words import COLUMNS, INPUTS
 from spreadsheets.foreign import Position, read
@@ -97,7 +98,10 @@ def _mapped(
         area = _area(given, where, calculation)
         if given in INPUTS and area.cells == 1:
             cells[given] = area.corner
-        elif given in ("velocity", *COLUMNS) and 1 in (area.bottom - area.top + 1, area.right - area.left + 1):
+        elif given in ("velocity", *COLUMNS) and 1 in (
+            area.bottom - area.top + 1,
+            area.right - area.left + 1,
+        ):
             across = area.top == area.bottom
             first = area.left if across else area.top
             values = tuple(calculation.number(place) for place in area.places())
@@ -119,11 +123,21 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
     if given not in ("velocity", *COLUMNS, *INPUTS):
         raise ValueError(f"--map {given[:40]!r}: choose of {', '.join([*COLUMNS, *INPUTS])}")
     names = {name.upper(): meaning for name, meaning in book.names.items()}
-    areas = parse(f"={where}", (next(iter(sheets.values())), 1, 1), sheets, names).areas
-    if len(areas) != 1:
+    read = (parse(f"={where}", (sheet, 1, 1), sheets, names).areas for sheet in book.sheets)
+    areas = list(dict.fromkeys(found[0] for found in read if len(found) == 1))
+    if len(areas) > 1:  # no sheet is named: the one with numbers there is meant
+        numbers = [place for place, value in calculation.values.items() if isinstance(value, float)]
+        areas = [area for area in areas if any(map(area.covers, numbers))] or areas[:1]
+    if len(areas) > 1:
+        raise ValueError(
+            f"--map {given}={where}: several sheets hold numbers there: name one, such as "
+            f"--map {given}={address(areas[0].corner, True)}"
+        )
+    if not areas:
         known = ", ".join(repr(name) for name in list(sheets.values())[:8])
         raise ValueError(
-            f"--map {given}={where[:60]!r}: a range such as Sheet1!D8:D139 is wanted; the sheets are {known}"
+            f"--map {given}={where[:60]!r}: a range such as Sheet1!D8:D139 is wanted; "
+            f"the sheets are {known}"
         )
     rows = max((r for r, _ in book.sheets[areas[0].sheet]), default=1)
     return areas[0]._replace(bottom=min(areas[0].bottom, max(rows, areas[0].top)))
@@ -177,10 +191,10 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
         stored, value = calculation.book[place].value, calculation.values.get(place)
         if place in calculation.uncomputed or stored is None or stored == value:
             continue
-        if isinstance(stored, float) and isinstance(value, float):
-            if abs(stored - value) <= _STALE * max(sizes.get(place, 0.0), abs(value)):
-                continue
-        wrong.append(place)
+        numbers = isinstance(stored, float) and isinstance(value, float)
+        near = _STALE * max(sizes.get(place, 0.0), abs(value)) if isinstance(value, float) else 0.0
+        if not (numbers and abs(float(stored) - float(value or 0.0)) <= near):
+            wrong.append(place)
     for run in _runs(wrong, calculation):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         yield Difference(

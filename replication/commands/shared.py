@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from spreadsheets.recalculation import Calculation
 
 __all__ = [
-    "case", "finding_files", "finding_options", "given", "input_options", "output_options", "path", "print_json",
-    "put_findings", "warn",
+    "case", "finding_files", "finding_options", "given", "input_options", "output_options", "path",
+    "print_json", "put_findings", "warn",
 ]  # fmt: skip
 
 

@@ -58,7 +58,7 @@ FACTORS = {
 }  # fmt: skip
 
 
-def drawn(seed: int, impact: Impact) -> Foreign:
+def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from top to bottom)
     """A workbook of that seed: everything about it is drawn, but what it calculates."""
     r = random.Random(seed)
     f = Foreign(f"random-{seed}", impact, si=False)
@@ -98,8 +98,6 @@ def drawn(seed: int, impact: Impact) -> Foreign:
     if simple:
         units = {role: (UNITS.get(role, [("m/s", "")])[0]) for role in order}
     first = 2 if with_units == "row" else 1
-    if across:
-        first += 0
     for name in lines:
         head = (
             r.choice(HEADS[name])
@@ -202,7 +200,6 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
         f.inputs[name] = (sheet, at, column)
         absolute = f"${letters(column)}${at}"
         si[name] = f"({absolute}{conversion})" if conversion else absolute
-    si = {k: v if not v.startswith("(") else v for k, v in si.items()}
     mass = f"{letters(col + (7 if flat else 1))}{row + (1 if flat else 7)}"
     label = f"{letters(col + (7 if flat else 0))}{row + (0 if flat else 7)}"
     f.put(sheet, label, "mass [kg]")

@@ -94,12 +94,10 @@ def _constants(f: Foreign) -> list[tuple[str, str, str]]:
     """Inputs as a formula may name them: role, its reference, its value as typed."""
     found = []
     for role, place in f.inputs.items():
-        value = f.cells[place]
-        for sheet in ("", f"{place[0]}!", f"'{place[0]}'!"):
-            found.append((role, f"{sheet}${letters(place[2])}${place[1]}", f"{value!r}"))
-        for name, meaning in f.names.items():
-            if meaning.rpartition("!")[2] == f"${letters(place[2])}${place[1]}":
-                found.append((role, name, f"{value!r}"))
+        cell, value = f"${letters(place[2])}${place[1]}", f"{f.cells[place]!r}"
+        names = [name for name, meaning in f.names.items() if meaning.rpartition("!")[2] == cell]
+        references = [cell, f"{place[0]}!{cell}", f"'{place[0]}'!{cell}", *names]
+        found += [(role, reference, value) for reference in references]
     return sorted(found, key=lambda entry: -len(entry[1]))
 
 
@@ -254,7 +252,7 @@ def early_stop(f: Foreign, _: Values) -> Planted | None:
 
 def _beside(f: Foreign, first: int, last: int) -> list[Place]:
     """Helpers in the same rows (or columns) of the table."""
-    sheet, row, column = f.where[DEPTH, 1]
+    sheet, row, _ = f.where[DEPTH, 1]
     across = f.where[DEPTH, 2][1] == row
     low, high = f.where[DEPTH, first], f.where[DEPTH, last]
     along = 2 if across else 1

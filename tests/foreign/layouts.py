@@ -459,7 +459,8 @@ def natural_units(impact: Impact) -> Foreign:
     # and densities in pg/µm³ are those in g/cm³.
     given = [
         ("R [µm]", 11, "radius"), ("ρp [g/cm³]", 8.9, "particle_density"),
-        ("ρt [g/cm³]", 7.85, "target_density"), ("Rt [GPa]", 0.7 * (impact.beta or 0), "resistance"),
+        ("ρt [g/cm³]", 7.85, "target_density"),
+        ("Rt [GPa]", 0.7 * (impact.beta or 0), "resistance"),
         ("V [km/s]", 0.5, "velocity"), ("Δt [ns]", 0.2, "step"),
     ]  # fmt: skip
     for r, (label, value, key) in enumerate(given, 1):
@@ -492,7 +493,8 @@ def named_everything(impact: Impact) -> Foreign:
     f.put(s, "B2", "Appendix, Table A-1")
     f.put(s, "B3", "rigid sphere; 0.2 ns steps; stop when dx/dt < 1 m/s")
     given = [
-        ("R", "Rp", impact.radius, "radius"), ("ρₚ", "rhop", impact.particle_density, "particle_density"),
+        ("R", "Rp", impact.radius, "radius"),
+        ("ρₚ", "rhop", impact.particle_density, "particle_density"),
         ("ρₜ", "rhot", impact.target_density, "target_density"), ("β", "bet", impact.beta, "beta"),
         ("Yₜ", "Yt", 700000000, "flow_stress"), ("V", "Vimp", impact.velocity, "velocity"),
         ("Δt", "dt_", impact.step, "step"),

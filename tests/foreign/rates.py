@@ -1,6 +1,6 @@
-"""How well `coldspray check` does on workbooks that it has not made: `python tests/foreign/rates.py`.
+"""How well `coldspray check` does on workbooks that it has not made.
 
-Prints the tables of docs/check.md, which the tests compare with what they measure.
+`python tests/foreign/rates.py` prints the tables of docs/check.md; the tests measure them again.
 """
 
 import shutil
@@ -73,9 +73,9 @@ def to_spoil() -> list[tuple[Foreign, writers.Values]]:
 def planted(
     plant: Callable[..., Planted | None], folder: Path
 ) -> tuple[str, list[tuple[str, bool, bool]]]:
-    """One fault in every workbook that can have it: its name; workbook, found, and found alone.
+    """One fault in every workbook that can have it: its name; each workbook, found, found alone.
 
-    Found: named rightly, placed on the right cell and called the first; alone: nothing else accused.
+    Found: named rightly, placed on the right cell, called the first; alone: nothing else accused.
     """
     fault, found = "", []
     for f, values in to_spoil():
