@@ -1,34 +1,34 @@
-"""The report's equations over boxes of inputs, in interval arithmetic: bounds that are proven.
+"""Formulas over boxes of inputs, in interval arithmetic: bounds that are proven.
 
-An interval computed here contains every value that the formula takes for inputs in the box; it may
-be wider than that set. Where it is too wide to decide a question, the box is cut in halves until it
-decides, or the question stays undecided: never a guess.
+What is computed here contains every value that a formula takes for inputs in the box. The
+derivatives are enclosed along with it: an input by which the formula is proven to rise or fall all
+over the box is put at its ends, so that the bound is sharp. Where it is too wide to decide a
+question, the box is cut in halves until it decides, or the question stays undecided: never a guess.
 """
 
-import heapq
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, product
+from functools import cache
+from typing import Any
 
-from reference.exact import Number
-from reference.intervals import Intervals
+from reference.arithmetic import DiscontinuityError, Duals, Number
+from reference.intervals import Intervals, Span
+from reference.ledger import Function
 from reference.printed import Interval
 
 __all__ = [
     "Box",
     "Constraint",
     "Exploration",
-    "Function",
+    "Range",
     "Solutions",
-    "admitted",
-    "evaluate",
+    "enclose",
     "explore",
     "extent",
-    "satisfiable",
     "satisfying",
-    "solutions",
+    "solve",
 ]
 
 Box = Mapping[str, tuple[Fraction, Fraction]]
@@ -37,126 +37,202 @@ Box = Mapping[str, tuple[Fraction, Fraction]]
 Part = dict[str, tuple[Fraction, Fraction]]
 """A box that is cut from another."""
 
-Function = Callable[..., Number | Fraction]
-"""Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
-
-
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
 
 
-def evaluate(function: Function, box: Box) -> tuple[Fraction, Fraction]:
-    """A proven range of the function over the box, in SI units."""
+@cache
+def _duals(variables: int) -> Duals:
+    return Duals(_INTERVALS, variables)
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A proven range of a function over a box.
+
+    `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
+    (-1) with it all over the box, or not (0); on the `idle` ones it is proven not to depend.
+    """
+
+    lower: Fraction
+    upper: Fraction
+    signs: Mapping[str, int]
+    idle: frozenset[str] = frozenset()
+
+    @property
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """Both ends."""
+        return self.lower, self.upper
+
+    @property
+    def is_monotone(self) -> bool:
+        """Whether every input is proven to act in one direction; the ends are then attained."""
+        return all(self.signs.values())
+
+
+def enclose(function: Function, box: Box) -> Range:
+    """A proven range of the function over the box, in SI units.
+
+    >>> box = {"x": (Fraction(1), Fraction(2))}
+    >>> [float(end) for end in enclose(lambda ar, x: x / (1 + x), box).ends]
+    [0.5, 0.6666666666666666]
+    """
+    wide = [name for name, (low, high) in box.items() if low != high]
+    slopes = _slopes(function, box, wide) if wide else {}
+    signs = {name: _sign(slope) for name, slope in slopes.items()}
+    idle = frozenset(name for name, slope in slopes.items() if slope.low == 0 == slope.high)
+    fixed = {name: sign for name, sign in signs.items() if sign}
+    if not fixed:
+        return Range(*_best(function, box, slopes), signs or dict.fromkeys(wide, 0))
+    lower, upper = (
+        _points({
+            name: ends if name not in fixed else ends[_end(fixed[name], top)]
+            for name, ends in box.items()
+        })
+        for top in (0, 1)
+    )  # fmt: skip
+    if len(fixed) == len(wide):
+        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs, idle)
+    # An input that is put at an end may free another's sign.
+    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
+
+
+def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fraction, Fraction]:
+    """The plain range, cut to what the value in the middle and the slopes allow."""
+    low, high = _plain(function, box)
+    if not slopes:
+        return low, high
+    middle = _middle(box)
+    value = _plain(function, _points(middle))
+    reach = Fraction(0)
+    for name, slope in slopes.items():
+        steepest = max(map(abs, _INTERVALS.ends(slope)))
+        reach += steepest * (box[name][1] - box[name][0]) / 2
+    return max(low, value[0] - reach), min(high, value[1] + reach)
+
+
+def _end(sign: int, top: int) -> int:
+    """Which end of a rising or falling input gives the least (top 0) or greatest value (1)."""
+    return top if sign > 0 else 1 - top
+
+
+def _points(part: Mapping[str, Fraction | tuple[Fraction, Fraction]]) -> Part:
+    return {name: x if isinstance(x, tuple) else (x, x) for name, x in part.items()}
+
+
+def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     with _INTERVALS.working():
         numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
         value = function(_INTERVALS, **numbers)
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
+def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
+    """What holds every derivative all over the box; nothing where the function may jump."""
+    duals = _duals(len(wide))
+    with _INTERVALS.working():
+        numbers = {}
+        for name, ends in box.items():
+            span = _INTERVALS.interval(*ends)
+            numbers[name] = (
+                duals.variable(span, wide.index(name)) if name in wide else duals.constant(span)
+            )
+        try:
+            value = function(duals, **numbers)
+        except (DiscontinuityError, ZeroDivisionError):
+            return {}
+        if isinstance(value, Fraction):
+            return dict.fromkeys(wide, _INTERVALS.number(0))
+        return dict(zip(wide, value.slopes, strict=True))
+
+
+def _sign(slope: Span) -> int:
+    return 1 if slope.low >= 0 else -1 if slope.high <= 0 else 0
+
+
 @dataclass(frozen=True, slots=True)
 class Exploration:
     """What is proven of a function's values over a box, against a target interval.
 
-    `lower`, `upper`: a range that holds all values. `inside`, `outside`: a point of the box whose
-    value is proven inside or outside the target, if one was found. `decided`: no part of the box
-    was left open.
+    `lower`, `upper`: a range that holds all values. `inside`: a point of the box whose value is
+    proven inside the target, if one is known. `never`: no value in the box is, which is proven.
     """
 
     lower: Fraction
     upper: Fraction
-    inside: dict[str, Fraction] | None
-    outside: dict[str, Fraction] | None
-    decided: bool
-
-    @property
-    def always(self) -> bool:
-        """Every value in the box is inside the target."""
-        return self.decided and self.outside is None
-
-    @property
-    def never(self) -> bool:
-        """No value in the box is inside the target."""
-        return self.decided and self.inside is None
+    inside: Mapping[str, Fraction] | None
+    never: bool = False
 
 
-def explore(function: Function, box: Box, target: Interval, budget: int = 2000) -> Exploration:
-    """Decide by branch and bound whether values over the box fall inside the target interval.
+def explore(function: Function, box: Box, target: Interval, budget: int = 250) -> Exploration:
+    """Decide whether values over the box fall inside the target interval.
 
-    The part whose middle comes nearest to the target is cut first, along its relatively widest
-    side. It ends when points inside and outside are both known, when every part is decided, or
-    after `budget` evaluations.
+    Where every input acts in one direction, the way from the least to the greatest value is
+    searched; other boxes are cut in halves along the relatively widest side, the largest first. It
+    ends with a point that is proven inside, when every part is proven outside, or after `budget`
+    parts.
+
+    >>> box = {"x": (Fraction(0), Fraction(1))}
+    >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
+    True
     """
-    search, scales = _Search(function, target), _scales(box)
-    search.add(dict(box))
-    while search.open and search.evaluations < budget and not search.split():
-        for part in _halves(search.nearest(), scales):
-            search.add(part)
-    return search.result()
+    whole, scales = enclose(function, box), _scales(box)
+    queue, closed = deque([(dict(box), whole)]), list[tuple[Fraction, Fraction]]()
+    inside, undecided = None, False
+    while queue and inside is None and budget > 0:
+        (part, range_), budget = queue.popleft(), budget - 1
+        if target.excludes(*range_.ends):
+            closed.append(range_.ends)
+        elif target.encloses(*range_.ends):
+            inside = _middle(part)
+            closed.append(range_.ends)
+        elif range_.is_monotone:
+            inside = _on_the_way(function, part, range_, target) if range_.signs else None
+            undecided |= inside is None
+            closed.append(range_.ends)
+        else:
+            middle = _middle(part)
+            inside = middle if target.encloses(*_plain(function, _points(middle))) else None
+            queue += [(half, enclose(function, half)) for half in _halves(part, scales)]
+    lows, highs = zip(*closed, *(range_.ends for _, range_ in queue), strict=True)
+    return Exploration(
+        max(whole.lower, min(lows)),
+        min(whole.upper, max(highs)),
+        inside,
+        never=not queue and inside is None and not undecided,
+    )
 
 
-class _Search:
-    """The open parts of a box, and what the closed ones have proven."""
+_STEPS = 80
+"""Halvings of a way through a box: down to parts that no printed digit and no double could tell."""
 
-    def __init__(self, function: Function, target: Interval) -> None:
-        self.function, self.target = function, target
-        self.evaluations = 0
-        self.stuck = False
-        self.inside: dict[str, Fraction] | None = None
-        self.outside: dict[str, Fraction] | None = None
-        self.open: list[tuple[Fraction, int, Part]] = []
-        self._open_ranges: dict[int, tuple[Fraction, Fraction]] = {}
-        self._closed_ranges: list[tuple[Fraction, Fraction]] = []
 
-    def split(self) -> bool:
-        return self.inside is not None and self.outside is not None
+def _on_the_way(
+    function: Function, box: Box, range_: Range, target: Interval
+) -> dict[str, Fraction] | None:
+    """A point inside the target on the way from the box's least value to its greatest, if found.
 
-    def add(self, part: Part) -> None:
-        self.evaluations += 1
-        ends = evaluate(self.function, part)
-        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
-        if self._note(ends, middle):
-            self._closed_ranges.append(ends)
-            return
-        if all(low == high for low, high in part.values()):
-            # Its enclosure straddles an end of the target: no cut can decide it.
-            self.stuck = True
-            self._closed_ranges.append(ends)
-            return
-        self.evaluations += 1
-        at_middle = evaluate(self.function, {name: (x, x) for name, x in middle.items()})
-        self._note(at_middle, middle)
-        self._open_ranges[self.evaluations] = ends
-        heapq.heappush(self.open, (self._distance(at_middle), self.evaluations, part))
+    Not at the corners themselves: an open end of an input's interval does not belong to it.
+    """
+    low, high = Fraction(0), Fraction(1)
+    for _ in range(_STEPS):
+        share = (low + high) / 2
+        point = {
+            name: a + (b - a) * (share if range_.signs.get(name, 1) > 0 else 1 - share)
+            for name, (a, b) in box.items()
+        }
+        ends = _plain(function, _points(point))
+        if target.encloses(*ends):
+            return point
+        if target.lower is not None and ends[0] <= target.lower:
+            low = share
+        else:
+            high = share
+    return None
 
-    def _note(self, ends: tuple[Fraction, Fraction], point: dict[str, Fraction]) -> bool:
-        """Record a proof for the point; whether there was one."""
-        if self.target.encloses(*ends):
-            self.inside = self.inside or point
-            return True
-        if self.target.excludes(*ends):
-            self.outside = self.outside or point
-            return True
-        return False
 
-    def _distance(self, ends: tuple[Fraction, Fraction]) -> Fraction:
-        above = Fraction(0) if self.target.upper is None else ends[0] - self.target.upper
-        below = Fraction(0) if self.target.lower is None else self.target.lower - ends[1]
-        return max(above, below)
-
-    def nearest(self) -> Part:
-        _, number, part = heapq.heappop(self.open)
-        del self._open_ranges[number]
-        return part
-
-    def result(self) -> Exploration:
-        ranges = self._closed_ranges + list(self._open_ranges.values())
-        return Exploration(
-            min(low for low, _ in ranges),
-            max(high for _, high in ranges),
-            self.inside,
-            self.outside,
-            not self.open and not self.stuck,
-        )
+def _middle(box: Box) -> dict[str, Fraction]:
+    return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
 def _scales(box: Box) -> dict[str, Fraction]:
@@ -172,115 +248,203 @@ def _halves(part: Part, scales: Mapping[str, Fraction]) -> list[Part]:
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
 
 
+@dataclass(frozen=True, slots=True)
+class Solutions:
+    """The values of one input, within a search, for which a function meets its target.
+
+    `inner`: intervals all of whose values are proven to; `outer`: those outside which every value
+    of the search is proven not to. Empty `outer`: proven that none does.
+    """
+
+    search: tuple[Fraction, Fraction]
+    inner: tuple[tuple[Fraction, Fraction], ...]
+    outer: tuple[tuple[Fraction, Fraction], ...]
+
+    @property
+    def reaches_an_end(self) -> bool:
+        """Whether the solutions may go on beyond the search."""
+        low, high = self.search
+        return any(part[0] == low or part[1] == high for part in self.outer)
+
+    def admits(self, value: Fraction) -> bool:
+        """Whether the value is proven to be a solution."""
+        return any(low <= value <= high for low, high in self.inner)
+
+
+def solve(
+    function: Function,
+    name: str,
+    search: tuple[Fraction, Fraction],
+    target: Interval,
+    budget: int = 200,
+) -> Solutions:
+    """The values of the one input for which the function falls into the target.
+
+    Parts of the search on which the function only rises or only falls are solved by bisection, the
+    others are cut in halves, until the budget of parts runs out; what is still undecided then
+    belongs to the outer intervals.
+    """
+    queue = deque([search])
+    inner: list[tuple[Fraction, Fraction]] = []
+    outer: list[tuple[Fraction, Fraction]] = []
+    while queue:
+        part, budget = queue.popleft(), budget - 1
+        range_ = enclose(function, {name: part})
+        if target.excludes(*range_.ends):
+            continue
+        if target.encloses(*range_.ends):
+            inner.append(part)
+            outer.append(part)
+        elif range_.is_monotone:
+            first, last = _crossings(function, name, part, target, range_.signs[name] > 0)
+            outer.append((first[0], last[1]))
+            ends = [_plain(function, {name: (x, x)}) for x in (first[1], last[0])]
+            if first[1] <= last[0] and all(target.encloses(*values) for values in ends):
+                inner.append((first[1], last[0]))
+        elif budget > 0:
+            middle = (part[0] + part[1]) / 2
+            queue += [(part[0], middle), (middle, part[1])]
+        else:
+            outer.append(part)
+    return Solutions(search, _merged(inner), _merged(outer))
+
+
+def _crossings(
+    function: Function, name: str, part: tuple[Fraction, Fraction], target: Interval, rises: bool
+) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+    """Brackets of the two places between which a rising or falling function is in the target."""
+
+    def value(x: Fraction) -> tuple[Fraction, Fraction]:
+        return _plain(function, {name: (x, x)})
+
+    first, last = (target.lower, target.upper) if rises else (target.upper, target.lower)
+    ends = (value(part[0]), value(part[1]))
+    brackets = []
+    for goal, place in ((first, 0), (last, 1)):
+        # At the end of the part the target is entered or left already.
+        inside = goal is None or (
+            ends[place][0] > goal if rises == (place == 0) else ends[place][1] < goal
+        )
+        own = (part[place], part[place])
+        brackets.append(own if inside or goal is None else _bracket(value, part, ends, goal))
+    return brackets[0], brackets[1]
+
+
+def _bracket(
+    value: Callable[[Fraction], tuple[Fraction, Fraction]],
+    part: tuple[Fraction, Fraction],
+    ends: tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]],
+    goal: Fraction,
+) -> tuple[Fraction, Fraction]:
+    """Where a function that rises or falls all over the part takes a value, between proven ends.
+
+    By the secant through the ends of the bracket, of which one that stays is halved in weight
+    (the Illinois method), and by halving where that does not help.
+    """
+    (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
+    at_low, at_high = (0.0 if a <= goal <= b else float((a + b) / 2 - goal) for a, b in ends)
+    rises, last = at_low < at_high, 0
+    for count in range(_STEPS):
+        if high - low <= width or at_low == at_high or at_low * at_high > 0:
+            break
+        share = Fraction(at_low / (at_low - at_high)) if count % 4 != 3 else Fraction(1, 2)
+        # A little beyond the guess, so that the bracket closes from both sides.
+        nudge = _RESOLUTION if share < Fraction(1, 2) else -_RESOLUTION
+        x = low + (high - low) * min(max(share + nudge, Fraction(1, 10**6)), 1 - Fraction(1, 10**6))
+        x = x.limit_denominator(10**30)
+        below, above = value(x)
+        if below <= goal <= above:
+            break
+        if (above < goal) == rises:
+            low, at_low = x, float((below + above) / 2 - goal)
+            at_high, last = (at_high / 2, 1) if last == 1 else (at_high, 1)
+        else:
+            high, at_high = x, float((below + above) / 2 - goal)
+            at_low, last = (at_low / 2, -1) if last == -1 else (at_low, -1)
+    return low, high
+
+
+_RESOLUTION = Fraction(1, 2**44)
+"""Of a part: how narrow a bracket is made, beyond what any page shows."""
+
+
+def _merged(parts: list[tuple[Fraction, Fraction]]) -> tuple[tuple[Fraction, Fraction], ...]:
+    merged: list[tuple[Fraction, Fraction]] = []
+    for low, high in sorted(parts):
+        if merged and merged[-1][1] >= low:
+            merged[-1] = (merged[-1][0], max(high, merged[-1][1]))
+        else:
+            merged.append((low, high))
+    return tuple(merged)
+
+
 Constraint = tuple[Function, Interval]
 """A function of the inputs in a box, and the interval that its value must fall in."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solutions:
-    """The values of one input, within a search, for which all constraints hold.
-
-    `inner`: intervals all of whose values are proven to satisfy them; `outer`: those outside which
-    every value of the search is proven to violate some. Empty `outer`: proven that none does.
-    """
-
-    search: tuple[Fraction, Fraction]
-    inner: tuple[Interval, ...]
-    outer: tuple[Interval, ...]
-
-    @property
-    def reaches_an_end(self) -> bool:
-        """Whether what is admitted may go on beyond the search."""
-        low, high = self.search
-        return any(part.lower == low or part.upper == high for part in self.outer)
-
-
-def solutions(
-    constraints: Sequence[Constraint],
-    name: str,
-    search: Sequence[Fraction],
-    resolution: Fraction,
-    budget: int = 2000,
-) -> Solutions:
-    """The values of the one input for which every constraint holds, in as many intervals as it has.
-
-    `search` are the ends of the search and, between them, where it is cut to begin with. What is
-    neither proven to satisfy nor to violate them is cut in halves down to the resolution, or until
-    the budget of parts runs out; it then belongs to the outer intervals.
-    """
-    parts = deque((part, constraints) for part in pairwise(search))
-    inner: list[tuple[Fraction, Fraction]] = []
-    edge: list[tuple[Fraction, Fraction]] = []
-    while parts and budget:
-        (part, remaining), budget = parts.popleft(), budget - 1
-        undecided = _undecided(remaining, {name: part})
-        if undecided is None:
-            continue
-        if not undecided:
-            inner.append(part)
-        elif part[1] - part[0] > resolution:
-            middle = (part[0] + part[1]) / 2
-            parts += [((part[0], middle), undecided), ((middle, part[1]), undecided)]
-        else:
-            edge.append(part)
-    found = (inner, [*inner, *edge, *(part for part, _ in parts)])
-    merged, outer = (tuple(Interval(*ends) for ends in _merged(some)) for some in found)
-    return Solutions((search[0], search[-1]), merged, outer)
-
-
-def admitted(
-    constraints: Sequence[Constraint],
-    name: str,
-    search: tuple[Fraction, Fraction],
-    resolution: Fraction,
-) -> tuple[Interval, Interval]:
-    """The one interval of values for which every constraint holds: an inner and outer one.
-
-    As `solutions`, but raises ValueError if none is proven to satisfy them, if those that do are
-    not one interval, or if they reach an end of the search.
-    """
-    found = solutions(constraints, name, search, resolution)
-    if len(found.inner) != 1:
-        raise ValueError(f"{len(found.inner)} separate intervals of {name} are admitted, not one")
-    if found.reaches_an_end:
-        raise ValueError(f"the admitted {name} reaches an end of the search from {search[0]}")
-    return found.inner[0], Interval(found.outer[0].lower, found.outer[-1].upper)
-
-
 def extent(
-    constraints: Sequence[Constraint],
-    name: str,
-    box: Box,
-    start: Fraction,
-    tolerance: Fraction,
-    budget: int = 600,
-) -> tuple[Interval, Interval]:
+    constraints: Sequence[Constraint], name: str, box: Box, start: Fraction
+) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
     """How far one input can range while the others may be anywhere in the box.
 
-    An inner interval whose ends are attained (by some point of the box that satisfies every
-    constraint; `start` must be one such value), and an outer one beyond which no value of the box
-    is; apart by the tolerance, or by more if the budget of boxes runs out.
+    Every constraint alone bounds the input, with all others at the ends that suit it best. The
+    second pair is the tightest of these bounds: no value beyond it satisfies all constraints. The
+    first is the hull of `start` and of the values that are attained at such corners.
     """
-    (low, least), (high, greatest) = (
-        _extreme(constraints, name, box, sign, start, tolerance, budget) for sign in (-1, 1)
-    )
-    return Interval(low, high), Interval(least, greatest)
+    attained: list[Fraction] = []
+    outer = list(box[name])
+    # An open end does not belong to the box: what is attained is sought a little inside.
+    inside = {
+        key: (low + (high - low) / 10**6, high - (high - low) / 10**6)
+        if key != name
+        else (low, high)
+        for key, (low, high) in box.items()
+    }
+    for function, target in constraints:
+        signs = enclose(function, box).signs
+        for top in (0, 1) if all(signs.values()) else ():
+            beyond = solve(_at(function, _corner(box, name, signs, top)), name, box[name], target)
+            if beyond.outer:
+                bound = beyond.outer[-top][top]
+                outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
+            corner = _corner(inside, name, signs, top)
+            found = solve(_at(function, corner), name, box[name], target).inner
+            value = found[-top][top] if found else start
+            point = {**{key: (x, x) for key, x in corner.items()}, name: (value, value)}
+            if _undecided(constraints, point) == []:
+                attained.append(value)
+    return (min([start, *attained]), max([start, *attained])), (outer[0], outer[1])
 
 
-def satisfiable(constraints: Sequence[Constraint], box: Box, budget: int = 2000) -> bool | None:
-    """Whether some point of the box satisfies every constraint: proven by one, or for all of it.
+def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str, Fraction]:
+    """The other inputs at the ends that let the named one go farthest down (0) or up (1).
 
-    None if the budget of boxes runs out.
+    To go up where the function rises with it, the others must keep the function low.
     """
-    return satisfying(constraints, box, budget)[0]
+    low = signs.get(name, 1) > 0 if top else signs.get(name, 1) < 0
+    return {
+        key: ends[0 if (signs.get(key, 1) > 0) == low else 1]
+        for key, ends in box.items()
+        if key != name
+    }
+
+
+def _at(function: Function, corner: Mapping[str, Fraction]) -> Function:
+    """The function with some inputs fixed at rationals."""
+
+    def fixed(ar: Any, **free: Number) -> Number | Fraction:
+        return function(ar, **{key: ar.number(x) for key, x in corner.items()}, **free)
+
+    return fixed
 
 
 def satisfying(
-    constraints: Sequence[Constraint], box: Box, budget: int = 2000
+    constraints: Sequence[Constraint], box: Box, budget: int = 1000
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
-    """As `satisfiable`, with the point of the box that proves it if there is one.
+    """Whether some point of the box satisfies every constraint, with such a point if one is known.
 
-    Constraints are tried in their order: cheap and narrow ones first save time.
+    None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
+    ones first save time.
     """
     queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
     for _ in range(budget):
@@ -290,7 +454,7 @@ def satisfying(
         undecided = _undecided(remaining, part)
         if undecided is None:
             continue
-        middle = {name: (low + high) / 2 for name, (low, high) in part.items()}
+        middle = _middle(part)
         point = {name: (x, x) for name, x in middle.items()}
         if not undecided or _undecided(undecided, point) == []:
             return True, middle
@@ -298,56 +462,13 @@ def satisfying(
     return None, None
 
 
-def _extreme(
-    constraints: Sequence[Constraint],
-    name: str,
-    box: Box,
-    sign: int,
-    start: Fraction,
-    tolerance: Fraction,
-    budget: int,
-) -> tuple[Fraction, Fraction]:
-    """The best value attained, and a bound that no value passes, in the direction of the sign."""
-
-    def end(part: Box) -> Fraction:
-        return part[name][sign > 0]
-
-    attained, scales = start, _scales(box)
-    queue = [(-sign * end(box), 0, dict(box), list(constraints))]
-    for count in range(1, budget + 1):
-        if not queue or sign * (end(queue[0][2]) - attained) <= tolerance:
-            break
-        _, _, part, remaining = heapq.heappop(queue)
-        undecided = _undecided(remaining, part)
-        if undecided is None:
-            continue
-        for number, half in enumerate(_halves(part, scales)):
-            heapq.heappush(queue, (-sign * end(half), 2 * count + number, half, undecided))
-        near = part[name][sign < 0]
-        sides = [ends if key != name else (near,) for key, ends in part.items()]
-        corners = ({k: (x, x) for k, x in zip(part, c, strict=True)} for c in product(*sides))
-        if sign * (near - attained) > 0 and any(_undecided(undecided, c) == [] for c in corners):
-            attained = near
-    return attained, end(queue[0][2]) if queue else attained
-
-
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:
     """The constraints not proven to hold all over the box; None if one fails all over it."""
     undecided = []
     for function, target in constraints:
-        ends = evaluate(function, box)
+        ends = enclose(function, box).ends
         if target.excludes(*ends):
             return None
         if not target.encloses(*ends):
             undecided.append((function, target))
     return undecided
-
-
-def _merged(parts: list[tuple[Fraction, Fraction]]) -> list[tuple[Fraction, Fraction]]:
-    merged: list[tuple[Fraction, Fraction]] = []
-    for low, high in sorted(parts):
-        if merged and merged[-1][1] == low:
-            merged[-1] = (merged[-1][0], high)
-        else:
-            merged.append((low, high))
-    return merged

@@ -1,7 +1,8 @@
 """What is asserted of the report besides its claims: findings, each with numbers as evidence.
 
-A finding is a text of `report/findings.toml`. Every number in it is a piece of evidence, asserted
-as text and computed anew by the audit: if one no longer agrees, the finding says so.
+A finding is a text of `report/findings.toml`. Every number in it is a claim's printed text, a piece
+of evidence that the audit computes anew, or a step of arithmetic that is calculated again: if one
+no longer agrees, the finding says so.
 """
 
 import re
@@ -11,61 +12,51 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from importlib import resources
-from typing import Any
+from typing import Any, Literal
 
+import msgspec
+
+from reference.arithmetic import Reals
+from reference.equations import evaluate, read_expression
 from reference.ledger import Ledger, LedgerError
 from reference.ledger import load as load_ledger
 from reference.printed import parse
-from reference.units import UnitError, to_si
+from reference.units import to_si
 
-__all__ = ["KINDS", "STATUSES", "Assertion", "FindingText", "load", "read"]
+__all__ = ["Assertion", "Finding", "Findings", "load", "read"]
 
-KINDS = (
-    "misprint",
-    "formula",
-    "units",
-    "rounding",
-    "inconsistent pair",
-    "unstated input",
-    "method",
-    "wording",
-)
-
-STATUSES = {
-    "explained": "the arithmetic shows the cause",
-    "open": "it is shown that the numbers fail or what the report leaves out, not why",
-    "no fault": "examined; the report's words hold",
-}
-
+_REALS = Reals(30)
 _RELATIONS = ("=", ">=", "<=", ">", "<")
 
 
-@dataclass(frozen=True, slots=True)
-class Assertion:
+class Assertion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
-    `relation` is one of = >= <= > <, or "" where the computed number must print like the text.
-    Where the text is "yes" or "no", a proof must have had that outcome.
+    `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
+    before one. Where it is "yes" or "no", a proof must have had that outcome.
     """
 
-    name: str
+    says: str
     means: str
-    text: str
-    relation: str
-    unit: str
+    unit: str = "1"
 
     @property
-    def says(self) -> str:
-        """The assertion as a reader sees it, without its unit."""
-        return f"{self.relation} {self.text}".strip()
+    def relation(self) -> str:
+        """One of = >= <= > <, or "" where the computed number must print like the text."""
+        return self.says.rpartition(" ")[0]
+
+    @property
+    def text(self) -> str:
+        """The number, or yes or no."""
+        return self.says.rpartition(" ")[2]
 
     def holds(self, computed: Fraction | float | bool) -> bool:
         """Whether the computed number (in `unit`) or outcome is as asserted.
 
-        >>> ratio = Assertion("ratio", "least ratio", "1.147", ">=", "1")
+        >>> ratio = Assertion(says=">= 1.147", means="least ratio")
         >>> ratio.holds(1.1476), ratio.holds(1.1469)
         (True, False)
-        >>> Assertion("depth", "depth", "7.66", "", "um").holds(7.6603)
+        >>> Assertion(says="7.66", means="depth", unit="um").holds(7.6603)
         True
         """
         if self.text in ("yes", "no"):
@@ -86,12 +77,41 @@ class Assertion:
         return printed.interval().contains(value)
 
 
-@dataclass(frozen=True, slots=True)
-class FindingText:
-    """One finding as asserted; its texts name evidence as {name}.
+class _Texts(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    id: str
+    title: str
+    kind: Literal[
+        "headline",
+        "misprint",
+        "formula",
+        "rounding",
+        "inconsistent pair",
+        "unstated input",
+        "method",
+        "wording",
+    ]
+    status: Literal["explained", "open"]
+    claims: list[str]
+    statement: str
+    by_hand: str = ""
+    settle: str = ""
+    evidence: dict[str, Assertion]
 
-    `by_hand`: how to check it with a pocket calculator, if it can be; `settle`: what would settle
-    what it leaves open.
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One line of arithmetic in a text: what is calculated, and what it must print like."""
+
+    text: str
+    holds: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One finding as asserted, its texts with the printed and the asserted numbers in them.
+
+    `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
+    open; `steps`: the arithmetic in its texts, calculated again.
     """
 
     id: str
@@ -103,78 +123,95 @@ class FindingText:
     by_hand: str
     settle: str
     evidence: Mapping[str, Assertion]
+    steps: tuple[Step, ...]
 
-    def filled(self, text: str) -> str:
-        """One of its texts with the asserted numbers in it."""
-        return text.format(**{name: a.text for name, a in self.evidence.items()})
+
+Findings = Mapping[str, Finding]
+"""By id, the weightiest first; the one called "headline" says in a sentence what came out."""
+
+STATUSES = {
+    "explained": "the arithmetic shows the cause",
+    "open": "it is shown that the numbers fail or what the report leaves out, not why",
+}
 
 
 @cache
-def load() -> Mapping[str, FindingText]:
-    """The findings by id, the weightiest first.
+def load() -> Findings:
+    """The findings on the report.
 
-    >>> list(load())[0]
-    'frank-zook-pair'
+    >>> list(load())[:2]
+    ['headline', 'frank-zook-pair']
     """
     source = resources.files("reference.report") / "findings.toml"
     return read(tomllib.loads(source.read_text("utf-8")), load_ledger())
 
 
-def read(document: Mapping[str, Any], ledger: Ledger) -> Mapping[str, FindingText]:
+def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
     """Build and check the findings from parsed TOML; LedgerError names what is wrong."""
-    found: dict[str, FindingText] = {}
-    for entry in document.get("finding", []):
-        finding = _finding(entry, ledger)
-        if finding.id in found:
-            raise LedgerError(f"finding {finding.id!r} stands there twice")
-        found[finding.id] = finding
-    if not found:
-        raise LedgerError("there are no findings: the file has no [[finding]]")
-    return found
-
-
-_TEXTS = ("id", "title", "kind", "status", "statement", "settle")
-
-
-def _finding(entry: Mapping[str, Any], ledger: Ledger) -> FindingText:
-    name = entry.get("id", "?")
-
-    def wrong(message: str) -> LedgerError:
-        return LedgerError(f"finding {name!r}: {message}")
-
-    if missing := {*_TEXTS, "claims", "evidence"} - set(entry):
-        raise wrong(f"lacks {', '.join(sorted(missing))}")
-    if unknown := set(entry) - {*_TEXTS, "by_hand", "claims", "evidence"}:
-        raise wrong(f"there is no key {min(unknown)!r}")
-    if entry["kind"] not in KINDS:
-        raise wrong(f"kind {entry['kind']!r} is none of {', '.join(KINDS)}")
-    if entry["status"] not in STATUSES:
-        raise wrong(f"status {entry['status']!r} is none of {', '.join(STATUSES)}")
-    if strangers := [claim for claim in entry["claims"] if claim not in ledger.claims]:
-        raise wrong(f"there is no claim {strangers[0]!r}")
-    finding = FindingText(
-        **{key: " ".join(entry[key].split()) for key in _TEXTS},
-        claims=tuple(entry["claims"]),
-        by_hand=" ".join(entry.get("by_hand", "").split()),
-        evidence={key: _assertion(key, given, wrong) for key, given in entry["evidence"].items()},
-    )
-    prose = f"{finding.title} {finding.statement} {finding.by_hand} {finding.settle}"
-    if strangers := sorted(set(re.findall(r"\{(\w+)\}", prose)) - set(finding.evidence)):
-        raise wrong(f"its texts name {{{strangers[0]}}}, which is no evidence")
-    return finding
-
-
-def _assertion(name: str, given: Mapping[str, str], wrong: Any) -> Assertion:
-    if set(given) - {"unit"} != {"says", "means"}:
-        raise wrong(f"evidence {name!r} wants says and means, and a unit unless it is a number")
-    relation, _, text = given["says"].rpartition(" ")
-    if relation and relation not in _RELATIONS:
-        raise wrong(f"evidence {name!r}: {relation!r} is none of {', '.join(_RELATIONS)}")
-    unit = given.get("unit", "1")
     try:
-        to_si(unit)
-        if text not in ("yes", "no"):
-            parse(text)
-    except (UnitError, ValueError) as error:
-        raise wrong(f"evidence {name!r}: {error}") from error
-    return Assertion(name, given["means"], text, relation, unit)
+        texts = msgspec.convert(document.get("finding", []), list[_Texts])
+    except msgspec.ValidationError as error:
+        raise LedgerError(f"findings.toml: {error}") from error
+    if not texts:
+        raise LedgerError("there are no findings: the file has no [[finding]]")
+    findings: dict[str, Finding] = {}
+    for entry in texts:
+        if entry.id in findings:
+            raise LedgerError(f"finding {entry.id!r} stands there twice")
+        try:
+            findings[entry.id] = _finding(entry, ledger)
+        except (ValueError, ArithmeticError) as error:
+            raise LedgerError(f"finding {entry.id!r}: {error}") from error
+    return findings
+
+
+def _finding(entry: _Texts, ledger: Ledger) -> Finding:
+    for name in entry.claims:
+        if name not in ledger.claims and name not in ledger.equations:
+            raise ValueError(f"there is no claim {name!r}")
+    for name, assertion in entry.evidence.items():
+        to_si(assertion.unit)
+        if assertion.relation not in ("", *_RELATIONS):
+            raise ValueError(f"evidence {name!r}: {assertion.relation!r} is no relation")
+        if assertion.text not in ("yes", "no"):
+            parse(assertion.text)
+    raw = (entry.title, entry.statement, entry.by_hand, entry.settle)
+    filled = [_filled(" ".join(text.split()), entry.evidence, ledger) for text in raw]
+    steps = tuple(_step(text) for part in filled for text in re.findall("`(.*?)`", part))
+    title, statement, by_hand, settle = (text.replace("`", "") for text in filled)
+    return Finding(
+        entry.id, title, entry.kind, entry.status, tuple(entry.claims), statement, by_hand, settle,
+        entry.evidence, steps,
+    )  # fmt: skip
+
+
+_PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
+
+
+def _filled(text: str, evidence: Mapping[str, Assertion], ledger: Ledger) -> str:
+    """The text with numbers in it: {evidence}, {claim}, {source}, {claim:unit} in another unit."""
+
+    def number(match: re.Match[str]) -> str:
+        name, unit = match.groups()
+        if name in evidence:
+            return evidence[name].text
+        if name in ledger.claims:
+            return ledger.claims[name].shown if unit is None else ledger.in_unit(name, unit)
+        if name in ledger.sources:
+            source = ledger.sources[name]
+            return source.says if unit is None else ledger.number_in(source.value, unit)
+        raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
+
+    return _PLACE.sub(number, text)
+
+
+def _step(text: str) -> Step:
+    """A line of arithmetic such as "2/3 * 3 = 2.0", calculated again.
+
+    Raises ValueError for what is no such line.
+    """
+    left, _, right = text.rpartition("=")
+    expression = re.sub(r"\bln\b", r"\\ln", left).replace("*", " ")
+    value = evaluate(read_expression(expression.strip(), {}), _REALS, {})
+    computed = Fraction(str(_REALS.context.nstr(value, 25)))
+    return Step(text, parse(right.strip()).interval().contains(computed))

@@ -8,11 +8,12 @@ keeps the rounding errors of either end. A point is a span whose ends are one an
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from reference.exact import Number
+from reference.arithmetic import Number
 
 __all__ = ["Intervals", "Span"]
 
@@ -115,25 +116,6 @@ def _point(ball: arb) -> Span:
     return Span(ball, ball)
 
 
-class _Functions:
-    """Increasing functions of spans, pi, zero and one, at flint's precision of the moment."""
-
-    zero, one = _point(_ZERO), _point(_ONE)
-
-    @property
-    def pi(self) -> Span:
-        return _point(arb.pi())
-
-    def log(self, x: Span) -> Span:
-        return _increasing(arb.log, x)
-
-    def exp(self, x: Span) -> Span:
-        return _increasing(arb.exp, x)
-
-    def sqrt(self, x: Span) -> Span:
-        return _increasing(arb.sqrt, x)
-
-
 def _increasing(function: Callable[[arb], arb], x: Span) -> Span:
     low = function(x.low)
     return Span(low, low if x.low is x.high else function(x.high))
@@ -154,8 +136,6 @@ class Intervals:
     (Fraction(-7, 2), Fraction(1, 1))
     """
 
-    context = _Functions()
-
     def __init__(self, digits: int = 50) -> None:
         with ctx.workdps(digits):
             self._bits = ctx.prec  # set in half the time that the digits take
@@ -164,7 +144,13 @@ class Intervals:
         """A context manager in which operators carry the digits."""
         return ctx.workprec(self._bits)
 
+    @property
+    def pi(self) -> Span:
+        return _point(arb.pi())
+
     def number(self, value: Fraction | int) -> Span:
+        if isinstance(value, int):
+            return _integer(value)
         with self.working():
             return _point(_ball(value))
 
@@ -182,6 +168,14 @@ class Intervals:
         greatest = high.mid().fmpq() + high.rad().fmpq()
         return Fraction(int(least.p), int(least.q)), Fraction(int(greatest.p), int(greatest.q))
 
+    def log(self, x: Span) -> Span:
+        return _increasing(arb.log, x)
+
+    def power(self, x: Span, exponent: Fraction) -> Span:
+        root = x if exponent.denominator == 1 else _increasing(_root(exponent.denominator), x)
+        size = root ** abs(exponent.numerator)
+        return size if exponent > 0 else 1 / size
+
     def least(self, x: Span, bound: Span) -> Span:
         if x.high <= bound.low:
             return x
@@ -192,8 +186,8 @@ class Intervals:
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
         return Span(_greatest(low, other_low), _greatest(high, other_high))
 
-    def increasing(self, function: Callable[[arb], arb], x: Span) -> Span:
-        return _increasing(function, x)
+    def contact_share(self, y: Span) -> Span:
+        return _increasing(lambda end: end * (2 - end), y)
 
     def cap_root(self, c: Span) -> Span:
         """The roots for both ends, moved outwards and then verified by the residual's sign."""
@@ -217,6 +211,15 @@ class Intervals:
     def hull(self, numbers: list[Span]) -> Span:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return Span(_least(*lows), _greatest(*highs))
+
+
+@cache
+def _integer(value: int) -> Span:
+    return _point(arb(value))
+
+
+def _root(degree: int) -> Callable[[arb], arb]:
+    return lambda x: x.root(degree)
 
 
 def _ball(value: Fraction | int) -> arb:

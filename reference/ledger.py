@@ -1,28 +1,77 @@
-"""The ledger: every number that the report prints, loaded, placed in the text and checked.
+"""The ledger: every number and equation that the report prints, placed in its text and checked.
 
-Everything that can be wrong with an entry is an error when the ledger is loaded: an entry that the
+Everything that can be wrong with an entry is an error when the ledger is loaded: a quote that the
 report does not contain, a duplicate id, an unknown unit, text that is no number, a computation that
 does not exist or whose units do not fit, inputs that are missing or that go round in a circle.
 """
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache, cached_property, reduce
 from graphlib import CycleError, TopologicalSorter
 from importlib import resources
-from typing import Any
+from operator import mul
+from typing import Any, Literal
 
-from reference.computations import COMPUTATIONS, SAME, Computation
-from reference.enclosure import Function
-from reference.printed import Interval, Printed, Rounding, parse
-from reference.units import UnitError, same_dimension, to_si
+import msgspec
 
-__all__ = ["KINDS", "Claim", "Inferred", "Ledger", "LedgerError", "Place", "load"]
+from reference.arithmetic import Arithmetic, Number
+from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
+from reference.derivations import DERIVATIONS, Sides
+from reference.equations import Dimension, EquationError, Node, read_equation
+from reference.printed import Interval, Printed, Rounding, decimal_text, parse
+from reference.units import same_dimension, to_si, unit_dimension
 
-KINDS = (
+__all__ = [
+    "INFERRED",
+    "Claim",
+    "Convention",
+    "Equation",
+    "Function",
+    "Inferred",
+    "Ledger",
+    "LedgerError",
+    "Place",
+    "Quantity",
+    "Slip",
+    "Source",
+    "Symbol",
+    "load",
+    "read",
+    "shown",
+]
+
+INFERRED = "inferred:"
+"""What stands before the id of an input that the report does not print."""
+
+Function = Callable[..., Number | Fraction]
+"""Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
+
+
+class LedgerError(ValueError):
+    """Something in the ledger is wrong; the message names the entry and what would be right."""
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def shown(text: str) -> str:
+    r"""Printed text as a page shows it, without the marks of LaTeX.
+
+    >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3")
+    ('9.13 × 10⁹', '1/2', '~0.3')
+    """
+    text = re.sub(r"\\frac\{(\d+)\}\{(\d+)\}", r"\1/\2", text).replace(r"\times", "×")
+    text = re.sub(r"\^\{?(-?\d+)\}?", lambda power: power[1].translate(_SUPERSCRIPTS), text)
+    return re.sub(r"~\s+", "~", text)
+
+
+# The tables of ledger.toml, whose head says what each key means.
+
+Kind = Literal[
     "input",
     "result",
     "approximation",
@@ -32,18 +81,179 @@ KINDS = (
     "range",
     "quoted",
     "constant",
-    "blank",
-)
-_INFERRED = "inferred:"
+    "remark",
+]
+Relation = Literal["<", "<=", ">", ">="]
 
 
-class LedgerError(ValueError):
-    """Something in the ledger is wrong; the message names the entry and what would be right."""
+class _Table(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A table that may hold no other keys."""
+
+
+class ClaimEntry(_Table, frozen=True):
+    """A [[claim]]."""
+
+    id: str
+    title: str
+    quote: str
+    kind: Kind
+    unit: str = "1"
+    computed_by: str | None = None
+    rests_on: dict[str, str] = {}
+    readings: dict[str, str] = {}
+    given: str | None = None
+    shown_by: list[str] = []
+    relation: Relation | None = None
+    against: str | None = None
+    assumes: str | None = None
+    exact: bool = False
+    cell: str | None = None
+    row: int | None = None
+    quantity: str | None = None
+    workbook: str | None = None
+
+
+class EquationEntry(_Table, frozen=True):
+    """An [[equation]]."""
+
+    id: str
+    title: str
+    quote: str
+    kind: Literal["derived", "definition", "taken over"]
+    follows_from: str
+
+
+class Inferred(_Table, frozen=True):
+    """An input that the report does not print, to be inferred from the numbers that it does."""
+
+    title: str
+    symbol: str
+    unit: str
+    quantity: str
+    search: tuple[Fraction, Fraction]
+    nominal: Fraction
+    nominal_source: str
+    mass: str
+    radius: str
+    density: str
+    header: list[str]
+    results: list[str]
+    evidence: list[str]
+
+
+class Symbol(_Table, frozen=True):
+    """What a symbol of the equations means, how the report writes it, and how a page shows it."""
+
+    written: list[str]
+    shown: str
+    unit: str
+    means: str
+    value: str | None = None
+
+
+class Quantity(_Table, frozen=True):
+    """A physical quantity: the range of it that is searched, in its unit, and why this one."""
+
+    unit: str
+    search: tuple[Fraction, Fraction]
+    reason: str
+
+
+class Slip(_Table, frozen=True):
+    """What the author may have computed instead: another text of an equation, or other inputs."""
+
+    name: str
+    reason: str
+    equation: str
+    text: str | None = None
+    inputs: dict[str, str] = {}
+
+
+class Source(_Table, frozen=True):
+    """A public source for a number that the report takes from nowhere; see sources.toml."""
+
+    id: str
+    title: str
+    address: str
+    quote: str
+    unit: str
+    applies: str
+    claims: list[str]
+
+    @property
+    def numbers(self) -> list[Printed]:
+        """The number that it prints, or the two ends of a range."""
+        return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
+
+    @property
+    def says(self) -> str:
+        """The number or the range as text, without its unit."""
+        return " to ".join(number.text for number in self.numbers)
+
+    @property
+    def value(self) -> Fraction:
+        """The number in SI; of a range, its lower end."""
+        return self.numbers[0].value * to_si(self.unit)
+
+    @property
+    def interval(self) -> Interval:
+        """What agrees with it, in SI."""
+        ends = [number.interval() for number in self.numbers]
+        whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
+        return whole.scaled(to_si(self.unit))
+
+
+class _Report(_Table, frozen=True):
+    text: str
+    title: str
+    author: str
+    year: int
+
+
+class _Blank(_Table, frozen=True):
+    blank: list[str]
+
+
+class _Furniture(_Table, frozen=True):
+    pattern: str
+    reason: str
+
+
+class _Document(_Table, frozen=True):
+    report: _Report
+    reasons: dict[str, str]
+    table: _Blank
+    groups: dict[str, dict[str, str]]
+    inferred: dict[str, Inferred]
+    symbols: dict[str, Symbol]
+    quantities: dict[str, Quantity]
+    furniture: list[_Furniture]
+    equation: list[EquationEntry]
+    claim: list[ClaimEntry]
+    slip: list[Slip] = []
+
+
+# What the rest of the program sees.
+
+
+@dataclass(frozen=True, slots=True)
+class Convention:
+    """How printed text is read where the report does not say how it was printed.
+
+    `choices_exact`: what the author chose (500 m/s, 700 MPa, 0.2 ns) is the value itself, not a
+    rounding of it. `header_exact`: so are the numbers above the rows of Table A-1. `centered`: the
+    sheet takes the drag at the velocity in the middle of a row, not at its start.
+    """
+
+    rounding: Rounding = Rounding.AWAY
+    choices_exact: bool = True
+    header_exact: bool = False
+    centered: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a number stands: line and characters of the text, section, equation, table cell."""
+    """Where something stands: characters and line of the text, section, equation, table cell."""
 
     start: int
     end: int
@@ -59,44 +269,47 @@ class Place:
         return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Claim:
     """One printed number, and what is claimed of it.
 
-    `interval` holds the values, in `unit`, that agree with the claim (None for a blank cell);
     `inputs` names for each input of the computation the entries whose product it is; `given` is
-    the reason why nothing in the report decides the number; `assumes` what its computation takes
-    for granted; `like` the claim that it must print like.
+    the reason why nothing in the report decides the number; `chosen` says that the author set it,
+    here or where this claim repeats it; `bound` is the number that a relation compares with;
+    `within` the id of the equation that the number is a constant of.
     """
 
-    id: str
-    title: str
+    entry: ClaimEntry
     text: str
-    kind: str
-    unit: str
     place: Place
-    quote: str
     printed: Printed | None
-    interval: Interval | None
     computation: Computation | None
-    row: int | None
     inputs: Mapping[str, tuple[str, ...]]
     readings: Mapping[str, Computation]
     given: str | None
     chosen: bool
-    relation: str | None
-    as_printed_inputs: bool
-    assumes: str | None = None
-    like: str | None = None
+    bound: Fraction | None
+    within: str | None
 
     @property
-    def functions(self) -> dict[str, Function]:
-        """The computation as printed ("") and each other reading, of arithmetic and inputs."""
-        if self.computation is None:
-            return {}
-        named = {"": self.computation, **self.readings}
-        fixed = {} if self.row is None else {"row": self.row}
-        return {name: partial(entry.function, **fixed) for name, entry in named.items()}
+    def id(self) -> str:
+        """What everything calls it."""
+        return self.entry.id
+
+    @property
+    def title(self) -> str:
+        """What the number is."""
+        return self.entry.title
+
+    @property
+    def unit(self) -> str:
+        """Its unit."""
+        return self.entry.unit
+
+    @property
+    def shown(self) -> str:
+        """Its text as a page shows it, without the marks of LaTeX."""
+        return shown(self.text)
 
     @property
     def si(self) -> Fraction:
@@ -104,78 +317,297 @@ class Claim:
         return to_si(self.unit)
 
     @property
-    def target(self) -> Interval:
-        """The values, in SI, that agree with the claim, which is no blank cell."""
-        assert self.interval is not None
-        return self.interval.scaled(self.si)
+    def is_exact(self) -> bool:
+        """Whether the text is the value itself under every convention."""
+        return self.entry.exact or self.entry.kind == "constant"
 
-    def as_input(self, loose: bool = False) -> Interval:
-        """The values, in SI, that this number may stand for where another claim rests on it.
+    def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
+        """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
+        if self.bound is not None:
+            match self.entry.relation:
+                case ">" | ">=":
+                    return Interval(self.bound, None, self.entry.relation == ">=", False)
+                case _:
+                    return Interval(None, self.bound, False, self.entry.relation == "<=")
+        if self.printed is None:
+            raise ValueError(f"claim {self.id!r} prints no number")
+        if self.is_exact:
+            return Interval.point(self.printed.value)
+        if self.entry.kind == "approximation":
+            return self.printed.about()
+        return self.printed.interval(rounding)
 
-        What the author chose is what he printed; what is measured or computed is a rounding; an
-        approximation has the fewest digits that its text allows. `loose` allows that of all.
-        """
+    def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
+        """`interval` in SI."""
+        return self.interval(rounding).scaled(self.si)
+
+    def as_input(self, convention: Convention) -> Interval:
+        """The values, in SI, that this number may stand for where another claim rests on it."""
         assert self.printed is not None
-        exact = self.interval is not None and self.interval.lower == self.interval.upper
-        if exact or (self.chosen and not loose):
-            return Interval.point(self.printed.value * self.si)
-        about = loose or self.kind == "approximation"
-        printed = self.printed.about() if about and self.printed.quantum else self._rounded()
-        return printed.scaled(self.si)
+        number = self.printed
+        in_header = self.entry.cell is not None and self.entry.cell.startswith("B")
+        if (
+            self.is_exact
+            or number.quantum == 0
+            or self.bound is not None
+            or (self.chosen and convention.choices_exact)
+            or (in_header and convention.header_exact)
+        ):
+            own = Interval.point(number.value)
+        elif self.entry.kind == "approximation":
+            own = number.about()
+        else:
+            own = number.interval(convention.rounding)
+        return own.scaled(self.si)
 
-    def reprinted(self, printed: Printed) -> Interval:
-        """The values, in the claim's unit, that would agree with it if it were printed so.
+    @property
+    def computations(self) -> dict[str, Computation]:
+        """The computation as printed, under the name "", and each other reading."""
+        return {} if self.computation is None else {"": self.computation, **self.readings}
 
-        Of a claim without a relation, which is decided by more than its number.
-        """
-        if self.interval is not None and self.interval.lower == self.interval.upper:
-            return Interval.point(printed.value)
-        if self.kind == "approximation":
-            return printed.about()
-        return printed.interval(_rounding(self.place.cell))
+    @property
+    def entries(self) -> list[str]:
+        """The entries that it rests on, sorted."""
+        return sorted({name for names in self.inputs.values() for name in names})
 
-    def _rounded(self) -> Interval:
-        assert self.printed is not None
-        return self.printed.interval(_rounding(self.place.cell))
+    @property
+    def inferred(self) -> list[str]:
+        """Those of them that the report does not print."""
+        return [name for name in self.entries if name.startswith(INFERRED)]
 
+    @property
+    def stated(self) -> list[str]:
+        """Those of them that it prints."""
+        return [name for name in self.entries if not name.startswith(INFERRED)]
 
-@dataclass(frozen=True, slots=True)
-class Inferred:
-    """An input that the report does not print, to be inferred from the numbers that it does."""
+    def resting_on(self, inputs: Mapping[str, tuple[str, ...]]) -> "Claim":
+        """The claim with other entries as its inputs."""
+        return replace(self, inputs=inputs)
 
-    id: str
-    title: str
-    symbol: str
-    unit: str
-    nominal: Fraction
-    nominal_source: str
-    search: tuple[Fraction, Fraction]
-    resolution: Fraction
-    evidence: tuple[str, ...]
-    header: tuple[str, ...]
-    mass: str
-    results: tuple[str, ...]
-    handbook: Mapping[str, Printed]
+    @property
+    def by_scheme(self) -> bool:
+        """Whether it depends on the scheme of the sheet."""
+        return any(computation.by_scheme for computation in self.computations.values())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ledger:
-    """All claims in the order of the report, the inferred inputs, and the report's text."""
+class Equation:
+    """One printed equation: where it stands and what it is derived from."""
 
-    title: str
-    author: str
-    year: int
+    entry: EquationEntry
+    place: Place
+
+    @property
+    def id(self) -> str:
+        """What everything calls it."""
+        return self.entry.id
+
+
+@dataclass(frozen=True, eq=False)
+class Ledger:
+    """All claims and equations in the order of the report, the inferred inputs, and the text."""
+
+    report: _Report
     text: str
     claims: Mapping[str, Claim]
+    equations: Mapping[str, Equation]
     inferred: Mapping[str, Inferred]
+    symbols: Mapping[str, Symbol]
+    quantities: Mapping[str, Quantity]
+    slips: tuple[Slip, ...]
+    sources: Mapping[str, Source]
+    blank: tuple[str, ...]
     furniture: tuple[tuple[str, str], ...]
+    misprinted: Mapping[str, str]
+
+    # The printed equations
+
+    @cached_property
+    def written(self) -> Mapping[str, str]:
+        """How the report writes its symbols, and their names."""
+        return {text: name for name, symbol in self.symbols.items() for text in symbol.written}
+
+    @cached_property
+    def dimensions(self) -> Mapping[str, Dimension]:
+        """The dimension of every symbol."""
+        return {name: unit_dimension(symbol.unit) for name, symbol in self.symbols.items()}
+
+    def equation_text(self, name: str) -> str:
+        """An equation as printed, with the constants that its claims have."""
+        return self._with_constants(self.equations[name])[0]
+
+    def _with_constants(self, equation: Equation) -> tuple[str, dict[str, tuple[int, int]]]:
+        """The text of an equation, and where in it the constants of its claims stand."""
+        text, at, spans = "", equation.place.start, {}
+        if equation.id in self.misprinted:
+            return self.misprinted[equation.id], {}
+        for claim in self._constants(equation):
+            text += self.text[at : claim.place.start]
+            spans[claim.id] = (len(text), len(text) + len(claim.text))
+            text, at = text + claim.text, claim.place.end
+        return text + self.text[at : equation.place.end], spans
+
+    def _constants(self, equation: Equation) -> list[Claim]:
+        inside = [claim for claim in self.claims.values() if claim.within == equation.id]
+        return sorted(inside, key=lambda claim: claim.place.start)
+
+    def constants_of(self, equation: str) -> dict[str, tuple[int, int]]:
+        """The claims that are constants of an equation, and where in its text they stand."""
+        return self._with_constants(self.equations[equation])[1]
+
+    @cached_property
+    def sides(self) -> Sides:
+        """The sides of every equation.
+
+        Where a misprint makes one unreadable, they are those that the report prints. Raises
+        EquationError if even these cannot be read.
+        """
+        return {name: self._sides_of(equation) for name, equation in self.equations.items()}
+
+    def _sides_of(self, equation: Equation) -> tuple[Node, ...]:
+        try:
+            return self.read(self.equation_text(equation.id))
+        except EquationError:
+            return self.read(self.text[equation.place.start : equation.place.end])
+
+    def read(self, text: str) -> tuple[Node, ...]:
+        """The sides of an equation of this report, given as text. Raises EquationError."""
+        return read_equation(text, self.written)
+
+    # The entries as inputs
+
+    def title(self, name: str) -> str:
+        """What an entry is, in words."""
+        inferred = self._inferred(name)
+        return self.claims[name].title if inferred is None else inferred.title
+
+    def unit(self, name: str) -> str:
+        """The unit of an entry."""
+        inferred = self._inferred(name)
+        return self.claims[name].unit if inferred is None else inferred.unit
+
+    def value(self, name: str) -> Fraction:
+        """An entry's value as printed, or the nominal one of an inferred input, in SI.
+
+        >>> float(load().value("flow-stress"))
+        700000000.0
+        """
+        inferred = self._inferred(name)
+        if inferred is not None:
+            return inferred.nominal * to_si(inferred.unit)
+        claim = self.claims[name]
+        if claim.printed is None:
+            raise LedgerError(f"claim {name!r} is no number to rest on")
+        return claim.printed.value * claim.si
+
+    def in_unit(self, name: str, unit: str) -> str:
+        """An entry's value as printed, in another unit, as a decimal.
+
+        >>> load().in_unit("fz-resistance-rha", "GPa")
+        '9.13'
+        """
+        return self.number_in(self.value(name), unit)
+
+    def number_in(self, value: Fraction, unit: str) -> str:
+        """A value in SI as a decimal of its unit."""
+        return decimal_text(value / to_si(unit))
+
+    def search(self, name: str) -> tuple[Fraction, Fraction, str]:
+        """The least and the greatest value of an entry, in SI, to search, and why these."""
+        inferred = self._inferred(name)
+        key = self.claims[name].entry.quantity if inferred is None else inferred.quantity
+        if key is None:
+            value = self.value(name)
+            ends = sorted((value / 10, value * 10)) if value else [Fraction(-1), Fraction(1)]
+            return ends[0], ends[1], "from a tenth to ten times the printed value"
+        quantity = self.quantities[key]
+        low, high = (end * to_si(quantity.unit) for end in quantity.search)
+        return low, high, quantity.reason
+
+    def _inferred(self, name: str) -> Inferred | None:
+        return self.inferred[name.removeprefix(INFERRED)] if name.startswith(INFERRED) else None
+
+    # Claims as functions of their entries
+
+    def function(
+        self,
+        claim: Claim,
+        free: frozenset[str] | None = None,
+        *,
+        reading: str = "",
+        centered: bool = False,
+        fixed: Mapping[str, Fraction] | None = None,
+    ) -> Function:
+        """A claim's computation as a function of an arithmetic and of its free entries by name.
+
+        All entries are free unless told; the others have their printed values. An entry that stands
+        in several inputs is one variable. `fixed` gives inputs that the claim does not name.
+        """
+        computation = claim.computations[reading]
+        free = frozenset(claim.entries) if free is None else free
+        printed = {name: self.value(name) for name in claim.entries if name not in free}
+        settings: dict[str, Any] = {"printed": self.sides}
+        if computation.by_row:
+            settings["row"] = claim.entry.row
+        if computation.by_scheme:
+            settings["centered"] = centered
+        exponents = {key for key, unit in computation.inputs.items() if unit == EXPONENT}
+        known: dict[Any, tuple[dict[str, Number], dict[str, Number]]] = {}
+
+        def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
+            if ar not in known:
+                known[ar] = (
+                    {name: ar.number(number) for name, number in printed.items()},
+                    {name: ar.number(number) for name, number in (fixed or {}).items()},
+                )
+            numbers, inputs = known[ar]
+            numbers = {**numbers, **entries}
+            own = {
+                key: self.value(names[0])
+                if key in exponents
+                else reduce(mul, map(numbers.__getitem__, names))
+                for key, names in claim.inputs.items()
+            }
+            return computation.function(ar, **own, **inputs, **settings)
+
+        return of_entries
+
+    # Copies with a misprint
+
+    def misprint(self, name: str, text: str) -> "Ledger":
+        """A copy with other text in the place of a claim's. Raises ValueError if no number."""
+        claim = self.claims[name]
+        printed = parse(text)
+        bound = None if claim.bound is None else printed.value
+        if claim.entry.against is not None:
+            bound = claim.bound
+        changed = replace(claim, text=text, printed=printed, bound=bound)
+        claims = {key: changed if key == name else other for key, other in self.claims.items()}
+        for key, other in claims.items():
+            if other.entry.against == name:
+                claims[key] = replace(other, bound=printed.value)
+        copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
+        return copy._rereading(self.sides, claim.within)
+
+    def misprint_equation(self, name: str, text: str) -> "Ledger":
+        """A copy with another text of an equation."""
+        copy = replace(self, misprinted={**self.misprinted, name: text})
+        return copy._rereading(self.sides, name)
+
+    def _rereading(self, sides: Sides, equation: str | None) -> "Ledger":
+        """The copy itself, with the equations as they were read, but for one."""
+        changed = {} if equation is None else {equation: self._sides_of(self.equations[equation])}
+        self.__dict__["sides"] = {**sides, **changed}
+        return self
+
+    # Coverage
 
     def uncovered(self) -> list[tuple[int, str]]:
         """Digits and number words of the text that no claim and no furniture accounts for.
 
         Each as line number and the word; empty for a complete ledger.
         """
-        spans = [(c.place.start, c.place.end) for c in self.claims.values()]
+        spans = [(claim.place.start, claim.place.end) for claim in self.claims.values()]
         spans += [m.span() for p, _ in self.furniture for m in re.finditer(p, self.text)]
         taken = bytearray(len(self.text))
         for start, end in spans:
@@ -200,216 +632,97 @@ def load() -> Ledger:
 
     >>> ledger = load()
     >>> claim = ledger.claims["depth-beta-5"]
-    >>> claim.text, str(claim.interval), claim.unit
-    ('7.67', '[7.665, 7.675]', 'um')
+    >>> claim.text, str(claim.interval()), claim.unit
+    ('7.67', '[7.665, 7.675)', 'um')
     """
     folder = resources.files("reference.report")
-    document = tomllib.loads((folder / "ledger.toml").read_text("utf-8"))
-    return read(document, (folder / document["report"]["text"]).read_text("utf-8"))
-
-
-def read(document: Mapping[str, Any], text: str) -> Ledger:
-    """Build and check a ledger from its parsed TOML and the report's text."""
-    inferred = {k: _inferred(k, v) for k, v in document.get("inferred", {}).items()}
-    entries = [single for entry in document.get("claim", []) for single in _cells(entry)]
-    if not entries:
-        raise LedgerError("the ledger is empty: it has no [[claim]]")
-    claims: dict[str, Claim] = {}
-    for entry in entries:
-        claim = _Reader(entry, document, text).claim()
-        if claim.id in claims:
-            raise LedgerError(f"claim {claim.id!r} stands in the ledger twice")
-        claims[claim.id] = claim
-    claims = {c.id: _against(c, e, claims) for c, e in zip(claims.values(), entries, strict=True)}
-    ordered = dict(sorted(claims.items(), key=lambda item: _order(item[1])))
-    _check_inputs(ordered, inferred)
-    report = document["report"]
-    furniture = tuple((f["pattern"], f["reason"]) for f in document.get("furniture", []))
-    return Ledger(
-        report["title"], report["author"], report["year"], text, ordered, inferred, furniture
+    document, sources = (
+        tomllib.loads((folder / name).read_text("utf-8"))
+        for name in ("ledger.toml", "sources.toml")
     )
+    text = (folder / document["report"]["text"]).read_text("utf-8")
+    return read(document, text, sources["source"])
 
 
-def _order(claim: Claim) -> tuple[bool, int, str]:
-    """By place in the text; the table, which ends it, cell by cell."""
-    cell = claim.place.cell
-    return (True, int(cell[1:]), cell) if cell else (False, claim.place.start, claim.id)
+def read(
+    document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
+) -> Ledger:
+    """Build and check a ledger from its parsed TOML, the report's text, and the public sources."""
+    tables = _converted(document, _Document, "ledger.toml")
+    if not tables.claim:
+        raise LedgerError("the ledger is empty: it has no [[claim]]")
+    equations = {}
+    for entry in tables.equation:
+        if entry.id in equations:
+            raise LedgerError(f"{entry.id!r} stands in the ledger twice")
+        place = _place(text, f"equation {entry.id!r}", entry.quote)
+        equations[entry.id] = Equation(entry, place)
+    claims: dict[str, Claim] = {}
+    for claim_entry in tables.claim:
+        if claim_entry.id in claims or claim_entry.id in equations:
+            raise LedgerError(f"{claim_entry.id!r} stands in the ledger twice")
+        claims[claim_entry.id] = _claim(claim_entry, tables, text, equations.values())
+    claims = {name: _completed(claim, claims) for name, claim in claims.items()}
+    ordered = dict(sorted(claims.items(), key=lambda item: _order(item[1])))
+    ledger = Ledger(
+        report=tables.report,
+        text=text,
+        claims=ordered,
+        equations=equations,
+        inferred=tables.inferred,
+        symbols=tables.symbols,
+        quantities=tables.quantities,
+        slips=tuple(tables.slip),
+        sources={source.id: source for source in _converted(sources, list[Source], "sources.toml")},
+        blank=tuple(cell for cells in tables.table.blank for cell in _cells(cells)),
+        furniture=tuple((f.pattern, f.reason) for f in tables.furniture),
+        misprinted={},
+    )
+    _check(ledger)
+    return ledger
+
+
+def _converted(document: Any, kind: Any, file: str) -> Any:
+    try:
+        return msgspec.convert(document, kind, dec_hook=_fraction)
+    except msgspec.ValidationError as error:
+        raise LedgerError(f"{file}: {error}") from error
+
+
+def _fraction(kind: type, value: Any) -> Any:
+    if kind is Fraction and isinstance(value, str):
+        return Fraction(value)
+    raise NotImplementedError(kind)
+
+
+def _place(text: str, who: str, quote: str, cell: str | None = None) -> Place:
+    before, opened, rest = quote.partition("⟦")
+    inside, closed, after = rest.partition("⟧")
+    if not opened or not closed:
+        raise LedgerError(f"{who}: its quote needs the printed text between ⟦ and ⟧")
+    words = before + inside + after
+    if (times := text.count(words)) != 1:
+        raise LedgerError(f"{who}: the report has {words!r} {times} times, not once")
+    start = text.index(words) + len(before)
+    heading = next((h for h in reversed(_headings(text)) if h.start() <= start), None)
+    numbered = next((n for s, e, n in _displays(text) if s <= start < e), None)
+    return Place(start, start + len(inside), _line(text, start), _section(heading), numbered, cell)
+
+
+@cache
+def _headings(text: str) -> list[re.Match[str]]:
+    return list(_HEADING.finditer(text))
+
+
+@cache
+def _displays(text: str) -> list[tuple[int, int, str]]:
+    """Where the numbered equations stand, and their numbers."""
+    found = re.finditer(r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)", text, re.DOTALL)
+    return [(*match.span(), match[1]) for match in found]
 
 
 def _line(text: str, position: int) -> int:
     return text.count("\n", 0, position) + 1
-
-
-def _rounding(cell: str | None) -> Rounding:
-    # Table A-1 was printed by a spreadsheet, whose rule is known; the text by a person.
-    return Rounding.HALF_AWAY if cell else Rounding.NEAREST
-
-
-def _cells(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """A blank entry stands for every cell of its range; any other for itself."""
-    if "cells" not in entry or "id" not in entry:
-        return [dict(entry)]
-    match = re.fullmatch(r"([A-F])(\d+):([A-F])(\d+)", entry["cells"])
-    if match is None:
-        raise LedgerError(f"claim {entry.get('id')!r}: {entry['cells']!r} is no range of cells")
-    columns = range(ord(match[1]), ord(match[3]) + 1)
-    if not columns or int(match[2]) > int(match[4]):
-        raise LedgerError(f"claim {entry.get('id')!r}: the cells {entry['cells']} run backwards")
-    addresses = [f"{chr(c)}{r}" for r in range(int(match[2]), int(match[4]) + 1) for c in columns]
-    return [{**entry, "id": f"{entry['id']}-{cell}", "cell": cell} for cell in addresses]
-
-
-_KEYS = {
-    "id",
-    "title",
-    "quote",
-    "unit",
-    "kind",
-    "computed_by",
-    "rests_on",
-    "given",
-    "relation",
-    "against",
-    "prints_like",
-    "exact",
-    "row",
-    "readings",
-    "as_printed_inputs",
-    "assumes",
-    "equation",
-    "cell",
-    "cells",
-}
-
-
-class _Reader:
-    """Reads one entry; every message names it."""
-
-    def __init__(self, entry: Mapping[str, Any], document: Mapping[str, Any], text: str) -> None:
-        self.entry, self.document, self.text = entry, document, text
-        self.id = entry.get("id", "?")
-
-    def error(self, message: str) -> LedgerError:
-        return LedgerError(f"claim {self.id!r}: {message}")
-
-    def claim(self) -> Claim:
-        entry = self.entry
-        missing = {"id", "title", "kind"} - set(entry)
-        if missing:
-            raise self.error(f"lacks {', '.join(sorted(missing))}")
-        unknown = set(entry) - _KEYS
-        if unknown:
-            raise self.error(f"there is no key {min(unknown)!r}")
-        if entry["kind"] in ("bound", "order of magnitude") and "relation" not in entry:
-            raise self.error(f"kind {entry['kind']!r} needs a relation")
-        if entry["kind"] not in KINDS:
-            raise self.error(f"kind {entry['kind']!r} is none of {', '.join(KINDS)}")
-        unit = entry.get("unit", "1")
-        try:
-            to_si(unit)
-        except UnitError as error:
-            raise self.error(str(error)) from error
-        place, printed_text = self.place()
-        printed = self.printed(printed_text)
-        return Claim(
-            id=self.id,
-            title=entry["title"],
-            text=printed_text,
-            kind=entry["kind"],
-            unit=unit,
-            place=place,
-            quote=entry.get("quote", ""),
-            printed=printed,
-            interval=None if printed is None else self.interval(printed, place),
-            computation=self.computation(),
-            row=entry.get("row"),
-            inputs=self.inputs(),
-            readings={k: self.named(v) for k, v in entry.get("readings", {}).items()},
-            given=self.given(),
-            chosen=entry.get("given") == "choice",
-            relation=entry.get("relation"),
-            as_printed_inputs=entry.get("as_printed_inputs", False),
-            assumes=entry.get("assumes"),
-        )
-
-    def place(self) -> tuple[Place, str]:
-        if self.entry["kind"] == "blank":
-            start = self.text.rindex("Table A-1.")
-            return self._at(start, start), ""
-        quote = self.entry.get("quote", "")
-        before, opened, rest = quote.partition("⟦")
-        inside, closed, after = rest.partition("⟧")
-        if not opened or not closed:
-            raise self.error("its quote needs the printed text between ⟦ and ⟧")
-        words = before + inside + after
-        found = self.text.count(words)
-        if found != 1:
-            raise self.error(f"the report has {words!r} {found} times, not once")
-        start = self.text.index(words) + len(before)
-        return self._at(start, start + len(inside)), inside
-
-    def _at(self, start: int, end: int) -> Place:
-        headings = list(_HEADING.finditer(self.text, 0, start + 1))
-        heading = headings[-1] if headings else None
-        section = _section(heading)
-        equation, cell = self.entry.get("equation"), self.entry.get("cell")
-        line = _line(self.text, start)
-        return Place(start, end, line, section, equation, cell)
-
-    def printed(self, text: str) -> Printed | None:
-        if self.entry["kind"] in ("blank", "comparison"):
-            return None
-        try:
-            return parse(text)
-        except ValueError as error:
-            raise self.error(str(error)) from error
-
-    def interval(self, printed: Printed, place: Place) -> Interval:
-        if relation := self.entry.get("relation"):
-            return self.related(relation, printed.value)
-        if self.entry["kind"] == "constant" or self.entry.get("exact"):
-            return Interval.point(printed.value)
-        if self.entry["kind"] == "approximation":
-            return printed.about()
-        return printed.interval(_rounding(place.cell))
-
-    def related(self, relation: str, value: Fraction) -> Interval:
-        match relation:
-            case ">" | ">=":
-                return Interval(value, None, relation == ">=", False)
-            case "<" | "<=":
-                return Interval(None, value, False, relation == "<=")
-        raise self.error(f"relation {relation!r} is none of <, <=, >, >=")
-
-    def computation(self) -> Computation | None:
-        name = self.entry.get("computed_by")
-        return None if name is None else self.named(name)
-
-    def named(self, name: str) -> Computation:
-        if name not in COMPUTATIONS:
-            raise self.error(f"there is no computation {name!r}")
-        return COMPUTATIONS[name]
-
-    def inputs(self) -> dict[str, tuple[str, ...]]:
-        rests_on = dict(self.entry.get("rests_on", {}))
-        group = rests_on.pop("group", None)
-        groups = self.document.get("groups", {})
-        if group is not None and group not in groups:
-            raise self.error(f"there is no group {group!r}")
-        merged = {**groups.get(group, {}), **rests_on}
-        return {name: tuple(value.split(" * ")) for name, value in merged.items()}
-
-    def given(self) -> str | None:
-        key = self.entry.get("given")
-        decided = self.entry.get("computed_by") is not None or self.entry["kind"] == "blank"
-        if decided == (key is not None):
-            raise self.error("needs either computed_by or given")
-        if "computed_by" not in self.entry and "rests_on" in self.entry:
-            raise self.error("rests_on needs computed_by")
-        reasons: Mapping[str, str] = self.document.get("reasons", {})
-        if key is not None and key not in reasons:
-            raise self.error(f"there is no reason {key!r}")
-        return None if key is None else reasons[key]
 
 
 _HEADING = re.compile(r"^ ?(?:\d+\. (?P<form>ABSTRACT)|(?P<n>\d)\. [A-Z]|Appendix\.)", re.MULTILINE)
@@ -423,49 +736,153 @@ def _section(heading: re.Match[str] | None) -> str:
     return f"section {heading['n']}" if heading["n"] else "appendix"
 
 
-def _against(claim: Claim, entry: Mapping[str, Any], claims: Mapping[str, Claim]) -> Claim:
-    """A comparison's interval comes from the claim that it compares with."""
-    if claim.kind != "comparison":
-        return claim
-    reader = _Reader(entry, {}, "")
-    name = entry.get("against", entry.get("prints_like", ""))
-    if name not in claims or (other := claims[name]).printed is None:
-        raise reader.error("a comparison needs `against` or `prints_like`, another claim")
-    if claim.unit != other.unit:
-        raise reader.error(f"is in {claim.unit}, but {name} in {other.unit}")
-    if "against" in entry:
-        return replace(
-            claim, interval=reader.related(entry.get("relation", ""), other.printed.value)
-        )
-    return replace(claim, interval=other.interval, like=name)
+def _order(claim: Claim) -> tuple[bool, int, str]:
+    """By place in the text; the table, which ends it, cell by cell."""
+    cell = claim.place.cell
+    return (True, int(cell[1:]), cell) if cell else (False, claim.place.start, claim.id)
 
 
-def _check_inputs(claims: Mapping[str, Claim], inferred: Mapping[str, Inferred]) -> None:
-    for entry in inferred.values():
-        for name in (*entry.evidence, *entry.header, entry.mass, *entry.results):
-            if name not in claims:
-                raise LedgerError(f"inferred {entry.id!r}: there is no claim {name!r}")
-    for claim in claims.values():
-        if claim.computation is not None:
-            for computation in (claim.computation, *claim.readings.values()):
-                _check_units(claim, computation, claims, inferred)
-    order = {c.id: [n for names in c.inputs.values() for n in names] for c in claims.values()}
+def _cells(cells: str) -> Iterator[str]:
+    match = re.fullmatch(r"([A-F])(\d+):([A-F])(\d+)", cells)
+    if match is None:
+        raise LedgerError(f"[table] blank: {cells!r} is no range of cells such as C1:F6")
+    for row in range(int(match[2]), int(match[4]) + 1):
+        for column in range(ord(match[1]), ord(match[3]) + 1):
+            yield f"{chr(column)}{row}"
+
+
+def _claim(entry: ClaimEntry, tables: _Document, text: str, equations: Any) -> Claim:
+    """One claim, as far as its own entry tells; every message names it."""
+    who = f"claim {entry.id!r}"
+    place = _place(text, who, entry.quote, entry.cell)
+    words = text[place.start : place.end]
+    within = next(
+        (e.id for e in equations if e.place.start <= place.start and place.end <= e.place.end), None
+    )
     try:
-        TopologicalSorter(order).prepare()
+        to_si(entry.unit)
+        numbers = entry.kind not in ("comparison", "remark")
+        printed = parse(words) if numbers else None
+    except ValueError as error:
+        raise LedgerError(f"{who}: {error}") from error
+    named = [entry.computed_by, *entry.readings.values()] if entry.computed_by else []
+    if unknown := next((name for name in named if name not in COMPUTATIONS), None):
+        raise LedgerError(f"{who}: there is no computation {unknown!r}")
+    if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
+        raise LedgerError(f"{who}: kind {entry.kind!r} needs a relation")
+    if entry.given is not None and entry.given not in tables.reasons:
+        raise LedgerError(f"{who}: there is no reason {entry.given!r}")
+    if not (within or entry.kind == "remark") and (entry.computed_by is None) == (
+        entry.given is None
+    ):
+        raise LedgerError(f"{who}: needs either computed_by or given")
+    if entry.quantity is not None and entry.quantity not in tables.quantities:
+        raise LedgerError(f"{who}: there is no quantity {entry.quantity!r}")
+    return Claim(
+        entry=entry,
+        text=words,
+        place=place,
+        printed=printed,
+        computation=COMPUTATIONS[entry.computed_by] if entry.computed_by else None,
+        inputs=_inputs(entry, tables.groups),
+        readings={name: COMPUTATIONS[key] for name, key in entry.readings.items()},
+        given=None if entry.given is None else tables.reasons[entry.given],
+        chosen=entry.given == "choice",
+        bound=None if printed is None or entry.relation is None else printed.value,
+        within=within,
+    )
+
+
+def _inputs(
+    entry: ClaimEntry, groups: Mapping[str, Mapping[str, str]]
+) -> dict[str, tuple[str, ...]]:
+    rests_on = dict(entry.rests_on)
+    group = rests_on.pop("group", None)
+    if group is not None and group not in groups:
+        raise LedgerError(f"claim {entry.id!r}: there is no group {group!r}")
+    if rests_on and entry.computed_by is None:
+        raise LedgerError(f"claim {entry.id!r}: rests_on needs computed_by")
+    merged = {**groups.get(group or "", {}), **rests_on}
+    return {name: tuple(value.split(" * ")) for name, value in merged.items()}
+
+
+def _completed(claim: Claim, claims: Mapping[str, Claim]) -> Claim:
+    """A claim with what it takes from others: the number it compares with, whose choice it is."""
+    if (name := claim.entry.against) is not None:
+        if name not in claims or (other := claims[name]).printed is None:
+            raise LedgerError(f"claim {claim.id!r}: there is no number {name!r} to compare with")
+        if other.unit != claim.unit:
+            raise LedgerError(f"claim {claim.id!r}: is in {claim.unit}, but {name} in {other.unit}")
+        return replace(claim, bound=other.printed.value)
+    return replace(claim, chosen=_is_chosen(claim, claims))
+
+
+def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
+    for _ in claims:  # no chain is longer; circles are refused later
+        if claim.computation is not COMPUTATIONS["same_as"] or claim.chosen:
+            break
+        claim = claims.get(claim.inputs.get("value", ("",))[0], claim)
+    return claim.chosen
+
+
+def _check(ledger: Ledger) -> None:
+    """Refuse what does not fit between entries."""
+    for claim in ledger.claims.values():
+        _check_claim(claim, ledger)
+    for name, inferred in ledger.inferred.items():
+        own = (inferred.mass, inferred.radius, inferred.density)
+        named = (*inferred.evidence, *inferred.header, *inferred.results, *own)
+        if unknown := set(named) - set(ledger.claims):
+            raise LedgerError(f"inferred {name!r}: there is no claim {min(unknown)!r}")
+        if inferred.quantity not in ledger.quantities:
+            raise LedgerError(f"inferred {name!r}: there is no quantity {inferred.quantity!r}")
+    for source in ledger.sources.values():
+        _check_source(source, ledger)
+    _check_equations(ledger)
+    try:
+        TopologicalSorter({c.id: c.entries for c in ledger.claims.values()}).prepare()
     except CycleError as error:
         raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
 
 
-def _check_units(
-    claim: Claim,
-    computation: Computation,
-    claims: Mapping[str, Claim],
-    inferred: Mapping[str, Inferred],
-) -> None:
+def _check_claim(claim: Claim, ledger: Ledger) -> None:
+    for computation in claim.computations.values():
+        _check_units(claim, computation, ledger)
+    for name in claim.entry.shown_by:
+        if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
+            raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
+
+
+def _check_equations(ledger: Ledger) -> None:
+    try:
+        _ = ledger.sides, ledger.dimensions
+        for text in (slip.text for slip in ledger.slips if slip.text is not None):
+            ledger.read(text)
+    except ValueError as error:
+        raise LedgerError(f"[[equation]], [[slip]] or [symbols]: {error}") from error
+    for equation in ledger.equations.values():
+        if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
+            raise LedgerError(f"equation {equation.id!r}: nothing derives it")
+    for slip in ledger.slips:
+        if slip.equation not in ledger.equations:
+            raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")
+        if unknown := set(slip.inputs.values()) - set(ledger.claims):
+            raise LedgerError(f"slip {slip.name!r}: there is no number {min(unknown)!r}")
+
+
+def _check_source(source: Source, ledger: Ledger) -> None:
+    for name in source.claims:
+        if not same_dimension(_unit_of(name, ledger, LedgerError), source.unit):
+            raise LedgerError(f"source {source.id!r}: {name} is not in {source.unit}")
+    if not 1 <= len(source.numbers) <= 2:
+        raise LedgerError(f"source {source.id!r}: its quote marks no number with ⟦ and ⟧")
+
+
+def _check_units(claim: Claim, computation: Computation, ledger: Ledger) -> None:
     def error(message: str) -> LedgerError:
         return LedgerError(f"claim {claim.id!r}, {computation.name}: {message}")
 
-    if computation.by_row != (claim.row is not None):
+    if computation.by_row != (claim.entry.row is not None):
         raise error("needs a row" if computation.by_row else "takes no row")
     expected = dict(computation.inputs)
     if computation.any_number:
@@ -474,41 +891,20 @@ def _check_units(
         raise error(f"needs inputs {sorted(expected)}, not {sorted(claim.inputs)}")
     shared: dict[str, str] = {}
     for name, unit in expected.items():
-        found = "*".join(_unit_of(part, claims, inferred, error) for part in claim.inputs[name])
+        own = " ".join(_unit_of(part, ledger, error) for part in claim.inputs[name])
+        unit = "1" if unit == EXPONENT else unit
         if unit == SAME:
-            unit = shared.setdefault(SAME, found)
-        if not same_dimension(found, unit):
-            raise error(f"input {name} is in {found}, which does not measure what {unit} does")
+            unit = shared.setdefault(SAME, own)
+        if not same_dimension(own, unit):
+            raise error(f"input {name} is in {own}, which does not measure what {unit} does")
     result = shared.get(SAME, claim.unit) if computation.unit == SAME else computation.unit
     if not same_dimension(claim.unit, result):
         raise error(f"unit {claim.unit} does not measure what {result} does")
 
 
-def _unit_of(
-    name: str, claims: Mapping[str, Claim], inferred: Mapping[str, Inferred], error: Any
-) -> str:
-    if name.startswith(_INFERRED) and name.removeprefix(_INFERRED) in inferred:
-        return inferred[name.removeprefix(_INFERRED)].unit
-    if name not in claims or claims[name].printed is None:
+def _unit_of(name: str, ledger: Ledger, error: Callable[[str], LedgerError]) -> str:
+    if name.startswith(INFERRED) and name.removeprefix(INFERRED) in ledger.inferred:
+        return ledger.unit(name)
+    if name not in ledger.claims or ledger.claims[name].printed is None:
         raise error(f"there is no number {name!r} to rest on")
-    unit = claims[name].unit
-    return "dimensionless" if unit == "1" else unit
-
-
-def _inferred(name: str, entry: Mapping[str, Any]) -> Inferred:
-    low, high = (Fraction(end) for end in entry["search"])
-    return Inferred(
-        id=name,
-        title=entry["title"],
-        symbol=entry["symbol"],
-        unit=entry["unit"],
-        nominal=Fraction(entry["nominal"]),
-        nominal_source=entry["nominal_source"],
-        search=(low, high),
-        resolution=Fraction(entry["resolution"]),
-        evidence=tuple(entry["evidence"]),
-        header=tuple(entry["header"]),
-        mass=entry["mass"],
-        results=tuple(entry["results"]),
-        handbook={item["name"]: parse(item["value"]) for item in entry["handbook"]},
-    )
+    return ledger.unit(name)

@@ -1,35 +1,35 @@
 """Printed text to the exact interval of the values that print like that.
 
-A printed number is text: "7.67" stands for every value between 7.665 and 7.675, "700" for one to
-three significant digits. All arithmetic is rational; no binary float is involved.
-
-Rounding convention (`Rounding`): unless a caller names another, numbers are taken as rounded to
-nearest with ties going either way, so both ends belong to the interval. Fractions ("7/3") and
-number words ("three") are exact.
+A printed number is text: "7.67" stands for every value from 7.665 up to 7.675, "700" for one to
+three significant digits. All arithmetic is rational; no binary float is involved. How a value
+becomes text is a convention (`Rounding`); fractions ("7/3") and number words ("three") are exact.
 """
 
 import re
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from enum import Enum
 from fractions import Fraction
 
-__all__ = ["Interval", "Printed", "Rounding", "parse"]
+__all__ = ["Interval", "Printed", "Rounding", "decimal_text", "parse"]
 
 
 class Rounding(Enum):
-    """How a value becomes printed text; the interval's ends follow from it."""
+    """How a value becomes printed text; the ends of the interval follow from it."""
 
-    NEAREST = "to nearest, ties either way"
-    HALF_AWAY = "to nearest, ties away from zero (spreadsheets)"
-    TRUNCATED = "cut off"
+    AWAY = "to nearest, ties away from zero"
+    EVEN = "to nearest, ties to even"
+    CUT = "cut off"
 
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """An interval of rationals; an end that is None is infinite (and then open).
+    """An interval of rationals; an end that is None is infinite.
 
-    >>> print(Interval(Fraction("7.665"), Fraction("7.675")))
-    [7.665, 7.675]
+    Raises ValueError if it is empty.
+
+    >>> print(Interval(Fraction("7.665"), Fraction("7.675"), upper_closed=False))
+    [7.665, 7.675)
     """
 
     lower: Fraction | None
@@ -38,13 +38,20 @@ class Interval:
     upper_closed: bool = True
 
     def __post_init__(self) -> None:
-        if self.lower is not None and self.upper is not None and self.lower > self.upper:
-            raise ValueError(f"empty interval: {self.lower} > {self.upper}")
+        if self.lower is None or self.upper is None or self.lower < self.upper:
+            return
+        if self.lower > self.upper or not (self.lower_closed and self.upper_closed):
+            raise ValueError(f"the interval from {self.lower} to {self.upper} is empty")
 
     @classmethod
     def point(cls, value: Fraction) -> "Interval":
-        """The one value."""
+        """The interval of one value."""
         return cls(value, value)
+
+    @property
+    def is_point(self) -> bool:
+        """Whether it holds one value only."""
+        return self.lower is not None and self.lower == self.upper
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
@@ -58,8 +65,8 @@ class Interval:
         return self.lower, self.upper
 
     def contains(self, value: Fraction) -> bool:
-        """Whether the value lies inside, ends counted as they are closed or open."""
-        return not self._above(value) and not self._below(value)
+        """Whether the value lies inside; an open end does not belong to the interval."""
+        return not self._is_above(value) and not self._is_below(value)
 
     def encloses(self, lower: Fraction, upper: Fraction) -> bool:
         """Whether every value from lower to upper lies inside."""
@@ -67,15 +74,28 @@ class Interval:
 
     def excludes(self, lower: Fraction, upper: Fraction) -> bool:
         """Whether no value from lower to upper lies inside."""
-        return self._above(upper) or self._below(lower)
+        return self._is_above(upper) or self._is_below(lower)
 
-    def _above(self, value: Fraction) -> bool:
-        """Whether the whole interval lies above the value."""
+    def meets(self, other: "Interval") -> bool:
+        """Whether some value lies in both.
+
+        >>> parse("403").interval().meets(parse("404").interval())
+        False
+        """
+        if other.lower is not None and (
+            self._is_below(other.lower) or (other.lower == self.upper and not other.lower_closed)
+        ):
+            return False
+        return other.upper is None or not (
+            self._is_above(other.upper) or (other.upper == self.lower and not other.upper_closed)
+        )
+
+    def _is_above(self, value: Fraction) -> bool:
         if self.lower is None:
             return False
         return value < self.lower or (value == self.lower and not self.lower_closed)
 
-    def _below(self, value: Fraction) -> bool:
+    def _is_below(self, value: Fraction) -> bool:
         if self.upper is None:
             return False
         return value > self.upper or (value == self.upper and not self.upper_closed)
@@ -87,7 +107,7 @@ class Interval:
         return Interval(lower, upper, self.lower_closed, self.upper_closed)
 
     def __str__(self) -> str:
-        if self.lower == self.upper and self.lower is not None:
+        if self.is_point and self.lower is not None:
             return decimal_text(self.lower)
         left = "(-inf" if self.lower is None else "(["[self.lower_closed] + decimal_text(self.lower)
         right = "inf)" if self.upper is None else decimal_text(self.upper) + ")]"[self.upper_closed]
@@ -107,11 +127,8 @@ def decimal_text(value: Fraction) -> str:
     if remainder != 1:
         return str(value)
     digits = len(str(abs(value.numerator))) + 4 * len(str(value.denominator))
-    from decimal import Context, Decimal
-
     context = Context(prec=digits)
-    exact = context.divide(Decimal(value.numerator), Decimal(value.denominator))
-    exact = exact.normalize(context)
+    exact = context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context)
     return f"{exact:f}" if -5 <= exact.adjusted() < 6 else f"{exact:E}"
 
 
@@ -119,9 +136,9 @@ def decimal_text(value: Fraction) -> str:
 class Printed:
     """A printed number: its text, the value that the text spells, the place of its last digit.
 
-    `quantum` is the unit of the last digit (0 for exact text), `quanta` the places that the last
-    significant digit may have: several where an integer ends in zeros. `floating` says that the
-    digits before an exponent were counted, as in "1.00E+03", and not the decimals.
+    `quanta` are the units that the last significant digit may have: one where the text is decimal,
+    several where an integer ends in zeros, 0 for exact text. `floating` says that the digits
+    before an exponent were counted, as in "1.00E+03", and not the decimals.
     """
 
     text: str
@@ -135,34 +152,37 @@ class Printed:
         return self.quanta[0]
 
     def interval(
-        self, rounding: Rounding = Rounding.NEAREST, quantum: Fraction | None = None
+        self, rounding: Rounding = Rounding.AWAY, quantum: Fraction | None = None
     ) -> Interval:
         """The values that print like this, for a rounding rule and a place of the last digit.
 
         >>> print(parse("700").interval(), parse("700").interval(quantum=Fraction(100)))
-        [699.5, 700.5] [650, 750]
+        [699.5, 700.5) [650, 750)
         >>> print(parse("100").interval(quantum=Fraction(100)), parse("1.0E+02").interval())
-        [95, 150] [99.5, 105]
-        >>> print(parse("7.67").interval(Rounding.TRUNCATED))
-        [7.67, 7.68)
+        [95, 150) [99.5, 105)
+        >>> print(parse("7.67").interval(Rounding.EVEN), parse("7.67").interval(Rounding.CUT))
+        (7.665, 7.675) [7.67, 7.68)
         """
         quantum = self.quantum if quantum is None else quantum
         if quantum == 0:
             return Interval.point(self.value)
         size = abs(self.value)
-        if rounding is Rounding.TRUNCATED:
-            low, high, closed = size, size + quantum, False
+        if rounding is Rounding.CUT:
+            low, high, low_closed, high_closed = size, size + quantum, True, False
         else:
             # Just below a power of ten, digits that are counted stand ten times closer.
             counted = self.floating or (self.quantum and quantum != self.quantum)
             below = quantum / 10 if counted and _is_power_of_ten(size / quantum) else quantum
             low, high = size - below / 2, size + quantum / 2
-            closed = rounding is Rounding.NEAREST
-        if self.value == 0 and rounding is not Rounding.NEAREST:
-            return Interval(-high, high, False, False)
+            even = size / quantum % 2 == 0
+            # Below a power of ten the neighbor ends in 9, which is odd.
+            low_closed = rounding is Rounding.AWAY or even or below != quantum
+            high_closed = rounding is Rounding.EVEN and even
+        if self.value == 0:
+            return Interval(-high, high, high_closed, high_closed)
         if self.value < 0:
-            return Interval(-high, -low, closed, True)
-        return Interval(low, high, True, closed)
+            return Interval(-high, -low, high_closed, low_closed)
+        return Interval(low, high, low_closed, high_closed)
 
     def about(self) -> Interval:
         """The values that an author may call "about" this: the fewest digits the text allows.
@@ -171,7 +191,7 @@ class Printed:
         whole numbers, or among the unit fractions.
 
         >>> print(parse("700").about(), parse("third").about(), parse("twice").about())
-        [650, 750] [7/24, 5/12] [1.5, 2.5]
+        [650, 750) [7/24, 5/12] [1.5, 2.5)
         """
         if self.quantum or self.value == 0:
             return self.interval(quantum=self.quanta[-1])
@@ -190,31 +210,36 @@ _WORDS = {
     "two": "2",
     "several times": "2",  # in a bound: more than two
     "twice": "2",
+    "thrice": "3",
     "three": "3",
     "four": "4",
+    "five": "5",
     "third": "1/3",
+    "half": "1/2",
     "one-sixth": "1/6",
+    "one-fifth": "1/5",
 }
 _DECIMAL = re.compile(
-    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:\.(?P<part>\d+))?
-        (?:[Ee](?P<e>[-+]?\d+)|\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d+|\{[-+]?\d+\}))?""",
+    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?
+        (?:[Ee](?P<e>[-+]?\d{1,4})
+        |\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\}))?""",
     re.VERBOSE,
 )
 _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
-_POWER = re.compile(r"10\^(?P<power>[-+]?\d+|\{[-+]?\d+\})")
+_POWER = re.compile(r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})")
 
 
 def parse(text: str) -> Printed:
     """Read one printed number.
 
-    Decimals ("7.67", "10.0", "5,575"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
+    Decimals ("7.67", "5,575", "8·9"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
     as its number, at its fewest digits by the ledger), powers of ten ("10^7"), fractions ("7/3")
     and number words ("three"), the last three exact. Raises ValueError for anything else.
 
     >>> parse("3.11E+08").interval().upper
     Fraction(311500000, 1)
     >>> [str(parse("9.13 × 10^9").interval()), str(parse("10.0").interval())]
-    ['[9.125E+9, 9.135E+9]', '[9.95, 10.05]']
+    ['[9.125E+9, 9.135E+9)', '[9.95, 10.05)']
     """
     bare = text.strip().removeprefix("~").strip()
     if word := _WORDS.get(bare.lower()):
@@ -235,7 +260,7 @@ def _decimal(text: str, match: re.Match[str]) -> Printed:
     exponent = int((match["e"] or match["power"] or "0").strip("{}"))
     scale = Fraction(10) ** (exponent - len(part))
     value = int(match["sign"] + whole + part) * scale
-    digits = whole.lstrip("0") if not part and match["e"] is None and match["power"] is None else ""
-    zeros = len(digits) - len(digits.rstrip("0"))
     floating = match["e"] is not None or match["power"] is not None
+    digits = "" if part or floating else whole.lstrip("0")
+    zeros = len(digits) - len(digits.rstrip("0"))
     return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)

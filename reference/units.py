@@ -1,52 +1,79 @@
-"""Units of measurement, in exact rational arithmetic.
+"""Units of measurement, in exact rational arithmetic: those that are listed here, and no others.
 
-Pint knows the units and their dimensions; with `Fraction` numbers its conversions are exact (an
-inch is 254/10000 m, a pound-force 0.45359237 * 9.80665 N), so a conversion never rounds.
+A unit is a product or quotient of listed ones with small powers, such as "kg/m^3" or "m s^-1". With
+`Fraction` factors a conversion never rounds (an inch is 254/10000 m, a pound-force
+0.45359237 * 9.80665 N).
 """
 
 import re
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
-__all__ = ["UnitError", "quantity", "same_dimension", "to_si"]
+from reference.equations import Dimension
+
+__all__ = ["UnitError", "quantity", "same_dimension", "to_si", "unit_dimension", "written"]
 
 
 class UnitError(ValueError):
     """An unknown unit, or one of another dimension than is asked for."""
 
 
+_POUND, _GRAVITY, _INCH = Fraction("0.45359237"), Fraction("9.80665"), Fraction("0.0254")
+_NUMBER, _MASS, _LENGTH, _TIME = (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)
+_FORCE, _PRESSURE = (1, 1, -2), (1, -1, -2)
+_BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
+    # name: factor to SI, powers of kg, m and s, the prefixes that it takes
+    "1": (Fraction(1), _NUMBER, ""),
+    "percent": (Fraction(1, 100), _NUMBER, ""),
+    "%": (Fraction(1, 100), _NUMBER, ""),
+    "g": (Fraction(1, 1000), _MASS, "n u m k"),
+    "lb": (_POUND, _MASS, ""),
+    "m": (Fraction(1), _LENGTH, "n u m c k"),
+    "in": (_INCH, _LENGTH, ""),
+    "inch": (_INCH, _LENGTH, ""),
+    "ft": (12 * _INCH, _LENGTH, ""),
+    "s": (Fraction(1), _TIME, "p n u m"),
+    "N": (Fraction(1), _FORCE, "m k"),
+    "gf": (_GRAVITY / 1000, _FORCE, "k"),
+    "gram_force": (_GRAVITY / 1000, _FORCE, ""),
+    "lbf": (_POUND * _GRAVITY, _FORCE, ""),
+    "Pa": (Fraction(1), _PRESSURE, "k M G"),
+    "bar": (Fraction(10**5), _PRESSURE, "k M"),
+    "psi": (_POUND * _GRAVITY / _INCH**2, _PRESSURE, "k"),
+    "ksi": (1000 * _POUND * _GRAVITY / _INCH**2, _PRESSURE, ""),
+}
+_PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+_UNITS = {name: (factor, powers) for name, (factor, powers, _) in _BASES.items()} | {
+    prefix + name: (factor * Fraction(10) ** _PREFIXES[prefix], powers)
+    for name, (factor, powers, prefixes) in _BASES.items()
+    for prefix in prefixes.split()
+}
+_FACTOR = re.compile(
+    r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1(?![\s\d]*\d))(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
+)
+_SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "³": "3", "⁻": "-"})
+_LONGEST = 40
+
+
 @cache
-def _registry() -> Any:
-    import pint  # a quarter of a second that plain SI numbers need not wait for
-
-    return pint.UnitRegistry(non_int_type=Fraction)
-
-
-_NAME = r"[^\W\d]\w*(?:(?:\^|\*\*)-?[1-9])?"
-_UNIT = re.compile(rf"1|(?:1\s*/\s*)?{_NAME}(?:(?:\s*[*/]\s*|\s+){_NAME})*")
-"""Names with powers, times or over each other: all that a unit needs of pint's expressions."""
-
-
-@cache
-def _base(unit: str) -> tuple[Fraction, str]:
-    """The factor to SI base units, and the dimension as comparable text."""
-    import pint
-
-    if not _UNIT.fullmatch(unit):
-        raise UnitError(f"{unit!r} is no unit such as 'um', 'MPa' or 'kg/m^3'")
-    registry = _registry()
-    text = "dimensionless" if unit == "1" else unit
-    try:
-        base = registry.Quantity(Fraction(1), registry.parse_units(text)).to_base_units()
-    except (pint.errors.PintError, AttributeError) as error:
-        raise UnitError(f"unknown unit {unit!r}") from error
-    factor = base.magnitude
-    nothing = registry.Quantity(Fraction(0), base.units if unit == "1" else text)
-    if not isinstance(factor, Fraction) or nothing.to_base_units().magnitude != 0:
-        raise UnitError(f"unit {unit!r} has no exact factor to SI")
-    dimension = sorted((name, str(power)) for name, power in base.dimensionality.items())
-    return factor, repr(dimension)
+def _unit(unit: str) -> tuple[Fraction, Dimension]:
+    """The factor to SI, and the dimension."""
+    text = unit.translate(_SAME)
+    factor, dimension, at = Fraction(1), Dimension(), 0
+    while at < len(text) <= _LONGEST:
+        match = _FACTOR.match(text, at)
+        if match is None or match["name"] not in _UNITS:
+            break
+        power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
+        own, powers = _UNITS[match["name"]]
+        factor *= own**power
+        dimension *= Dimension(tuple(map(Fraction, powers))) ** power
+        at = match.end()
+    if at < len(text) or not text.strip():
+        raise UnitError(
+            f"unknown unit {unit[:_LONGEST]!r}: take one such as um, ns, m/s, kg/m^3, MPa or ksi"
+        )
+    return factor, dimension
 
 
 def to_si(unit: str) -> Fraction:
@@ -57,19 +84,45 @@ def to_si(unit: str) -> Fraction:
     >>> to_si("um"), float(to_si("ksi"))
     (Fraction(1, 1000000), 6894757.293168361)
     """
-    return _base(unit)[0]
+    return _unit(unit)[0]
 
 
-def same_dimension(one: str, other: str) -> bool:
+def unit_dimension(unit: str) -> Dimension:
+    """What a unit measures, as powers of kilogram, metre and second.
+
+    >>> print(unit_dimension("MPa"))
+    kg m^-1 s^-2
+    """
+    return _unit(unit)[1]
+
+
+def same_dimension(unit: str, other: str) -> bool:
     """Whether two units measure the same kind of quantity.
 
     >>> same_dimension("ksi", "MPa"), same_dimension("um", "MPa")
     (True, False)
     """
-    return _base(one)[1] == _base(other)[1]
+    return unit_dimension(unit) == unit_dimension(other)
+
+
+_POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def written(unit: str) -> str:
+    """A unit as a page shows it; nothing for a pure number.
+
+    >>> written("um^3"), written("kg/m^3"), written("percent"), written("1")
+    ('µm³', 'kg/m³', '%', '')
+    """
+    if unit == "1":
+        return ""
+    text = {"percent": "%", "gram_force": "gf"}.get(unit, unit)
+    text = re.sub(r"\bu(?=[a-z])", "µ", text)
+    return re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_POWERS), text)
 
 
 _QUANTITY = re.compile(r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*(?P<unit>.*)")
+_DIGITS = 400
 
 
 def quantity(text: str, unit: str) -> Fraction:
@@ -80,9 +133,12 @@ def quantity(text: str, unit: str) -> Fraction:
     >>> quantity("11 um", "m"), quantity("1.1e-5", "m")
     (Fraction(11, 1000000), Fraction(11, 1000000))
     """
-    match = _QUANTITY.fullmatch(text.strip())
+    match = _QUANTITY.fullmatch(text.strip()) if len(text) < _DIGITS else None
     if match is None:
-        raise ValueError(f"{text!r} is no finite number with or without a unit, such as '1 {unit}'")
+        shown = text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
+        raise ValueError(
+            f"{shown!r} is no finite number with or without a unit, such as '1 {unit}'"
+        )
     value, own = Fraction(match["number"]), match["unit"]
     if not own:
         return value

@@ -1,1 +1,54 @@
-"""What the report computed, re-run in IEEE doubles, and the audit of every number it prints."""
+"""What the report computed, re-run in IEEE doubles, and the audit of every number it prints.
+
+The public names are those of `__all__`; each is loaded when it is first used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from replication.audit.audit import audit
+    from replication.cases import BETA_3, BETA_5
+    from replication.models.arrays import (
+        depth_at_velocity,
+        final_depth,
+        history,
+        normalized_depth,
+        run_many,
+        stop_time,
+        time_to_depth,
+        velocity_at_depth,
+    )
+    from replication.models.impact import Impact
+    from replication.models.sheet import run
+
+__all__ = [
+    "BETA_3",
+    "BETA_5",
+    "Impact",
+    "audit",
+    "depth_at_velocity",
+    "final_depth",
+    "history",
+    "normalized_depth",
+    "run",
+    "run_many",
+    "stop_time",
+    "time_to_depth",
+    "velocity_at_depth",
+]
+
+_HOMES = {
+    "BETA_3": "cases",
+    "BETA_5": "cases",
+    "Impact": "models.impact",
+    "run": "models.sheet",
+    "audit": "audit",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    home = import_module(f"{__name__}.{_HOMES.get(name, 'models.arrays')}")
+    return home if name == "audit" else getattr(home, name)

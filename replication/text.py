@@ -1,10 +1,20 @@
 """Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
 
+import re
 from collections.abc import Iterable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
-__all__ = ["aligned", "inward", "number", "outward", "pipe_table", "rounded", "with_unit"]
+__all__ = [
+    "aligned",
+    "inward",
+    "number",
+    "outward",
+    "pipe_table",
+    "powers_of_ten",
+    "rounded",
+    "with_unit",
+]
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -14,6 +24,20 @@ def number(value: float | Fraction, digits: int = 6) -> str:
     ('7.66956', '3.5e+09')
     """
     return f"{float(value):.{digits}g}"
+
+
+def powers_of_ten(text: str) -> str:
+    """Numbers in a text with their powers of ten written out.
+
+    >>> powers_of_ten("from 7.6e+09 to 1e-07")
+    'from 7.6×10⁹ to 1×10⁻⁷'
+    """
+    return re.sub(
+        r"(?<=\d)e([-+]\d+)", lambda power: f"×10{str(int(power[1])).translate(_RAISED)}", text
+    )
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def with_unit(text: str, unit: str) -> str:

@@ -1,168 +1,758 @@
-"""The live workbook of one or two cases: what it holds, and its file.
+"""The live workbook of the report, or of one case: its values by key, its file, its verification.
 
 The values come from the models, computed without any knowledge of the formula texts; a value and
 the formula that must give it meet in one cell. The plan's `where` tells which cell holds a key.
 """
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
-from functools import cache
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from functools import cached_property
+from importlib.metadata import version
+from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from replication import midpoint
-from replication.impact import BETA_3, BETA_5, Impact
-from replication.midpoint import Sheet
-from replication.workbook_report import report_values
-from replication.workbook_values import pressure_ratio, values_by_key
+from reference.ledger import Ledger, load
+from reference.printed import Interval, Printed, Rounding
+from reference.units import to_si
+from replication.cases import BETA_3, BETA_5
+from replication.error.warnings import COARSE, DEEP
+from replication.error.warnings import warnings as doubts_about
+from replication.models import crater, depth, frank_zook, resistance, stream
+from replication.models.impact import Impact, particle_mass
+from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
+from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.engines import ENGINES
-from spreadsheets.plan import Value, WorkbookPlan
-from spreadsheets.sheets import workbook_plan
-from spreadsheets.sheets.case import CaseSheet, prepared_rows
-from spreadsheets.sheets.contents import coarse_name
-from spreadsheets.sheets.inputs import INPUTS
+from spreadsheets.plan import Value, WorkbookPlan, place_of
+from spreadsheets.sheets import About, workbook_plan
+from spreadsheets.sheets.audit import AS_PRINTED, KINDS, OTHERWISE, Findings, computed_claims
+from spreadsheets.sheets.figures import (
+    COMPLETE,
+    CURRENT,
+    LEVELS,
+    NO_ORDER,
+    POINTS,
+    RUN_INPUTS,
+    STALE,
+)
+from spreadsheets.sheets.inputs import COARSE as COARSE_STEP
+from spreadsheets.sheets.inputs import MESSAGES, Input, inputs_of
+from spreadsheets.sheets.lines import NOT_COMPUTED
+from spreadsheets.sheets.steps import (
+    DOUBTFUL,
+    DOUBTS,
+    KEPT_NAME,
+    MAX_ROWS,
+    STOPPED,
+    WARNED,
+    CaseSheet,
+    prepared_rows,
+)
+from spreadsheets.sheets.table_a1 import DIGITS, OTHER_TEXT, ROWS, SAME_TEXT
 from spreadsheets.verify import EngineCheck, verify
 
-__all__ = [
-    "REPORT",
-    "Cases",
-    "build",
-    "relative_tolerance",
-    "report_plan",
-    "to_bytes",
-    "values",
-    "write",
-    "write_verified",
-]
+if TYPE_CHECKING:
+    from replication.audit.record import Record
 
-Cases = Mapping[str, Impact]
-"""Sheet name -> case: one case, or two that differ in nothing but beta or the resistance."""
+__all__ = ["REPORT", "Workbook", "build", "rounding_bound", "to_bytes", "write_verified"]
 
-REPORT: Cases = {"Sheet beta 3": BETA_3, "Sheet beta 5": BETA_5}
-"""The report's own two cases. Under these names, with whatever inputs, a workbook has the sheets
-that are about the report alone: its figures, its other time step, and the audit."""
-
-_PRINTED = {BETA_3: ("10.0", "0.91"), BETA_5: ("7.67", "0.70")}
+REPORT = (BETA_3, BETA_5)
+"""The cases of the report's own workbook, which has besides what is about the report alone: the
+sheets with its other time step, the check of Table A-1, and the audit."""
 
 
-def to_bytes(cases: Cases = REPORT) -> bytes:
+@dataclass(frozen=True)
+class Workbook:
+    """A workbook before it is a file.
+
+    warnings: about runs that are not to be trusted. rounding: `rounding_bound` of its sheets.
+    """
+
+    plan: WorkbookPlan
+    values: Mapping[str, Value]
+    warnings: Sequence[str]
+    rounding: float
+
+    def to_bytes(self) -> bytes:
+        """The bytes of the .xlsx file."""
+        return emit.to_bytes(self.plan, self.values)
+
+    @property
+    def cells(self) -> dict[str, dict[str, Value]]:
+        """What every cell must show, by sheet and address."""
+        return emit.cell_values(self.plan, self.values)
+
+
+def to_bytes(
+    cases: Sequence[Impact] = REPORT,
+    scheme: str = "published",
+    rows: int | None = None,
+    record: "Record | None" = None,
+) -> bytes:
     """The workbook of these cases, as the bytes of its file. Raises as `build` does."""
-    return emit.to_bytes(*build(cases))
+    return build(cases, scheme, rows, record).to_bytes()
 
 
-def write(path: Path, cases: Cases = REPORT) -> None:
-    """Write the workbook of these cases to `path` (.xlsx). Raises as `build` does."""
-    emit.write(path, *build(cases))
-
-
-def write_verified(path: Path, cases: Cases = REPORT) -> list[EngineCheck]:
+def write_verified(path: Path, book: Workbook, *, force: bool = False) -> list[EngineCheck]:
     """Write the workbook and recalculate it in every engine of this machine.
 
-    Raises as `build` does, and ValueError when there is no engine at all; nothing is written then.
+    Raises ValueError when there is no engine at all, and as `emit.write` does; nothing is written
+    then.
     """
     if all(engine.missing() for engine in ENGINES):
         raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
-    plan, values = build(cases)
-    emit.write(path, plan, values)
-    tolerances = dict.fromkeys(plan.transcendental, relative_tolerance(cases))
-    return verify(path, emit.cell_values(plan, values), tolerances, ENGINES)
-
-
-def values(cases: Cases = REPORT, written_for: Cases | None = None) -> dict[str, Value]:
-    """The value of every key of the workbook. Raises as `build` does."""
-    return build(cases, written_for)[1]
+    emit.write(path, book.to_bytes(), force=force)
+    return verify(path, book.plan, book.cells, ENGINES, long_doubles=book.rounding)
 
 
 def build(
-    cases: Cases = REPORT, written_for: Cases | None = None
-) -> tuple[WorkbookPlan, dict[str, Value]]:
-    """The plan of the workbook and its values by key.
+    cases: Sequence[Impact] = REPORT,
+    scheme: str = "published",
+    rows: int | None = None,
+    record: "Record | None" = None,
+    *,
+    ledger: Ledger | None = None,
+    typed: Mapping[str, float] | None = None,
+    written: Sequence[Impact] | None = None,
+) -> Workbook:
+    """The workbook of one case, or of two that differ in nothing but beta: then it is the report's.
 
-    With `written_for`, of a workbook with as many rows as those cases need: one that was written
-    for them and whose inputs were then changed. Raises ValueError unless there are one or two cases
-    that share every input but beta or the resistance, and when a case needs more steps than
-    `prepared_rows` admits, or than there are rows.
+    scheme: one of `SCHEMES`. rows: those to prepare after row 0, by default twice as many as the
+    longest case takes. record: the finished audit, made where it is needed and not given. typed:
+    other inputs than the report's, by name and in the unit of their cells. written: the cases that
+    it was written for, if their inputs were changed since. A number that the cell of its unit
+    cannot hold to the last bit is taken as the nearest that it can.
 
-    >>> plan, values = build()
-    >>> plan.where["high.depth_um"], f"{values['high.depth_um']:.2f}"
-    (('Sheet beta 5', 'K22'), '7.67')
+    Raises ValueError where a number is outside of what the workbook takes, where a case takes more
+    steps than there are rows, and for cases that cannot share a workbook.
+
+    >>> book = build([BETA_5])
+    >>> place = book.plan.where["case.depth_um"]
+    >>> place[0], f"{book.values['case.depth_um']:.2f}"
+    ('Sheet beta 5', '7.67')
     """
-    _require_shared_inputs(list(cases.values()))
-    slugs = ("case",) if len(cases) == 1 else ("low", "high")
-    sheets = {slug: midpoint.run(one) for slug, one in zip(slugs, cases.values(), strict=True)}
-    names = dict(zip(slugs, cases, strict=True))
-    sizing = list((cases if written_for is None else written_for).values())
-    fine = _case_sheets(names, sheets, _rows(sizing))
-    if list(cases) != list(REPORT):
-        return workbook_plan(fine), values_by_key(sheets, fine[0].rows)
-    step = INPUTS["dt_coarse"].si
-    again = {slug: midpoint.run(replace(s.impact, step=step)) for slug, s in sheets.items()}
-    rows = _rows([replace(impact, step=step) for impact in sizing])
-    coarse = _case_sheets(names, again, rows, coarse=True)
-    plan = workbook_plan(fine, coarse)
-    values = values_by_key(sheets, fine[0].rows)
-    return plan, values | report_values(values, sheets, again, coarse[0].rows)
+    if scheme not in SCHEMES:
+        raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
+    builder = _Builder(
+        tuple(cases), scheme, rows, ledger or load(), typed or {}, tuple(written or cases)
+    )
+    findings = None
+    if builder.report:
+        if record is None:
+            from replication.audit.audit import audit
+
+            record = audit()
+        findings = _findings(record, scheme)
+    return builder.workbook(findings)
 
 
-@cache
-def report_plan() -> WorkbookPlan:
-    """The plan of the report's own workbook: which cell holds what."""
-    return build()[0]
+def rounding_bound(sheet: Sheet) -> float:
+    """How far a sheet in doubles may lie from exact arithmetic, relative to a column's largest.
+
+    In n rows of the impact velocity V, the final depth X and the duration T, with u = 2^-53:
+
+    - what enters is rounded: at most 26 u of the deceleration a (16 of them by the mass);
+    - a row takes 12 operations to a dt, relative errors of u each, and a subtraction from v: so
+      the rows add at most (n + 38) u V to the velocity, since the a dt add up to V;
+    - a row adds v dt to x: at most (n + 3) u X in all;
+    - an error in v moves x by T times itself, in X by T V / X as much as in V; an error in x turns
+      a, whose rise with x is at most a/x, by as much; the resistance damps both;
+    - in a both stand, squared velocity and area, with factors of at most 4.
+
+    So no column is off by more than 4 (2n + 41) max(1, T V / X) u of its largest number. Results
+    take fewer than the 41 operations that are counted beside the rows.
+
+    >>> f"{rounding_bound(run(BETA_5)):.1e}"
+    '2.3e-13'
+    """
+    n, final = sheet.steps, sheet.rows[-1]
+    stretch = final.time * sheet.impact.velocity / final.depth if final.depth else 1.0
+    return 4 * (2 * n + 41) * max(1.0, stretch) * 2.0**-53
 
 
-def _rows(impacts: Sequence[Impact]) -> int:
-    """The rows that every sheet of a workbook for these cases has, after row 0."""
-    return prepared_rows(max(midpoint.run(impact).steps for impact in impacts))
+def _findings(record: "Record", scheme: str) -> Findings:
+    """What the audit tells the workbook, with the verdicts under its scheme."""
+    from replication.audit.verdict import Verdict
+
+    verdicts = {claim.id: str(claim.verdict) for claim in record.claims}
+    for claim in record.claims:
+        for judged in claim.otherwise:
+            usual = judged.rounding, judged.choices, judged.header, judged.scheme
+            if usual == (Rounding.AWAY.value, "exact", "rounded", scheme):
+                verdicts[claim.id] = str(judged.verdict)
+    counts = Counter(verdicts.values())
+    return Findings(
+        headline=record.headline,
+        counts={verdict: counts[verdict] for verdict in record.summary},
+        verdicts=verdicts,
+        explanations={claim.id: claim.explanation for claim in record.claims},
+        failing=[name for name, verdict in verdicts.items() if Verdict(verdict).is_failure],
+        differing=[name for name, verdict in verdicts.items() if verdict == Verdict.DIFFERS],
+    )
 
 
-def _case_sheets(
-    names: Mapping[str, str], sheets: Mapping[str, Sheet], rows: int, *, coarse: bool = False
-) -> list[CaseSheet]:
-    """What the plan must know of these cases' sheets, of so many rows each."""
-    longest = max(sheet.steps for sheet in sheets.values())
-    if longest > rows:
-        raise ValueError(f"the case needs {longest} steps, and the workbook has {rows} rows")
-    return [
-        CaseSheet(
-            name=coarse_name(names[slug]) if coarse else names[slug],
+def _si(typed: float, unit: str) -> float:
+    """A number of a cell in SI, rounded once."""
+    factor = to_si(unit)
+    return typed * float(factor) if factor >= 1 else typed / float(1 / factor)
+
+
+def _typed(si: float, unit: str) -> float:
+    """The number to type so that the cell holds this SI value, or the nearest that it can hold.
+
+    >>> _typed(2e-10, "ns"), _typed(11e-6, "um")
+    (0.2, 11.0)
+    """
+    nearest = float(Fraction(si) / to_si(unit))
+    candidates = [nearest]
+    for end in (math.inf, -math.inf):
+        candidates += [math.nextafter(nearest, end)]
+    return next((typed for typed in candidates if _si(typed, unit) == si), nearest)
+
+
+_CASE_INPUTS = {
+    "V_impact": "velocity",
+    "R_p": "radius",
+    "rho_p": "particle_density",
+    "rho_t": "target_density",
+    "dt_s": "step",
+    "v_stop": "stop_velocity",
+    "Y_t": "flow_stress",
+    "R_t": "resistance",
+}
+"""Inputs that come from the cases -> the attributes of an Impact."""
+
+_TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resistance")
+"""What Table A-1 prints above its rows."""
+
+
+class _Builder:
+    """Computes the values of one workbook. A case is known by its slug: low and high, or case."""
+
+    def __init__(
+        self,
+        cases: Sequence[Impact],
+        scheme: str,
+        rows: int | None,
+        ledger: Ledger,
+        typed: Mapping[str, float],
+        written: Sequence[Impact],
+    ) -> None:
+        if not 1 <= len(cases) == len(written) <= 2:
+            raise ValueError(f"a workbook holds one or two cases, not {len(cases)}")
+        self.report, self.scheme, self.ledger = len(cases) == 2, scheme, ledger
+        slugs = ("low", "high") if self.report else ("case",)
+        given = dict(zip(slugs, cases, strict=True))
+        self.written = dict(zip(slugs, written, strict=True))
+        self.pages = {slug: self._page(slug, impact) for slug, impact in self.written.items()}
+        blocks = inputs_of(list(self.pages.values()), self.report)
+        self.entries = {entry.name: entry for block in blocks.values() for entry in block}
+        self.typed = self._all_typed(given, typed)
+        self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
+        self.impacts = {slug: self._held(impact) for slug, impact in given.items()}
+        self.runs = {slug: self._held(impact) for slug, impact in self.written.items()}
+        self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
+        self.coarse: dict[str, Sheet] = {}
+        for slug, impact in self.impacts.items() if self.report else ():
+            self.coarse[slug] = run(replace(impact, step=self.si[COARSE_STEP]), scheme)
+        self.rows = prepared_rows(max(run(i, scheme).steps for i in self.runs.values()), rows)
+        longest = max(sheet.steps for sheet in (*self.sheets.values(), *self.coarse.values()))
+        if longest > self.rows:
+            raise ValueError(f"the case needs {longest} steps, and the workbook has {self.rows}")
+
+    def _page(self, slug: str, impact: Impact) -> CaseSheet:
+        """What the plan must know of a case's sheet, but for its length."""
+        beta = "3" if impact.beta == BETA_3.beta else "5"
+        own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
+        return CaseSheet(
+            name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
             slug=slug,
-            steps=sheet.steps,
-            rows=rows,
-            resistance_given=sheet.impact.resistance is not None,
-            printed=_PRINTED.get(sheet.impact, ("", "")),
-            coarse=coarse,
+            label=_label(impact),
+            steps=0,
+            rows=0,
+            scheme=self.scheme,
+            beta_claim=f"depth-beta-{beta}-beta",
+            depth_claim=own and f"depth-beta-{own}",
+            ratio_claim=own and f"ratio-beta-{own}",
+            resistance_given=impact.resistance is not None,
         )
-        for slug, sheet in sheets.items()
+
+    def _pages(self) -> tuple[list[CaseSheet], list[CaseSheet]]:
+        """What the plan must know of the sheets, those with the coarser step apart."""
+        longer = ["coldspray workbook"]
+        if not self.report:
+            longer += _flags(self.written["case"])
+        if self.scheme != SCHEMES[0]:
+            longer.append(f"--scheme {self.scheme}")
+        longer.append(f"--rows {min(10 * self.rows, MAX_ROWS)}")
+        more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
+        fine, coarse = (
+            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
+            for runs in (self.sheets, self.coarse)
+        )
+        return fine, [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse]
+
+    def _all_typed(
+        self, cases: Mapping[str, Impact], typed: Mapping[str, float]
+    ) -> dict[str, float]:
+        """The number to type into every input's cell. Raises ValueError outside of its limits."""
+        first, *others = cases.values()
+        for name in _CASE_INPUTS.values():
+            given = {getattr(impact, name) for impact in (first, *others)}
+            if len(given) > 1 or (others and name == "resistance" and given != {None}):
+                raise ValueError(f"the two cases may differ in beta only, not in {name}")
+        numbers = {}
+        for name, entry in self.entries.items():
+            if name in _CASE_INPUTS:
+                number = _typed(getattr(first, _CASE_INPUTS[name]), entry.unit)
+            elif name.startswith("beta"):
+                number = cases[name.partition("_")[2] or "case"].beta or 0.0
+            else:
+                number = typed.get(name, self._of_report(entry))
+            _require_taken(self.ledger, entry, number)
+            numbers[name] = number
+        return numbers
+
+    def _of_report(self, entry: Input) -> float:
+        return float(self.ledger.value(entry.source) / to_si(entry.unit))
+
+    def _held(self, impact: Impact) -> Impact:
+        """The case with the numbers that its cells hold."""
+        held = {}
+        for name, attribute in _CASE_INPUTS.items():
+            if name in self.entries:
+                unit = self.entries[name].unit
+                held[attribute] = _si(_typed(getattr(impact, attribute), unit), unit)
+        return replace(impact, **held)
+
+    def workbook(self, findings: Findings | None) -> Workbook:
+        """Plan and values."""
+        cases, coarse = self._pages()
+        about = About(
+            version=version("coldspray"), warning_limits=(COARSE, DEEP), shown=self._shown()
+        )
+        plan = workbook_plan(self.ledger, cases, about, coarse, findings)
+        values = {
+            key: value if isinstance(value, str) else float(value) for key, value in self._values()
+        }
+        if findings is not None:
+            values |= self._audit(plan, values, findings)
+        warnings = [
+            f"{self.pages[slug].name}: {doubt.text}"
+            for slug, sheet in self.sheets.items()
+            for doubt in doubts_about(sheet)
+        ]
+        rounding = max(map(rounding_bound, (*self.sheets.values(), *self.coarse.values())))
+        return Workbook(plan, values, warnings, rounding)
+
+    # The values, sheet by sheet
+
+    def _values(self) -> Iterator[tuple[str, Any]]:
+        parts: list[tuple[str, Mapping[str, Any]]] = [
+            ("inputs", self._inputs()),
+            ("table", self._table()),
+            ("figure_3", dict(self._figure_3())),
+            ("figure_5", dict(self._figure_5())),
+            ("convergence", dict(self._convergence())),
+            ("frank_zook", self._frank_zook()),
+            ("crater", self._crater()),
+            ("resistance", self._resistance()),
+            ("overview", self._overview()),
+            *((slug, self._sheet(slug, sheet)) for slug, sheet in self.sheets.items()),
+            *(
+                (f"{s}_coarse", self._sheet(s, sheet, coarse=True))
+                for s, sheet in self.coarse.items()
+            ),
+        ]
+        for part, held in parts:
+            for what, value in held.items():
+                yield f"{part}.{what}", value
+
+    def _inputs(self) -> dict[str, Any]:
+        held: dict[str, Any] = {"from": "yours", "unusable": 0}
+        changed = 0
+        for name, entry in self.entries.items():
+            typed, report = self.typed[name], self._of_report(entry)
+            same = "as inferred" if name == "rho_t" else "the report’s"
+            changed += typed != report
+            held |= {name: self.si[name], f"{name}.typed": typed}
+            held[f"{name}.check"] = same if typed == report else "yours"
+        held["changed"] = changed
+        held["message"] = MESSAGES["changed" if changed else "same"]
+        first = next(iter(self.impacts.values()))
+        held |= {"D_p": first.diameter, "M_p": first.mass, "half_step": first.step / 2 * 1e9}
+        held["mean_radius"] = self.si["D_mean"] / 2 * 1e6
+        for slug, impact in self.impacts.items():
+            if impact.resistance is None:
+                held["R_t" if slug == "case" else f"R_t_{slug}"] = impact.target_resistance
+        return held
+
+    def _table(self) -> dict[str, Any]:
+        sheet = list(self.sheets.values())[-1]
+        return _given(sheet.impact, _TABLE) | dict(_row_values(sheet, ROWS - 1))
+
+    def _sheet(self, slug: str, sheet: Sheet, *, coarse: bool = False) -> dict[str, Any]:
+        impact, final = sheet.impact, sheet.rows[-1]
+        held = _given(impact, (*_TABLE, "target_density", "step", "stop_velocity"))
+        held |= dict(_row_values(sheet, self.rows))
+        for k in range(self.rows + 1):
+            used = k <= sheet.steps
+            held[f"row[{k}].index"] = k if used else ""
+            held[f"row[{k}].depth_um"] = sheet.rows[k].depth * 1e6 if used else ""
+        v = impact.velocity
+        kinds = [doubt.kind for doubt in doubts_about(sheet)]
+        exact = depth.normalized_depth(*_materials(impact))
+        if impact.resistance is None:
+            same = _label(impact) == _label(self.written[slug])
+            held |= {"label": _label(impact), "renamed": "" if same else KEPT_NAME}
+        message = _message(kinds)
+        held |= {
+            "state": message,
+            "message": message,
+            "stopped": 1,
+            "final_depth": sheet.final_depth,
+            "depth_um": sheet.final_depth * 1e6,
+            "normalized_depth": sheet.normalized_depth,
+            "steps": sheet.steps,
+            "stop_time": final.time,
+            "final_velocity": v if final.velocity_final is None else final.velocity_final,
+            "excess": sheet.normalized_depth / self.si["observed_ratio"],
+            **_work(impact),
+            "exact_normalized_depth": exact,
+            "exact_depth_um": depth.final_depth(*impact.motion.values()) * 1e6,
+            "travel": impact.step * v / impact.radius,
+            "over_exact": sheet.normalized_depth / exact,
+            "trust": _trust(kinds),
+        }
+        if coarse:
+            fine = self.sheets[slug].final_depth * 1e6
+            held |= {"fine_depth_um": fine, "over_fine": sheet.final_depth * 1e6 / fine}
+        return held
+
+    def _figure_3(self) -> Iterator[tuple[str, Any]]:
+        """The curves in ns and µm; after the stop they hold the last row."""
+        for slug, sheet in self.sheets.items():
+            for k in range(self.rows + 1):
+                row = sheet.rows[min(k, sheet.steps)]
+                yield f"{slug}.time[{k}]", row.time * 1e9
+                yield f"{slug}.depth[{k}]", row.depth * 1e6
+            yield f"{slug}.message", f"{_label(sheet.impact)}: {self._said(slug)}"
+
+    def _said(self, slug: str) -> str:
+        return _message([doubt.kind for doubt in doubts_about(self.sheets[slug])])
+
+    def _figure_5(self) -> Iterator[tuple[str, Any]]:
+        impact = list(self.impacts.values())[-1]
+        low, high = self.si["V_from"], self.si["V_to"]
+        yield "message", COMPLETE
+        for point in range(POINTS):
+            there = replace(impact, velocity=low + (high - low) * point / (POINTS - 1))
+            yield f"velocity[{point}]", there.velocity
+            yield f"normalized_depth[{point}]", depth.normalized_depth(*_materials(there))
+            yield f"depth_um[{point}]", depth.final_depth(*there.motion.values()) * 1e6
+            for what, value in _work(there).items():
+                yield f"{what}[{point}]", value
+
+    def _convergence(self) -> Iterator[tuple[str, Any]]:
+        """The ladder of the cases as written; which inputs in use are the same now."""
+        steps = self._ladder
+        for k, step in enumerate(steps):
+            yield f"step[{k}]", step
+            yield f"step_ns[{k}]", step * 1e9
+        first = next(iter(self.runs.values()))
+        written = {name: getattr(first, _CASE_INPUTS[name]) for name in RUN_INPUTS}
+        in_use = {name: self.si[name] for name in RUN_INPUTS}
+        for slug, impact in self.runs.items():
+            name = "R_t" if slug == "case" else f"R_t_{slug}"
+            written[name] = impact.target_resistance
+            in_use[name] = self.impacts[slug].target_resistance
+            for what, value in self._levels[slug].items():
+                yield f"{slug}.{what}", value
+        same = {}
+        for name, number in written.items():
+            yield f"run.{name}", number
+            yield f"in_use.{name}", in_use[name]
+            same[name] = abs(number - in_use[name]) * 1e12 <= abs(number)
+            yield f"same.{name}", same[name]
+        yield "message", CURRENT if all(same.values()) else STALE
+
+    @cached_property
+    def _levels(self) -> dict[str, dict[str, Any]]:
+        """The ladder of each case as written."""
+        return {
+            slug: _levels(impact, self._ladder, self.scheme) for slug, impact in self.runs.items()
+        }
+
+    @property
+    def _ladder(self) -> list[float]:
+        step = next(iter(self.runs.values())).step
+        return [step * 2.0 ** (4 - k) for k in range(LEVELS)]
+
+    def _shown(self) -> dict[str, str]:
+        """What the charts show as written, in words."""
+        ends = ", ".join(
+            f"{_label(sheet.impact)} reaches {sheet.final_depth * 1e6:.4g} µm after "
+            f"{sheet.rows[-1].time * 1e9:.3g} ns"
+            for sheet in self.sheets.values()
+        )
+        impact = list(self.impacts.values())[-1]
+        low, high = (
+            (v, depth.normalized_depth(*_materials(replace(impact, velocity=v))))
+            for v in (self.si["V_from"], self.si["V_to"])
+        )
+        steps = self._ladder
+        errors = ", ".join(
+            f"{_label(self.runs[slug])} from {levels['size[0]']:.2g} µm at {steps[0] * 1e9:.3g} ns "
+            f"to {levels[f'size[{LEVELS - 1}]']:.2g} µm at {steps[-1] * 1e9:.3g} ns"
+            for slug, levels in self._levels.items()
+        )
+        return {
+            "Figure 3": f"As written, {ends}.",
+            "Figure 5": f"As written, for {_label(impact)}, from {low[1]:.3g} at {low[0]:.4g} m/s "
+            f"to {high[1]:.3g} at {high[0]:.4g} m/s.",
+            "Convergence": f"For {errors}.",
+        }
+
+    def _frank_zook(self) -> dict[str, Any]:
+        impact, ratio = list(self.impacts.values())[-1], frank_zook.sphere_length_ratio()
+        held: dict[str, Any] = {"length_ratio": ratio}
+        k_1, k_t, v = self.si["k_1"], self.si["k_t"], impact.velocity
+        densities = impact.particle_density, impact.target_density
+        for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
+            r_t = self.si[name]
+            arguments = ratio, *densities, k_1, k_t, r_t, v
+            held |= {
+                f"{which}.resistance": r_t,
+                f"{which}.pressure": k_t * impact.target_density * v * v / r_t,
+                f"{which}.as_printed": frank_zook.depth_as_printed(*arguments),
+                f"{which}.derived": frank_zook.depth_derived(*arguments),
+            }
+        return held
+
+    def _crater(self) -> dict[str, Any]:
+        impact = next(iter(self.impacts.values()))
+        third = float(self.ledger.value("observed-third"))
+        volume = crater.volume(impact.radius)
+        contact = crater.contact_diameter(third, impact.diameter)
+        ratios = {"least": self.si["CV_PV"], "line": self.si["CV_PV_line"]}
+        held: dict[str, Any] = {
+            "volume": volume,
+            "volume_um3": _cubed(volume),
+            "on_line": ratios["line"] * _cubed(volume),
+            "third": third,
+            "contact_diameter": contact,
+            "contact_diameter_um": contact * 1e6,
+        }
+        for which, ratio in ratios.items():
+            y = crater.depth_from_volume_ratio(ratio)
+            x = y * impact.radius
+            cap = crater.cap_volume(x, impact.radius)
+            held |= {
+                f"{which}.normalized_depth": y,
+                f"{which}.over_diameter": y / 2,
+                f"{which}.depth": x,
+                f"{which}.depth_um": x * 1e6,
+                f"{which}.volume": cap,
+                f"{which}.volume_um3": _cubed(cap),
+                f"{which}.ratio": crater.volume_ratio(y),
+            }
+        sizes = {
+            "smallest": self.si["d_min"],
+            "average": impact.diameter,
+            "largest": self.si["d_max"],
+        }
+        for which, size in sizes.items():
+            mass = particle_mass(size / 2, impact.particle_density)
+            velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
+            held |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
+        return held
+
+    def _resistance(self) -> dict[str, Any]:
+        alpha = resistance.walker_anderson_alpha(self.si["E_t"], self.si["Y_steel"])
+        first = next(iter(self.impacts.values()))
+        held: dict[str, Any] = {
+            "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
+            "alpha": alpha,
+            "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
+            "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
+            "strain_rate": stream.strain_rate(first.velocity, self.si["L_typ"]),
+        }
+        betas = [held[f"{route}_beta"] for route in ("goodier", "walker_anderson", "brinell")]
+        held |= {"least_beta": min(betas), "greatest_beta": max(betas)}
+        strengths = {w: self.si[f"S_{w}"] / 1e6 for w in ("feathery", "clear", "bulk")}
+        mean = (strengths["feathery"] + strengths["clear"]) / 2
+        held |= strengths | {
+            "mean_grain": mean,
+            "clear_over_bulk": strengths["clear"] / strengths["bulk"],
+            "grain_over_bulk": mean / strengths["bulk"],
+        }
+        for slug, impact in self.impacts.items():
+            r_t = impact.target_resistance
+            stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
+            held |= {
+                f"{slug}.target_resistance": r_t,
+                f"{slug}.centerline_stress": stress,
+                f"{slug}.over_copper": stress / self.si["Y_copper"],
+            }
+        return held
+
+    def _overview(self) -> dict[str, Any]:
+        inputs = self._inputs()
+        held = {f"inputs_{what}": inputs[what] for what in ("changed", "unusable")}
+        for slug, sheet in self.sheets.items():
+            held |= {
+                f"{slug}.depth_um": sheet.final_depth * 1e6,
+                f"{slug}.normalized_depth": sheet.normalized_depth,
+                f"{slug}.message": self._said(slug),
+            }
+        return held
+
+    def _audit(
+        self, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
+    ) -> dict[str, Value]:
+        """Live verdicts, and the check of Table A-1; the doubles are those of the claims' cells.
+
+        Whether a live verdict is the proven one, a test asks.
+        """
+        held: dict[str, Value] = {}
+        for claim in computed_claims(self.ledger):
+            value = values[plan.cell(place_of(str(claim.entry.workbook))).key]
+            held[f"audit.{claim.id}.computed"] = value
+            held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
+        counts = Counter(value for key, value in held.items() if key.endswith(".verdict"))
+        for text, what in KINDS:
+            held |= dict.fromkeys((f"audit.{what}", f"overview.audit_{what}"), float(counts[text]))
+        for name in (*findings.failing, *findings.differing):
+            if self.ledger.claims[name].entry.workbook:
+                held[f"overview.{name}"] = held[f"audit.{name}.computed"]
+        for claim in self.ledger.claims.values():
+            if claim.place.cell and claim.printed:
+                value = values[plan.cell(("Table A-1", claim.place.cell)).key]
+                held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
+        return held
+
+
+def _label(impact: Impact) -> str:
+    """What tells a case from the other, spelled as spreadsheet programs join a number to a text."""
+    return "R_t as given" if impact.beta is None else f"β = {impact.beta:.15g}"
+
+
+def _flags(impact: Impact) -> list[str]:
+    """The options of `coldspray workbook` for a case."""
+    name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
+    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
+    return [f"--case {name}"] + [
+        f"--{key.replace('_', '-')} {value!r}"
+        for key, value in given.items()
+        if value is not None and value != getattr(base, key)
     ]
 
 
-def relative_tolerance(cases: Cases = REPORT) -> float:
-    """How far a transcendental cell may lie from its stored value, relative to it.
-
-    >>> f"{relative_tolerance():.1e}"
-    '7.8e-15'
-    """
-    # A function result is within one ulp in any C library, and flips the last digit of each
-    # operation after it. The longest chain is the crater's: ASIN, SIN, SIN and twelve products,
-    # with condition numbers of at most 2, so less than 32 ulp of 2^-52. Where the sheet takes
-    # LN(1 + p), its value is log1p(p): forming 1 + p adds half an ulp of 1 to the logarithm.
-    slowest = INPUTS["V_from"].si  # of Figure 5
-    impacts = [replace(one, velocity=min(one.velocity, slowest)) for one in cases.values()]
-    logarithm = min(math.log1p(pressure_ratio(impact)) for impact in impacts)
-    return 32 * 2**-52 + 2**-53 / logarithm
+def _given(impact: Impact, names: Sequence[str]) -> dict[str, Any]:
+    """Inputs of a case by name; the resistance is that in use."""
+    attributes = {name: name for name in names} | {"resistance": "target_resistance"}
+    return {name: getattr(impact, attributes[name]) for name in names}
 
 
-def _require_shared_inputs(impacts: Sequence[Impact]) -> None:
-    if not 1 <= len(impacts) <= 2:
-        raise ValueError(f"a workbook holds one or two cases, not {len(impacts)}")
-    first, last = _shared(impacts[0]), _shared(impacts[-1])
-    unlike = [name for name in first if first[name] != last[name]]
-    if unlike:
-        raise ValueError(f"the two cases may differ in beta or resistance, not in {unlike[0]}")
+def _require_taken(ledger: Ledger, entry: Input, number: float) -> None:
+    limits = entry.limits
+    if not limits.least <= number <= limits.most:
+        what, unit = entry.meaning or ledger.title(entry.source), with_unit("", entry.unit)
+        raise ValueError(
+            f"the workbook takes {limits.least:,.10g} to {limits.most:,.10g}{unit} for the {what}, "
+            f"not {number!r}"
+        )
 
 
-def _shared(impact: Impact) -> dict[str, object]:
-    inputs = asdict(impact)
-    del inputs["beta"], inputs["resistance"]
-    return inputs
+def _materials(impact: Impact) -> tuple[float, float, float, float]:
+    return impact.velocity, impact.particle_density, impact.target_density, impact.target_resistance
+
+
+def _work(impact: Impact) -> dict[str, float]:
+    """Dynamic pressure over target resistance, rho_t V^2 / 2 R_t [1], and c of the closed form."""
+    v, particle, target, r_t = _materials(impact)
+    pressure = target * v * v / 2 / r_t
+    return {"pressure": pressure, "c": 4 * particle / (3 * target) * math.log1p(pressure)}
+
+
+def _trust(kinds: Sequence[str]) -> int:
+    """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
+    return 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
+
+
+def _message(kinds: Sequence[str]) -> str:
+    return (DOUBTFUL, WARNED, STOPPED)[_trust(kinds)] + "".join(DOUBTS[kind] for kind in kinds)
+
+
+def _cubed(volume: float) -> float:
+    return volume * 1e6 * 1e6 * 1e6
+
+
+def _row_values(sheet: Sheet, rows: int) -> Iterator[tuple[str, Any]]:
+    """The cells of so many rows but the final velocity of row 0; blank ("") below the stop."""
+    impact = sheet.impact
+    for k in range(rows + 1):
+        used = k <= sheet.steps
+        for name in Row._fields:
+            value = getattr(sheet.rows[k], name) if used else ""
+            if value is not None and (k, name) != (0, "velocity_final"):
+                yield f"row[{k}].{name}", value
+        if k and sheet.scheme == "centered":
+            middle: float | str = ""
+            if used:
+                v, x = sheet.rows[k].velocity_initial, sheet.rows[k].depth
+                materials = impact.mass, impact.target_density, impact.target_resistance
+                a = deceleration(x, v, impact.radius, *materials)
+                middle = v - a * (impact.step / 2)
+            yield f"row[{k}].velocity_middle", middle
+
+
+def _levels(impact: Impact, steps: Sequence[float], scheme: str) -> dict[str, Any]:
+    """Final depths at a ladder of steps against the depth at rest, in um."""
+    rest = depth.final_depth(*impact.motion.values()) * 1e6
+    held: dict[str, Any] = {"rest_um": rest}
+    errors = []
+    for k, step in enumerate(steps):
+        sheet = run(replace(impact, step=step), scheme)
+        reached = sheet.final_depth * 1e6
+        errors.append(reached - rest)
+        held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": reached}
+        held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
+    ratios = [math.log(a / b) for a, b in pairwise(steps)]
+    for k, ((above, here), ratio) in enumerate(zip(pairwise(errors), ratios, strict=True), 1):
+        defined = min(above, here) > 0 or max(above, here) < 0
+        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else NO_ORDER
+    return held
+
+
+def _verdict(value: Value, interval: Interval) -> str:
+    """Whether a double lies between the interval's ends, themselves taken as doubles."""
+    if not isinstance(value, float):
+        return NOT_COMPUTED
+    if interval.is_point:
+        # Exact text, such as 2/3, which no double is: to nine digits.
+        (exact, _) = interval.ends
+        inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
+    else:
+        low, high = (
+            None if e is None else Fraction(float(e)) for e in (interval.lower, interval.upper)
+        )
+        rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
+        inside = rounded.contains(Fraction(value))
+    return AS_PRINTED if inside else OTHERWISE
+
+
+def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
+    """The check of one number of Table A-1; blank where the table has fewer rows."""
+    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
+    if isinstance(value, float):
+        difference = value - float(printed.value)
+        if not exact:
+            difference = round(difference / float(printed.quantum), DIGITS)
+        same = difference == 0 if exact else abs(difference) <= 0.5
+        held |= {"difference": difference, "verdict": SAME_TEXT if same else OTHER_TEXT}
+    return {f"table_check.{address}.{what}": number for what, number in held.items()}

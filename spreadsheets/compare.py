@@ -33,49 +33,49 @@ def compare(
     """The cells of either map whose values are not the same, in the order of `expected`.
 
     Numbers must be the same double, except where `tolerances` allows a cell (sheet, address) a
-    relative distance. A sheet that only one map has differs in each of its cells.
+    distance. A sheet that only one map has differs in each of its cells.
     """
     allowed = tolerances or {}
     return [
-        Difference(sheet, cell, one, other, _ulps(one, other))
-        for sheet, cell, one, other in _pairs(expected, found)
-        if not _same(one, other, allowed.get((sheet, cell), 0.0))
+        Difference(sheet, cell, wanted, got, _ulps(wanted, got))
+        for sheet, cell, wanted, got in _pairs(expected, found)
+        if not _same(wanted, got, allowed.get((sheet, cell), 0.0))
     ]
 
 
-def ulps_apart(one: float, other: float) -> int:
+def ulps_apart(first: float, second: float) -> int:
     """How many steps from double to double lie between two finite numbers.
 
     >>> ulps_apart(1.0, 1.0000000000000002), ulps_apart(-0.0, 0.0)
     (1, 0)
     """
-    return abs(_position(one) - _position(other))
+    return abs(_position(first) - _position(second))
 
 
 def _pairs(
     expected: Values, found: Values
 ) -> Iterator[tuple[str, str, Value | None, Value | None]]:
     for sheet in dict.fromkeys([*expected, *found]):
-        ours, theirs = expected.get(sheet, {}), found.get(sheet, {})
-        for cell in dict.fromkeys([*ours, *theirs]):
+        wanted, got = expected.get(sheet, {}), found.get(sheet, {})
+        for cell in dict.fromkeys([*wanted, *got]):
             # Engines cannot tell a blank cell from a formula that gives the empty text.
-            yield sheet, cell, _or_none(ours.get(cell)), _or_none(theirs.get(cell))
+            yield sheet, cell, _or_none(wanted.get(cell)), _or_none(got.get(cell))
 
 
 def _or_none(value: Value | None) -> Value | None:
     return None if value == "" else value
 
 
-def _same(one: Value | None, other: Value | None, relative: float) -> bool:
-    if isinstance(one, float) and isinstance(other, float):
-        return one == other or abs(one - other) <= relative * abs(one)
+def _same(wanted: Value | None, got: Value | None, distance: float) -> bool:
+    if isinstance(wanted, float) and isinstance(got, float):
+        return wanted == got or abs(wanted - got) <= distance
     # LibreOffice hands out TRUE as 1.0, which Python takes as equal.
-    return one == other
+    return wanted == got
 
 
-def _ulps(one: Value | None, other: Value | None) -> int | None:
-    if isinstance(one, float) and isinstance(other, float):
-        return ulps_apart(one, other)
+def _ulps(wanted: Value | None, got: Value | None) -> int | None:
+    if isinstance(wanted, float) and isinstance(got, float):
+        return ulps_apart(wanted, got)
     return None
 
 

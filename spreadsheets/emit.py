@@ -1,24 +1,26 @@
 """A plan and its values -> one .xlsx file: live formulas, each stored with its computed value.
 
-The same plan and values give the same bytes wherever and whenever they are written.
+The same plan and values give the same bytes wherever and whenever they are written. The file
+carries the SHA-256 of its parts, so that one that somebody changed is never taken for our own.
 """
 
 import math
+import re
+import zipfile
 from collections.abc import Mapping
-from datetime import datetime
+from errno import EEXIST
+from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
-from spreadsheets.charts import draw
-from spreadsheets.plan import Cell, Limits, SheetPlan, Value, WorkbookPlan
-from spreadsheets.safely import write_bytes
-from spreadsheets.styles import STYLES
+from reference.units import written
+from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPlan
+from spreadsheets.safely import check_target, write_bytes
+from spreadsheets.styles import DASHES, STYLES
 
-__all__ = ["cell_values", "to_bytes", "write"]
-
-_CREATED = datetime(2006, 1, 1)
-"""A fixed date, the report's year: XlsxWriter would take the clock."""
+__all__ = ["cell_values", "check", "is_own", "pixels", "to_bytes", "write"]
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
@@ -29,25 +31,100 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     _check(plan, values)
     shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
     for (sheet, address), cell in plan.cells():
-        if cell.key or cell.text:
-            shown[sheet][address] = values[cell.key] if cell.key else cell.text
+        if cell.key or cell.text or cell.number is not None:
+            shown[sheet][address] = _shown(cell, values)
     return shown
 
 
-def write(path: Path, plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
-    """Write the workbook to `path`, whole or not at all. Raises as `cell_values` does."""
-    write_bytes(path, to_bytes(plan, values))
+def _shown(cell: Cell, values: Mapping[str, Value]) -> Value:
+    if cell.key:
+        return values[cell.key]
+    return cell.text if cell.number is None else cell.number
+
+
+def check(path: Path, *, force: bool = False) -> None:
+    """Raise OSError where nothing can be written, or must not be.
+
+    FileExistsError: where a file stands that is not, byte for byte, one that we wrote; `force`
+    admits any file.
+    """
+    target = check_target(path)
+    if target.exists() and not force and not is_own(target):
+        problem = "this file is not as coldspray wrote it; take another name, or --force"
+        raise FileExistsError(EEXIST, problem, str(path))
+
+
+def write(path: Path, content: bytes, *, force: bool = False) -> None:
+    """Write a workbook's bytes to `path`, whole or not at all. Raises as `check` does."""
+    check(path, force=force)
+    write_bytes(path, content)
+
+
+_SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
+
+
+def is_own(path: Path) -> bool:
+    """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
+
+    Its seal must be that of its parts, and its parts must make this file again. One that was
+    packed by another version of zlib is not told from one that somebody repacked.
+    """
+    content = path.read_bytes()
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            parts = {name: archive.read(name) for name in archive.namelist()}
+        seal = re.search(rb">([0-9a-f]{64})<", parts[_SEALED])
+    except Exception:  # what a damaged archive raises, and one that is not ours
+        return False
+    if seal is None or _packed(parts) != content:
+        return False
+    unsealed = parts[_SEALED].replace(seal[1], _UNSEALED.encode())
+    return _digest({**parts, _SEALED: unsealed}) == seal[1].decode()
+
+
+def _digest(parts: Mapping[str, bytes]) -> str:
+    digest = sha256()
+    for name, content in parts.items():
+        digest.update(b"%s\0%d\0" % (name.encode(), len(content)))
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def _sealed(content: bytes) -> bytes:
+    """The file with its digest, without XlsxWriter's claim to be Excel, and without dates."""
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
+    app = app.replace(">Microsoft Excel<", ">coldspray<")
+    app = re.sub(r"<AppVersion>.*?</AppVersion>", "", app)
+    core = re.sub(r"<dcterms:(created|modified).*?</dcterms:\1>", "", core)
+    parts |= {"docProps/app.xml": app.encode(), "docProps/core.xml": core.encode()}
+    seal = _digest(parts).encode()
+    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), seal)
+    return _packed(parts)
+
+
+def _packed(parts: Mapping[str, bytes]) -> bytes:
+    """The archive of these parts, without the clock."""
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, part in parts.items():
+            info = zipfile.ZipInfo(name)
+            info.create_system = 3  # the same on every system
+            archive.writestr(info, part, zipfile.ZIP_DEFLATED)
+    return buffer.getvalue()
 
 
 def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
-    """The bytes of the .xlsx file."""
+    """The bytes of the .xlsx file. Raises as `cell_values` does."""
     import xlsxwriter
 
     _check(plan, values)
     buffer = BytesIO()
     book = xlsxwriter.Workbook(buffer, {"in_memory": True})
     formats = _Formats(book)
-    book.set_properties({**_properties(plan), "created": _CREATED})
+    book.set_properties({"title": plan.title, **plan.properties})
+    book.set_custom_property(_SEAL, _UNSEALED)
     exact = _exact_worksheet()
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name, exact)
@@ -55,9 +132,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         _fill(page, sheet, values, formats)
         _define_names(book, sheet)
         for chart in sheet.charts:
-            draw(book, page, sheet.name, chart)
+            _draw(book, page, sheet.name, chart)
     book.close()
-    return buffer.getvalue()
+    return _sealed(buffer.getvalue())
 
 
 def _check(plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
@@ -66,103 +143,151 @@ def _check(plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
     for what, keys in (("missing", missing), ("surplus", surplus)):
         if keys:
             raise ValueError(f"{len(keys)} {what} value(s), the first is {keys[0]!r}")
-    for key, value in values.items():
+    for (sheet, address), cell in plan.cells():
+        value = _shown(cell, values)
         if isinstance(value, float) and not math.isfinite(value):
-            sheet, address = plan.where[key]
-            raise ValueError(f"{key} ({sheet}!{address}) is {value}: not a number a cell can hold")
-
-
-def _properties(plan: WorkbookPlan) -> dict[str, str]:
-    names = ("title", "author", "subject", "keywords", "comments")
-    return {name: getattr(plan, name) for name in names}
+            raise ValueError(
+                f"{cell.key} ({sheet}!{address}) is {value}: not a number a cell can hold"
+            )
 
 
 class _Formats:
-    """One format object for each style and number format in use."""
+    """One format object for each look in use."""
 
     def __init__(self, book: Any) -> None:
         self._book = book
-        self._made: dict[tuple[str, str], Any] = {}
+        self._made: dict[tuple[str, str, bool], Any] = {}
 
-    def __call__(self, style: str, number_format: str = "General") -> Any:
-        if (style, number_format) not in self._made:
-            properties = {**STYLES[style], "num_format": number_format}
-            self._made[style, number_format] = self._book.add_format(properties)
-        return self._made[style, number_format]
+    def __call__(self, cell: Cell) -> Any:
+        look = cell.style, cell.number_format, cell.wrap
+        if look not in self._made:
+            properties = {
+                **STYLES[cell.style],
+                "num_format": cell.number_format,
+                "valign": "vcenter",
+            }
+            self._made[look] = self._book.add_format({**properties, "text_wrap": cell.wrap})
+        return self._made[look]
 
     def rule(self, style: str) -> Any:
         """A format for a rule: the properties it changes, without a font or number format."""
         return self._book.add_format(STYLES[style])
 
 
+def pixels(width: float) -> int:
+    """How wide a column of so many characters is on the screen, at 100 %.
+
+    >>> pixels(9.0)
+    68
+    """
+    return int(width * 7 + 5)
+
+
+_LINE = 13.5
+"""Height of a line of text in points, with some room."""
+
+
 def _set_up(page: Any, sheet: SheetPlan) -> None:
-    """Scrolling, column widths and print set-up."""
+    """Scrolling, column widths, row heights and print set-up."""
     page.hide_gridlines(2)
+    page.set_default_row(_LINE + 2)
     if sheet.frozen:
         page.freeze_panes(sheet.frozen)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width)
+    for row, lines in _lines(sheet).items():
+        page.set_row(row - 1, _LINE * lines + 2)
     page.set_landscape()
     page.set_paper(1)  # US Letter
-    page.set_margins(left=0.5, right=0.5, top=0.75, bottom=0.75)
+    page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
     page.fit_to_pages(1, 0)
-    page.set_header('&L&"Arial"&9&F&R&"Arial"&9&A')
-    page.set_footer('&R&"Arial"&9Page &P of &N')
+    page.set_header('&L&"Arial"&10&F&R&"Arial"&10&A')
+    page.set_footer('&R&"Arial"&10Page &P of &N')
     if sheet.print_area:
         page.print_area(sheet.print_area)
     if sheet.repeated_rows:
         first, last = sheet.repeated_rows
         page.repeat_rows(first - 1, last - 1)
+    if sheet.filtered:
+        page.autofilter(sheet.filtered)
+    # Texts that the report prints are texts, and formulas differ from their neighbors by design.
+    everywhere = "A1:XFD1048576"
+    kinds = ("number_stored_as_text", "formula_differs", "formula_range")
+    page.ignore_errors(dict.fromkeys(kinds, everywhere))
+
+
+def _lines(sheet: SheetPlan) -> dict[int, int]:
+    """Row -> how many lines its longest wrapped text takes."""
+    lines: dict[int, int] = {}
+    for address, cell in sheet.cells.items():
+        if cell.wrap:
+            column, row = _split(address)
+            # Letters are narrower than the digits by which widths are counted.
+            taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
+            lines[row] = max(taken, lines.get(row, 1))
+    return lines
+
+
+def _split(address: str) -> tuple[str, int]:
+    column = address.rstrip("0123456789")
+    return column, int(address[len(column) :])
 
 
 def _fill(page: Any, sheet: SheetPlan, values: Mapping[str, Value], formats: _Formats) -> None:
     for address, cell in sheet.cells.items():
-        _write_cell(page, address, cell, values, formats(cell.style, cell.number_format))
+        _write_cell(page, address, cell, _shown(cell, values), formats(cell))
     for rule in sheet.rules:
         options = {"type": "formula", "criteria": rule.formula, "format": formats.rule(rule.style)}
         page.conditional_format(rule.cells, options)
 
 
-def _write_cell(
-    page: Any, address: str, cell: Cell, values: Mapping[str, Value], style: Any
-) -> None:
+def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
     if cell.link:
         sheet, target = cell.link
         page.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
-    elif cell.text:
-        page.write_string(address, cell.text, style)
     elif cell.formula:
-        page.write_formula(address, cell.formula, style, values[cell.key])
-    elif cell.key:
-        page.write_number(address, values[cell.key], style)
+        page.write_formula(address, cell.formula, style, value)
+    elif isinstance(value, str):
+        write = page.write_string if value else page.write_blank
+        write(address, value, style)
     else:
-        page.write_blank(address, None, style)
-    if cell.limits:
-        page.data_validation(address, _validation(cell, cell.limits))
+        page.write_number(address, value, style)
+    if cell.limits or cell.choices:
+        page.data_validation(address, _validation(cell))
 
 
-def _validation(cell: Cell, limits: Limits) -> dict[str, Any]:
-    """What a spreadsheet program asks of a typed number, and says before and after."""
-    unit = "" if cell.unit == "1" else f", in {cell.unit}"
-    settings: dict[str, Any] = {
+def _validation(cell: Cell) -> dict[str, Any]:
+    """What a spreadsheet program asks of a typed input, and says before and after."""
+    if cell.choices:
+        return {"validate": "list", "source": list(cell.choices)}
+    assert cell.limits is not None
+    words = f"A number from {cell.limits.least:,.10g} to {cell.limits.most:,.10g}"
+    words = f"{words} {written(cell.unit)}".rstrip() + "."
+    return {
         "validate": "decimal",
-        "input_title": cell.name,
-        "input_message": f"A number {limits.words}{unit}.",
+        "criteria": "between",
+        "minimum": cell.limits.least,
+        "maximum": cell.limits.most,
+        "input_message": words,
         "error_title": "Out of range",
-        "error_message": f"{cell.name} is a number {limits.words}{unit}.",
+        "error_message": words,
     }
-    if limits.most is None:
-        return settings | {"criteria": ">=" if limits.closed else ">", "value": limits.least}
-    # A validation knows no half-open range: the check beside the cell refuses the lower end.
-    return settings | {"criteria": "between", "minimum": limits.least, "maximum": limits.most}
 
 
 def _define_names(book: Any, sheet: SheetPlan) -> None:
     for address, cell in sheet.cells.items():
-        if cell.name:
-            column, row = address.rstrip("0123456789"), address.lstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZ")
-            if book.define_name(cell.name, f"='{sheet.name}'!${column}${row}") == -1:
-                raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
+        if cell.name and book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
+            raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
+
+
+def _absolute(sheet: str, cells: str) -> str:
+    """Cells as a name or a chart refers to them.
+
+    >>> _absolute("Figure 5", "B5:B25")
+    "'Figure 5'!$B$5:$B$25"
+    """
+    ends = ("${}${}".format(*_split(cell)) for cell in cells.split(":"))
+    return f"'{sheet}'!{':'.join(ends)}"
 
 
 def _exact_worksheet() -> type[Any]:
@@ -178,9 +303,59 @@ def _exact_worksheet() -> type[Any]:
             places = "".join(f' {key}="{value}"' for key, value in attributes)
             self.fh.write(f"<c{places}><v>{float(number)!r}</v></c>")
 
+        def _prepare_formula(self, formula: str, *_: Any) -> str:
+            # No function of ours is newer than Excel 2010: to look for 30 of them takes half of
+            # the time.
+            return formula.removeprefix("=")
+
         def _xml_formula_element(self, formula: str, result: Any, attributes: Any = ()) -> None:
             if result == "":
                 attributes = [*attributes, ("t", "str")]
             super()._xml_formula_element(formula, result, attributes)
 
     return ExactWorksheet
+
+
+# Charts; XlsxWriter stores the charted values with them.
+
+_FONT = {"name": "Arial", "size": 10, "bold": False}
+_GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
+
+
+def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
+    """Draw one chart on the page of `sheet`, which holds its cells."""
+    drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
+    for series, look in zip(chart.series, DASHES, strict=False):
+        drawn.add_series(_series(sheet, series, look, chart))
+    drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
+    drawn.set_x_axis(_axis(chart.x_title, chart))
+    drawn.set_y_axis(_axis(chart.y_title, chart))
+    drawn.set_legend({"position": "bottom", "font": _FONT})
+    drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
+    page.insert_chart(chart.at, drawn, {"description": chart.description})
+
+
+def _series(sheet: str, series: Series, look: Mapping[str, str], chart: Chart) -> dict[str, Any]:
+    color, (first, _, last) = look["color"], series.x.partition(":")
+    settings = {
+        "name": f"={_absolute(*series.name)}",
+        "categories": f"={_absolute(sheet, series.x)}",
+        "values": f"={_absolute(sheet, series.y)}",
+        "line": {"color": color, "width": 2, "dash_type": look["dash"]},
+    }
+    if chart.logarithmic or _split(last)[1] - _split(first)[1] < 50:
+        # Few points: show where they are.
+        fill = {"color": color}
+        settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
+    return settings
+
+
+def _axis(title: str, chart: Chart) -> dict[str, Any]:
+    settings: dict[str, Any] = {
+        "name": title,
+        "name_font": _FONT,
+        "num_font": _FONT,
+        "major_gridlines": _GRID,
+        "label_position": "low",
+    }
+    return settings | ({"log_base": 10} if chart.logarithmic else {})

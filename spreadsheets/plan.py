@@ -1,12 +1,13 @@
-"""What a workbook holds, cell by cell, before any file exists: formula texts, but no values.
+"""What a workbook holds, cell by cell, before any file exists.
 
-A value is supplied later under the cell's *key* (`low.final_depth`, `high.row[17].depth`), by code
-that never sees the formula. `WorkbookPlan.where` answers which cell computes a key.
+A cell holds a text, a number that is known when the workbook is planned, or something whose value
+is supplied later under the cell's *key* (`high.row[17].depth`): an input, or a formula. Whoever
+supplies the values never sees the formulas, so that the two can be compared.
 """
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 __all__ = [
@@ -19,10 +20,11 @@ __all__ = [
     "SheetPlan",
     "Value",
     "WorkbookPlan",
+    "place_of",
 ]
 
 Value = float | str | bool
-"""What a cell shows: numbers are float; the empty string is what a guarded formula leaves."""
+"""What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
 
 Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
@@ -30,49 +32,46 @@ Place = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What an input may be: above `least`, or from it on where `closed`, and not above `most`."""
+    """The least and the greatest number that may be typed into an input, in its unit."""
 
-    least: float = 0.0
-    closed: bool = False
-    most: float | None = None
-
-    @property
-    def words(self) -> str:
-        """The limits as a message says them.
-
-        >>> Limits().words, Limits(closed=True).words, Limits(most=0.5).words
-        ('greater than 0', 'at least 0', 'greater than 0 and at most 0.5')
-        """
-        low = f"{'at least' if self.closed else 'greater than'} {self.least:g}"
-        return low if self.most is None else f"{low} and at most {self.most:g}"
+    least: float
+    most: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """One cell: a `text`, a number under a `key`, a `formula` with its value under a key, or blank.
+    """One cell.
 
-    `name` defines the cell's name in the workbook; `unit` and `source` (section or equation of the
-    report) are what the neighboring cells print. `transcendental` marks a value that passes through
-    LN, EXP, SIN, ASIN or a cube root, whose last digits depend on the C library; all others are the
-    same double everywhere. `link` is the sheet, and the cell of it, that a text cell leads to;
-    `limits` tell what may be typed into an input.
+    It holds a `text`, a `number`, an input (a `key` alone), or a `formula` with a key; or nothing
+    but a style.
+
+    name: what formulas call it. unit: of its value, spelled as in the ledger. claim: the id of the
+    claim whose printed text, or printed number, it shows. transcendental: its value passes through
+    LN, SIN, ASIN or a cube root, whose last digits depend on the program; all other values are the
+    same double everywhere. column: names a set of cells of like size, such as the velocities of a
+    sheet; their rounding errors are as large as the largest of them allows. link: where a click on
+    the text leads. limits, choices: what may be typed. wrap: long text takes several lines.
     """
 
     text: str = ""
+    number: float | None = None
     key: str = ""
     formula: str = ""
     style: str = "body"
     number_format: str = "General"
     name: str = ""
-    unit: str = ""
-    source: str = ""
+    unit: str = "1"
+    claim: str = ""
     transcendental: bool = False
+    column: str = ""
     link: Place | None = None
     limits: Limits | None = None
+    choices: tuple[str, ...] = ()
+    wrap: bool = False
 
     def __post_init__(self) -> None:
-        if self.text and self.key:
-            raise ValueError(f"a cell has a text or a key, not both: {self!r}")
+        if sum((bool(self.text), self.number is not None, bool(self.key))) > 1:
+            raise ValueError(f"a cell holds a text, a number or a key, one of them: {self!r}")
         if self.formula and not (self.key and self.formula.startswith("=")):
             raise ValueError(f"a formula starts with '=' and has a key: {self!r}")
 
@@ -88,9 +87,9 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """One curve: its `name` in the legend, and the cells of its x and y, such as "A5:A25"."""
+    """One curve: the cell with its name, and the cells of its x and y, such as "A5:A25"."""
 
-    name: str
+    name: Place
     x: str
     y: str
 
@@ -99,34 +98,37 @@ class Series:
 class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
-    Axis titles name quantity and unit. With `categories` the x are labels at equal distances, so
-    that the axis spans them exactly, whatever they are; with `logarithmic` both axes are.
+    Axis titles name quantity and unit; `description` says in words what the chart shows. With
+    `logarithmic` both axes are. size: width and height in pixels.
     """
 
     at: str
     title: str
+    description: str
     x_title: str
     y_title: str
     series: tuple[Series, ...]
-    categories: bool = False
     logarithmic: bool = False
+    size: tuple[int, int] = (820, 470)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetPlan:
-    """One sheet: cells by address, column widths in characters, and how it scrolls and prints."""
+    """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
+
+    frozen: the first cell that scrolls. repeated_rows: first and last row that head every printed
+    page. print_area: the cells that are printed, all by default. filtered: a table with a filter.
+    """
 
     name: str
     cells: Mapping[str, Cell]
     widths: Mapping[str, float]
     frozen: str = ""
-    """The first cell that scrolls."""
     repeated_rows: tuple[int, int] | None = None
-    """Rows (first, last) printed at the head of every page."""
     rules: tuple[Rule, ...] = ()
     charts: tuple[Chart, ...] = ()
     print_area: str = ""
-    """The cells that are printed, such as "A1:N184"; all of them by default."""
+    filtered: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,10 +137,7 @@ class WorkbookPlan:
 
     sheets: tuple[SheetPlan, ...]
     title: str
-    author: str
-    subject: str
-    keywords: str = ""
-    comments: str = ""
+    properties: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         cells = [cell for _, cell in self.cells()]
@@ -157,10 +156,20 @@ class WorkbookPlan:
         """Key -> the place of the cell that holds it."""
         return {cell.key: place for place, cell in self.cells() if cell.key}
 
-    @cached_property
-    def transcendental(self) -> frozenset[Place]:
-        """The places whose values may differ in the last digits between C libraries."""
-        return frozenset(place for place, cell in self.cells() if cell.transcendental)
+    def cell(self, place: Place) -> Cell:
+        """The cell at a place. Raises KeyError where there is none."""
+        sheet, address = place
+        return next(each for each in self.sheets if each.name == sheet).cells[address]
+
+
+def place_of(text: str) -> Place:
+    """A place that is written as in a formula, without quotes.
+
+    >>> place_of("Table A-1!B3")
+    ('Table A-1', 'B3')
+    """
+    sheet, _, address = text.rpartition("!")
+    return sheet, address
 
 
 def _require_unique(what: str, items: list[str]) -> None:

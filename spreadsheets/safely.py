@@ -3,7 +3,7 @@
 import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
 from pathlib import Path
 
@@ -15,6 +15,8 @@ def check_target(path: Path) -> Path:
 
     Raises OSError, naming the path, for what is no regular file and for a folder that is not there.
     """
+    with suppress(FileNotFoundError):
+        path.stat()  # a link that leads to itself
     target = path.resolve()
     if target.is_dir():
         raise IsADirectoryError(EISDIR, "is a folder; a file is wanted", str(path))

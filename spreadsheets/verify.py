@@ -1,51 +1,75 @@
 """An .xlsx file and the values it must have -> what every engine on this machine makes of it."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from spreadsheets.compare import Difference, Values, compare, ulps_apart
+from spreadsheets.compare import Difference, Values, compare
 from spreadsheets.engines import ENGINES, Engine, EngineError, Recalculated, repairs_wrong_value
-from spreadsheets.plan import Place
-from spreadsheets.readback import read
-from spreadsheets.replica import has_long_doubles, replicate
+from spreadsheets.plan import Place, WorkbookPlan
 
-__all__ = ["EngineCheck", "SheetCheck", "verify"]
+__all__ = ["EngineCheck", "SheetCheck", "tolerances", "verify"]
 
-_OF_LONG_DOUBLES = 1
-"""How many ulps an engine's long doubles may lie from the replica's, both as doubles. The engine
-hands out decimal digits, which are read as doubles: rounding twice can take the neighbor of the
-double that rounding once takes, never another."""
+OF_FUNCTIONS = 32 * 2.0**-52
+"""How far a transcendental cell may lie from its value, relative to it.
+
+LN, SIN, ASIN and a cube root are within one ulp in any C library, and flip the last digit of each
+operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twelve products, with
+condition numbers of at most 2, so less than 32 ulp."""
+
+
+def tolerances(
+    plan: WorkbookPlan, expected: Values, long_doubles: float = 0.0
+) -> dict[Place, float]:
+    """How far the value of a formula may lie from the expected one, where it may at all.
+
+    long_doubles: for an engine of 80-bit long doubles, the bound on the rounding errors of our
+    doubles, relative to the largest number of a cell's column, or to the cell's own where it stands
+    alone.
+    """
+    sizes: dict[str, float] = {}
+    numbers = [
+        (place, cell, float(value))
+        for place, cell in plan.cells()
+        if cell.formula and isinstance(value := expected[place[0]].get(place[1]), float)
+    ]
+    for _, cell, number in numbers:
+        sizes[cell.column] = max(sizes.get(cell.column, 0.0), abs(number))
+    allowed = {}
+    for place, cell, number in numbers:
+        size = sizes[cell.column] if cell.column else abs(number)
+        of_functions = OF_FUNCTIONS * abs(number) if cell.transcendental else 0.0
+        if distance := of_functions + long_doubles * size:
+            allowed[place] = distance
+    return allowed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetCheck:
     """One sheet in one engine. `cells` counts its formulas, which are all compared.
 
-    `tolerated` are the cells within a tolerance of their own, though not the same double.
-    `explained` differ, and by no more than the engine's arithmetic makes them; `unbounded` differ,
-    and this machine cannot tell by how much they may; `unexplained` differ for no such reason.
+    tolerated: cells that pass through a function and lie within its tolerance. explained: cells
+    that differ by no more than our doubles may lie from an engine's long doubles. unexplained:
+    cells that differ by more, or in kind.
     """
 
     sheet: str
     cells: int
     tolerated: tuple[Difference, ...] = ()
     explained: tuple[Difference, ...] = ()
-    unbounded: tuple[Difference, ...] = ()
     unexplained: tuple[Difference, ...] = ()
 
     @property
     def differ(self) -> int:
-        """How many cells differ by more than a tolerance of their own."""
-        return len(self.explained) + len(self.unbounded) + len(self.unexplained)
+        """How many cells differ by more than the tolerance of a function."""
+        return len(self.explained) + len(self.unexplained)
 
     @property
     def largest_ulps(self) -> int:
         """The largest distance of any two numbers, tolerated ones included."""
-        groups = (self.tolerated, self.explained, self.unbounded, self.unexplained)
+        groups = (self.tolerated, self.explained, self.unexplained)
         return max((left.ulps or 0 for group in groups for left in group), default=0)
 
 
@@ -73,49 +97,22 @@ class EngineCheck:
 
 def verify(
     path: Path,
+    plan: WorkbookPlan,
     expected: Values,
-    tolerances: Mapping[Place, float] | None = None,
     engines: Sequence[Engine] = ENGINES,
+    *,
+    long_doubles: float,
 ) -> list[EngineCheck]:
     """Recalculate a file in every engine and compare every cell with the value it must have.
 
-    `tolerances` allows cells (sheet, address) a relative distance; all others must be the same
-    double. In an engine of long doubles a number may differ where two things hold: the formula
-    as it stands in the file gives the expected double when calculated in doubles, and the engine's
-    number, to an ulp, when calculated in long doubles. So the arithmetic is all that differs.
+    Numbers must be the same double, but for the `tolerances`.
     """
-    truth = _Truth(path, expected, tolerances or {})
-    return [_check(engine, truth) for engine in engines]
+    return [_check(engine, path, plan, expected, long_doubles) for engine in engines]
 
 
-@dataclass(frozen=True)
-class _Truth:
-    """What the file must give, and what its formulas give in other arithmetics, once asked for."""
-
-    path: Path
-    expected: Values
-    tolerances: Mapping[Place, float]
-
-    @cached_property
-    def formulas(self) -> Mapping[str, int]:
-        """Sheet -> number of formulas."""
-        return {sheet: len(cells) for sheet, cells in read(self.path).formulas.items()}
-
-    @cached_property
-    def in_doubles_also(self) -> frozenset[Place]:
-        """The cells whose formulas, calculated in doubles, give what is expected."""
-        found = replicate(self.path)
-        wrong = compare(self.expected, found, self.tolerances)
-        places = {(sheet, cell) for sheet, cells in found.items() for cell in cells}
-        return frozenset(places - {(left.sheet, left.cell) for left in wrong})
-
-    @cached_property
-    def in_long_doubles(self) -> Values:
-        """All cells calculated in long doubles."""
-        return replicate(self.path, "long double")
-
-
-def _check(engine: Engine, truth: _Truth) -> EngineCheck:
+def _check(
+    engine: Engine, path: Path, plan: WorkbookPlan, expected: Values, long_doubles: float
+) -> EngineCheck:
     reason = engine.missing()
     if reason is not None:
         return EngineCheck(engine=engine.name, outcome="missing", reason=reason)
@@ -129,11 +126,11 @@ def _check(engine: Engine, truth: _Truth) -> EngineCheck:
                 reason="It verifies nothing: it gives stored values back, right or wrong.",
             )
         start = time.perf_counter()
-        found = engine.recalculate(truth.path)
+        found = engine.recalculate(path)
         seconds = time.perf_counter() - start
     except EngineError as error:
         return EngineCheck(engine=engine.name, outcome="failed", reason=str(error))
-    sheets = tuple(_sheets(engine, truth, found))
+    sheets = _sheets(plan, expected, found, long_doubles if engine.long_doubles else 0.0)
     return EngineCheck(
         engine=engine.name,
         outcome="differs" if any(sheet.unexplained for sheet in sheets) else "verified",
@@ -148,35 +145,33 @@ def _computes(engine: Engine) -> bool:
         return repairs_wrong_value(engine, Path(folder))
 
 
-def _sheets(engine: Engine, truth: _Truth, found: Recalculated) -> list[SheetCheck]:
-    """One check for each sheet that the file has, should have, or has got from the engine."""
-    beyond = {(left.sheet, left.cell) for left in compare(truth.expected, found, truth.tolerances)}
-    groups: dict[str, dict[str, list[Difference]]] = {
-        sheet: {} for sheet in dict.fromkeys([*truth.formulas, *truth.expected, *found])
+def _sheets(
+    plan: WorkbookPlan, expected: Values, found: Recalculated, long_doubles: float
+) -> tuple[SheetCheck, ...]:
+    """One check for each sheet that the file should have, or has got from the engine."""
+    formulas = {
+        sheet.name: sum(bool(cell.formula) for cell in sheet.cells.values())
+        for sheet in plan.sheets
     }
-    for left in compare(truth.expected, found):
-        tolerated = (left.sheet, left.cell) not in beyond
-        group = "tolerated" if tolerated else _group(engine, truth, left)
+    groups: dict[str, dict[str, list[Difference]]] = {
+        sheet: {} for sheet in dict.fromkeys([*expected, *found])
+    }
+    beyond_functions = _places(compare(expected, found, tolerances(plan, expected)))
+    beyond = _places(compare(expected, found, tolerances(plan, expected, long_doubles)))
+    for left in compare(expected, found):
+        place = left.sheet, left.cell
+        group = "tolerated" if place not in beyond_functions else "explained"
+        group = "unexplained" if place in beyond else group
         groups[left.sheet].setdefault(group, []).append(left)
-    return [
+    return tuple(
         SheetCheck(
             sheet=sheet,
-            cells=truth.formulas.get(sheet, 0),
-            **{group: tuple(differences) for group, differences in held.items()},
+            cells=formulas.get(sheet, 0),
+            **{group: tuple(differences) for group, differences in of_sheet.items()},
         )
-        for sheet, held in groups.items()
-    ]
+        for sheet, of_sheet in groups.items()
+    )
 
 
-def _group(engine: Engine, truth: _Truth, left: Difference) -> str:
-    """Where a difference belongs that no tolerance allows."""
-    if not engine.long_doubles or left.ulps is None:
-        return "unexplained"
-    if (left.sheet, left.cell) not in truth.in_doubles_also:
-        return "unexplained"
-    if not has_long_doubles():
-        return "unbounded"
-    replica = truth.in_long_doubles.get(left.sheet, {}).get(left.cell)
-    assert isinstance(left.found, float)  # it has a distance in ulps
-    near = isinstance(replica, float) and ulps_apart(left.found, replica) <= _OF_LONG_DOUBLES
-    return "explained" if near else "unexplained"
+def _places(differences: Sequence[Difference]) -> set[Place]:
+    return {(left.sheet, left.cell) for left in differences}

@@ -3,8 +3,21 @@
 from collections.abc import Callable
 
 import pytest
+from hypothesis import settings
 
+from replication.audit.audit import audit
+from replication.audit.record import Record
 from replication.cli import main
+
+# No test may depend on how fast the machine is.
+settings.register_profile("unhurried", deadline=None)
+settings.load_profile("unhurried")
+
+
+@pytest.fixture(scope="session")
+def record() -> Record:
+    """The audit of the report."""
+    return audit()
 
 
 @pytest.fixture

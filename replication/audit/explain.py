@@ -1,158 +1,353 @@
-"""Why a verdict is what it is, in sentences that a reader can check."""
+"""What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
-from reference.ledger import Claim, Ledger
-from reference.printed import Interval
-from replication.audit.explanations.sentences import sentences as tried
-from replication.audit.inference import Inference, infer
-from replication.audit.verdict import Assessment, Reading, Verdict
-from replication.text import inward, number, outward, with_unit
+from reference.arithmetic import Arithmetic, Number
+from reference.derivations import PREMISES
+from reference.enclosure import Solutions, enclose, solve
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
+from reference.printed import parse
+from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
+from replication.audit.equations import assess_equation
+from replication.audit.screen import Screen, dependents
+from replication.audit.verdict import Judge
 
-__all__ = ["assumptions", "explanation"]
-
-
-def explanation(ledger: Ledger, assessment: Assessment) -> str:
-    """The verdict's reason: what was computed, from what, and how it stands to the printed text."""
-    claim, reading = assessment.claim, assessment.reading
-    if claim.kind == "blank":
-        leaves = "leaves" if assessment.verdict is Verdict.REPRODUCED else "does not leave"
-        return f"Our copy of the table {leaves} this cell blank, too."
-    if reading is None:
-        return f"Not decided by the report: {claim.given}."
-    sentences = [_value(claim, reading), *_reason(claim, reading)]
-    sentences += [_other(claim, other) for other in assessment.others]
-    if claim.id in _evidence(ledger):
-        sentences.append("It is part of the evidence from which the target density is inferred.")
-    if assessment.verdict is not Verdict.REPRODUCED:
-        sentences += tried(ledger, claim.id)
-    return " ".join(sentences)
+__all__ = ["BackSolved", "Culprit", "Explainer", "Repair", "TriedSlip"]
 
 
-def _value(claim: Claim, reading: Reading) -> str:
-    what = _capital(reading.computation.summary)
-    if reading.computation.name == "same_as":
-        what += f" ({claim.inputs['value'][0]})"
-    inside = reading.verdict is Verdict.REPRODUCED
-    value = with_unit(number(reading.computed), claim.unit)
-    assert claim.interval is not None
-    if claim.interval.lower == claim.interval.upper:
-        return f"{what}: {value}, {'as' if inside else 'not'} {claim.interval}."
-    return f"{what}: {value}, {'in' if inside else 'not in'} {claim.interval}."
+@dataclass(frozen=True, slots=True)
+class BackSolved:
+    """The values of one entry, the others as printed, for which a claim would agree; in SI.
+
+    `prints_alike` says that some of them print like the entry does.
+    """
+
+    reading: str
+    entry: str
+    solutions: Solutions
+    reason: str
+    prints_alike: bool
 
 
-def _reason(claim: Claim, reading: Reading) -> list[str]:
-    match reading.verdict:
-        case Verdict.REPRODUCED:
-            return _reproduced(claim, reading)
-        case Verdict.WITHIN_ROUNDING:
-            return _within(reading)
-        case Verdict.NOT_REPRODUCED:
-            return _not_reproduced(claim, reading)
-        case _:
-            return [f"The proven range {outward(*reading.enclosure)} is too wide to tell."]
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A text one edit away, of an entry or an equation, with which a claim would agree.
+
+    `failing` are the claims that would not agree then, this one's fellow sufferers included;
+    `reading` is the reading of the claim that then gives its number.
+    """
+
+    entry: str
+    reading: str
+    printed: str
+    text: str
+    kind: str
+    failing: tuple[str, ...]
 
 
-def _reproduced(claim: Claim, reading: Reading) -> list[str]:
-    if not _inferred(claim):
-        return []
-    return [f"So for every admitted target density: {outward(*reading.enclosure)}."]
+@dataclass(frozen=True, slots=True)
+class Culprit:
+    """The one repair that would make every failing claim and equation agree."""
+
+    repair: Repair
+    explains: tuple[str, ...]
 
 
-def _within(reading: Reading) -> list[str]:
-    assert reading.witness is not None
-    inputs = ", ".join(f"{key} {number(value, 10)}" for key, value in reading.witness.items())
-    return [f"Inputs that print like the report's give it, for instance (SI) {inputs}."]
+@dataclass(frozen=True, slots=True)
+class TriedSlip:
+    """What a slip makes of one claim: its proven range (in the claim's unit), and whether it fits.
+
+    `fits` is "as printed", "not excluded within rounding" or "".
+    """
+
+    slip: Slip
+    lower: Fraction
+    upper: Fraction
+    fits: str
 
 
-def _not_reproduced(claim: Claim, reading: Reading) -> list[str]:
-    low, high = reading.enclosure
-    if low == high:
-        return ["No rounded input enters, so none could change it."]
-    assert claim.interval is not None
-    inputs = "all inputs that print like the report's and every possible target density"
-    if claim.as_printed_inputs:
-        inputs = "every admitted target density, the other inputs exactly as printed"
-    side = _side(claim.interval, reading.enclosure)
-    proof = f"Proven for {inputs}: it lies in {outward(low, high)}, {side}."
-    if reading.loose:
-        proof += f" {_LOOSE}"
-    return [proof]
+class Explainer:
+    """Explanations for the failing claims of one ledger."""
+
+    def __init__(self, judge: Judge) -> None:
+        self.judge, self.ledger = judge, judge.ledger
+        self._solved: dict[str, list[BackSolved]] = {}
+        self._tries: dict[str, list[TriedSlip]] = {}
+
+    @cached_property
+    def screen(self) -> Screen:
+        """A quick look at the ledger as it stands."""
+        return Screen(self.ledger, self.judge.assumed)
+
+    # Single inputs
+
+    def back_solved(self, claim: Claim) -> list[BackSolved]:
+        """Each entry that the claim rests on, alone, for every reading of the claim."""
+        if claim.id not in self._solved:
+            self._solved[claim.id] = [
+                self._back_solved(claim, reading, name)
+                for reading in claim.computations
+                for name in claim.entries
+                if self._may_vary(name)
+            ]
+        return self._solved[claim.id]
+
+    def _may_vary(self, name: str) -> bool:
+        if name.startswith(INFERRED):
+            return True
+        claim = self.ledger.claims[name]
+        return not claim.is_exact or claim.entry.quantity is not None
+
+    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
+        solutions = self.solved(claim, reading, name)
+        alike = False
+        if not name.startswith(INFERRED):
+            own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
+            alike = any(not own.excludes(*part) for part in solutions.inner)
+        return BackSolved(reading, name, solutions, self.ledger.search(name)[2], alike)
+
+    def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
+        """The least and greatest value of an entry, around the printed one, that suits some claims.
+
+        Found by bisection, in doubles: where the claims begin to disagree. None if they disagree
+        with the printed value itself.
+        """
+
+        def suits(value: Fraction) -> bool:
+            results = (self.ledger.claims[claim] for claim in claims)
+            return all(self.screen.agrees(result, "", {name: value}) for result in results)
+
+        printed = self.ledger.value(name)
+        if not suits(printed):
+            return None
+        ends = []
+        for far in self.ledger.search(name)[:2]:
+            good, bad = printed, far
+            for _ in range(_BISECTIONS):
+                middle = (good + bad) / 2
+                good, bad = (middle, bad) if suits(middle) else (good, middle)
+            ends.append(good)
+        return ends[0], ends[1]
+
+    def solved(self, claim: Claim, reading: str, name: str) -> Solutions:
+        """The values of one entry, the others as printed, for which a claim agrees."""
+        low, high, _ = self.ledger.search(name)
+        fixed = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = self.ledger.function(claim, frozenset(claim.entries), reading=reading)
+
+        def of_one(ar: Arithmetic, **free: Number) -> Number | Fraction:
+            return function(ar, **{key: ar.number(x) for key, x in fixed.items()}, **free)
+
+        return solve(of_one, name, (low, high), claim.target(), _BUDGET)
+
+    # Misprints
+
+    def repairs(self, name: str) -> list[Repair]:
+        """Texts one edit away with which a claim or an equation agrees; the likeliest first.
+
+        A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
+        ones the likelier slip of a typist comes first.
+        """
+        suspects = self._suspects(name)
+        return self._sorted([r for e in suspects for r in self._repairs_in(name, e)], name)
+
+    def _sorted(self, repairs: list[Repair], name: str) -> list[Repair]:
+        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
+        return sorted(
+            repairs,
+            key=lambda r: (
+                r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
+            ),
+        )[:_SHOWN]  # fmt: skip
+
+    def _repairs_in(self, name: str, entry: str) -> Iterator[Repair]:
+        """The edits of one entry with which a claim or an equation agrees."""
+        for text, kind in self._edits(entry):
+            reading = self._mends(name, entry, text)
+            if reading is not None:
+                failing = tuple(sorted(self._failing(entry, text)))
+                yield Repair(entry, reading, self._text(entry), text, kind, failing)
+
+    def _suspects(self, name: str) -> list[str]:
+        """The claim or equation itself, its entries, and what its equations hold."""
+        if name in self.ledger.equations:
+            equations = [name, *PREMISES.get(name, ())]
+            return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
+        claim = self.ledger.claims[name]
+        entries = claim.stated
+        for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
+            # Its evidence has moved it: what the evidence rests on may be wrong.
+            for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
+                entries += [
+                    e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims
+                ]
+        against = [claim.entry.against] if claim.entry.against else []
+        within = [claim.within] if claim.within else []
+        used = {e for c in claim.computations.values() for e in c.equations}
+        constants = [c for e in sorted(used) for c in self.ledger.constants_of(e)]
+        return list(dict.fromkeys([name, *entries, *against, *within, *sorted(used), *constants]))
+
+    def _text(self, entry: str) -> str:
+        if entry in self.ledger.equations:
+            return self.ledger.equation_text(entry)
+        return self.ledger.claims[entry].text
+
+    def _edits(self, entry: str) -> Iterable[tuple[str, str]]:
+        if entry in self.ledger.equations:
+            text = self.ledger.equation_text(entry)
+            return equation_edits(text, self.ledger.written, self.ledger.dimensions)
+        claim = self.ledger.claims[entry]
+        return edits(claim.text) if claim.printed is not None else ()
+
+    def _changed(self, entry: str, text: str) -> Ledger:
+        """The ledger with the edit."""
+        if entry in self.ledger.equations:
+            return self.ledger.misprint_equation(entry, text)
+        return self.ledger.misprint(entry, text)
+
+    def _mends(self, name: str, entry: str, text: str) -> str | None:
+        """The reading of the claim or equation that agrees with the edit, None if none does."""
+        within = name if name in self.ledger.equations else self.ledger.claims[name].within
+        if within is not None:
+            changed = self._changed(entry, text)
+            fails = assess_equation(changed, within, constants=False).verdict.is_failure
+            return None if fails else ""
+        claim, ledger, values = self.ledger.claims[name], self.ledger, {}
+        if claim.computation is None:
+            return self._suits(claim, text) if entry == name else None
+        of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
+        if entry in (name, claim.entry.against) or of_equation:
+            ledger = self._changed(entry, text)
+        else:
+            values[entry] = parse(text).value * self.ledger.claims[entry].si
+        claim = ledger.claims[name]
+        screens = [Screen(ledger, assumed) for assumed in self._assumed]
+        agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
+        return next(agreeing, None)
+
+    def _suits(self, claim: Claim, text: str) -> str | None:
+        """Whether another text of a number that nothing computes suits what rests on it."""
+        changed = self.ledger.misprint(claim.id, text).claims[claim.id]
+        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
+        if sources and not any(changed.target().meets(source.interval) for source in sources):
+            return None
+        value = {claim.id: self._value(changed)}
+        shown = (self.ledger.claims[result] for result in claim.entry.shown_by)
+        return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
+
+    @staticmethod
+    def _value(claim: Claim) -> Fraction:
+        assert claim.printed is not None
+        return claim.printed.value * claim.si
+
+    @cached_property
+    def _assumed(self) -> list[Mapping[str, Fraction]]:
+        """The values of inferred inputs to try: as assumed, and as the ledger takes them."""
+        nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
+        return [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
+
+    def _failing(self, entry: str, text: str) -> set[str]:
+        """The claims and equations that fail with the edit; those it does not touch, as before."""
+        changed = self._changed(entry, text)
+        touched = dependents(self.ledger, entry)
+        others = self._failing_now - touched
+        tried = [Screen(changed, assumed).failing(touched) for assumed in self._assumed]
+        return others | min(tried, key=len) | self._failing_equations(entry, changed)
+
+    def _failing_equations(self, entry: str, changed: Ledger) -> set[str]:
+        within = entry if entry in self.ledger.equations else self.ledger.claims[entry].within
+        if within is None:
+            return self._bad_equations
+        fails = assess_equation(changed, within, constants=False).verdict.is_failure
+        return (self._bad_equations - {within}) | ({within} if fails else set())
+
+    @cached_property
+    def _failing_now(self) -> set[str]:
+        return self.screen.failing(self.ledger.claims)
+
+    @cached_property
+    def _bad_equations(self) -> set[str]:
+        assessed = (assess_equation(self.ledger, e, constants=False) for e in self.ledger.equations)
+        return {a.equation.id for a in assessed if a.verdict.is_failure}
+
+    # One culprit for all that fails
+
+    def ranked(self, names: Collection[str]) -> list[Repair]:
+        """The repairs that may explain all that fails at once, the best first.
+
+        If one misprint is behind several failures, it stands in an entry that all of them rest on:
+        only such entries are searched. The fewer claims a repair leaves failing, the better; of
+        equal ones the likelier slip of a typist comes first. If no entry is common to all, the
+        repairs of the claim that is quickest to compute are given.
+        """
+        if not names:
+            return []
+        quickest = min(names, key=self._cost)
+        suspects = [set(self._suspects(name)) for name in names]
+        common = set.intersection(*suspects) or suspects[0]
+        found = [
+            repair
+            for entry in self._suspects(quickest)
+            if entry in common
+            for repair in self._repairs_in(quickest, entry)
+        ]
+        if not found and len(names) > 1:
+            return self.ranked([quickest])
+        return self._sorted(found, quickest)
+
+    def _cost(self, name: str) -> tuple[int, str]:
+        """How long a claim takes to compute: whole sheets last, repetitions first."""
+        if name in self.ledger.equations:
+            return 2, name
+        claim = self.ledger.claims[name]
+        if claim.computation is None or claim.computation.restates:
+            return 0 if claim.within is None else 2, name
+        return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.entry.row is None), name
+
+    def culprit(self, names: Collection[str]) -> Culprit | None:
+        """The one repair that makes everything agree that fails, if there is one."""
+        repairs = self.ranked(names) if len(names) > 1 else []
+        if not repairs or repairs[0].failing:
+            return None
+        return Culprit(repairs[0], tuple(names))
+
+    # Slips
+
+    def slips(self, claim: Claim) -> list[TriedSlip]:
+        """What the slips of the claim's equations make of it."""
+        if claim.id not in self._tries:
+            used = {e for c in claim.computations.values() for e in c.equations}
+            slips = [slip for slip in self.ledger.slips if slip.equation in used]
+            self._tries[claim.id] = [self._tried(claim, slip) for slip in slips]
+        return self._tries[claim.id]
+
+    def _tried(self, claim: Claim, slip: Slip) -> TriedSlip:
+        ledger = self.ledger
+        if slip.text is not None:
+            ledger = ledger.misprint_equation(slip.equation, slip.text)
+        inputs = {key: (slip.inputs.get(key, ""),) if key in slip.inputs else names
+                  for key, names in claim.inputs.items()}  # fmt: skip
+        changed = claim.resting_on(inputs)
+        function = ledger.function(changed)
+        printed = {name: (self.judge.value(name),) * 2 for name in changed.entries}
+        at_print = enclose(function, printed).ends
+        target, rounded = claim.target(), Convention(choices_exact=False)
+        fits = "as printed" if target.encloses(*at_print) else ""
+        everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+        if not fits and not target.excludes(*everywhere):
+            fits = "not excluded within rounding"
+        low, high = (end / claim.si for end in at_print)
+        return TriedSlip(slip, low, high, fits)
 
 
-_LOOSE = (
-    "It could agree only if what the author chose, such as 500 m/s, were itself rounded to its "
-    "first digits."
-)
+_BISECTIONS = 40
+"""Down to 1e-12 of the search, beyond what any page shows."""
 
+_BUDGET = 250
+"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
 
-def _side(interval: Interval, enclosure: tuple[Fraction, Fraction]) -> str:
-    low, high = enclosure
-    if interval.lower is not None and high <= interval.lower:
-        return "all below"
-    if interval.upper is not None and low >= interval.upper:
-        return "all above"
-    return "on both sides"
-
-
-def _other(claim: Claim, other: Reading) -> str:
-    shown = with_unit(number(other.computed), claim.unit)
-    sentences = [f"Read as {other.name}: {shown}, {other.verdict.value}."]
-    if other.verdict is Verdict.WITHIN_ROUNDING:
-        sentences += _within(other)
-    elif other.verdict is not Verdict.REPRODUCED and other.enclosure[0] != other.enclosure[1]:
-        within = outward(*other.enclosure)
-        sentences.append(f"For all inputs that print like the report's it lies within {within}.")
-    if other.loose:
-        sentences.append(_LOOSE)
-    return " ".join(sentences)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
-def _inferred(claim: Claim) -> list[str]:
-    names = {name for names in claim.inputs.values() for name in names}
-    return sorted(name.removeprefix("inferred:") for name in names if name.startswith("inferred:"))
-
-
-def _evidence(ledger: Ledger) -> set[str]:
-    return {claim for entry in ledger.inferred.values() for claim in entry.evidence}
-
-
-def assumptions(ledger: Ledger, assessment: Assessment) -> list[str]:
-    """What the verdict takes for granted beyond the printed text."""
-    claim = assessment.claim
-    assumed = [] if claim.assumes is None else [claim.assumes]
-    assumed += [_density(infer(ledger, name)) for name in _inferred(claim)]
-    if claim.as_printed_inputs:
-        assumed.append("the inputs exactly as printed, as the same sheet is run twice")
-        assumed.append("significant is what changes a printed digit; the report gives no criterion")
-    return assumed + _digits(assessment)
-
-
-def _density(inference: Inference) -> str:
-    entry, inner = inference.entry, inference.inner
-    nominal = with_unit(number(entry.nominal), entry.unit)
-    admitted = inward(*inner.ends)
-    return f"{entry.title} {nominal}, inferred: Table A-1 as printed admits {admitted}"
-
-
-def _digits(assessment: Assessment) -> list[str]:
-    """Which of an ambiguous number's digits were taken, and whether it matters."""
-    claim, reading = assessment.claim, assessment.reading
-    printed = claim.printed
-    if reading is None or printed is None or len(printed.quanta) == 1 or claim.interval is None:
-        return []
-    if claim.interval.lower == claim.interval.upper or claim.interval.upper is None:
-        return []
-    if claim.interval.lower is None:
-        return []
-    taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
-    inside = [
-        printed.interval(quantum=quantum).contains(Fraction(reading.computed))
-        for quantum in printed.quanta
-    ]
-    depends = "depends" if len(set(inside)) > 1 else "does not depend"
-    return [f"{taken} of {claim.text} taken as significant; the verdict {depends} on that"]
+_SHOWN = 20
+"""So many repairs of one claim are kept, the likeliest first."""

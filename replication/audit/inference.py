@@ -1,145 +1,204 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cached_property
 
-from reference.enclosure import Box, Constraint, admitted, extent, satisfiable
-from reference.ledger import Inferred, Ledger
-from reference.printed import Interval, Printed
-from replication.audit.entries import function_of, rounding, value
+from reference.arithmetic import Arithmetic, Number
+from reference.enclosure import Constraint, Solutions, extent, satisfying, solve
+from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
+from reference.printed import Interval
 
-__all__ = ["Inference", "infer", "possible"]
+__all__ = ["Inference", "infer"]
 
 
 @dataclass(frozen=True, eq=False)
 class Inference:
-    """The values of an input that reproduce all of its evidence (SI units).
+    """The values of an input for which its evidence comes out as printed (SI units).
 
-    With the other inputs exactly as printed: each value of `inner` is proven to, none outside
-    `outer` does. `with_mass`: the same where the particle mass is the printed one. `with_results`:
-    the values that serve the evidence and both final depths at once. With the other inputs anywhere
-    within their rounding, and the printed mass and diameter as evidence, too: `attained` is the
-    hull of values that were found, `possible` holds all that there are. What not every verdict asks
-    for is computed when it is asked for.
+    `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
+    `agreeing` is the largest set of evidence that one value can serve; `odd` the rest. Each value
+    of `inner` is proven to serve the agreeing evidence, none outside `outer` does.
     """
 
     ledger: Ledger
-    entry: Inferred
+    name: str
+    centered: bool
+    each: Mapping[str, Solutions]
+    agreeing: tuple[str, ...]
     inner: Interval
     outer: Interval
+    _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = field(default_factory=dict)
+
+    @property
+    def entry(self) -> Inferred:
+        """The ledger's entry."""
+        return self.ledger.inferred[self.name.removeprefix(INFERRED)]
+
+    @property
+    def odd(self) -> tuple[str, ...]:
+        """The evidence that no value serves together with the agreeing one."""
+        return tuple(name for name in self.each if name not in self.agreeing)
+
+    @cached_property
+    def inputs(self) -> set[str]:
+        """What the evidence rests on besides."""
+        claims = (self.ledger.claims[name] for name in self.agreeing)
+        return {name for claim in claims for name in claim.entries} - {self.name}
 
     @cached_property
     def with_mass(self) -> Interval:
-        mass = value(self.ledger, self.entry.mass)
-        return _single(self.ledger, self.entry, self.entry.evidence, mass=mass)[0]
+        """As `inner`, where the particle mass is the printed one."""
+        mass = {"mass": self.ledger.value(self.entry.mass)}
+        return _infer(self.ledger, self.name, self.centered, self.entry.evidence, mass).inner
 
-    @cached_property
-    def with_results(self) -> Interval:
-        claims = (*self.entry.evidence, *self.entry.results)
-        return _single(self.ledger, self.entry, claims)[0]
+    def admitted(self, convention: Convention) -> tuple[Interval, Interval]:
+        """The values that serve the evidence where inputs are rounded as a convention says.
 
-    @property
-    def attained(self) -> Interval:
-        return self._extent[0]
+        The printed mass and diameter are evidence, too. The first interval is the hull of values
+        that were found, the second holds all that there are. How the evidence itself is rounded is
+        no question: cut off, no value would serve it.
+        """
+        key = convention.choices_exact, convention.header_exact
+        if key == (True, True):
+            return self.inner, self.outer
+        if key not in self._admitted:
+            start = sum(self.inner.ends, Fraction(0)) / 2
+            by_mass = not convention.header_exact
+            box = self._box(convention, by_mass=by_mass)
+            found, bounds = extent(self._joint(convention, by_mass=by_mass), self.name, box, start)
+            self._admitted[key] = Interval(*found), Interval(*bounds)
+        return self._admitted[key]
 
-    @property
-    def possible(self) -> Interval:
-        return self._extent[1]
+    def _box(
+        self, convention: Convention, *, by_mass: bool
+    ) -> dict[str, tuple[Fraction, Fraction]]:
+        """The inputs that the evidence rests on and that may be other than printed.
 
-    @cached_property
-    def _extent(self) -> tuple[Interval, Interval]:
-        start = self.entry.nominal
-        return extent(self._joint, self._unknown, self._box, start, tolerance=Fraction(1))
+        The printed mass and density tell the radius more closely than its own print does: with
+        `by_mass` the mass is free in its place.
+        """
+        names = self.inputs
+        radius, mass = self.entry.radius, self.entry.mass
+        if by_mass and radius in names:
+            names = names - {radius} | {mass}
+        ends = {name: self._ends(name, convention) for name in sorted(names)}
+        rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
+        return {**rounded, self.name: self.entry.search}
 
-    @property
-    def _unknown(self) -> str:
-        return f"inferred:{self.entry.id}"
+    def _ends(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
+        """The values of an input that print like it, and for which what shows it alone does so.
 
-    @cached_property
-    def _box(self) -> Box:
-        return {**_rounded_inputs(self.ledger, self.entry), self._unknown: self.entry.search}
+        The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
+        """
+        claim = self.ledger.claims[name]
+        low, high = claim.as_input(convention).ends
+        for shown in (self.ledger.claims[other] for other in claim.entry.shown_by):
+            if low != high and shown.entries == [name]:
+                found = solve(self.ledger.function(shown), name, (low, high), shown.target()).outer
+                low, high = (found[0][0], found[-1][1]) if found else (low, high)
+        return low, high
 
-    @cached_property
-    def _joint(self) -> list[Constraint]:
-        claims = (*self.entry.header, *self.entry.evidence)
-        return _constraints(self.ledger, claims, frozenset(self._box))
+    def _joint(self, convention: Convention, *, by_mass: bool) -> list[Constraint]:
+        free = frozenset(self._box(convention, by_mass=False))
+        claims = [self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing)]
+        constraints: list[Constraint] = [
+            (self.ledger.function(claim, free, centered=self.centered), claim.target())
+            for claim in claims
+        ]
+        if not by_mass:
+            return constraints
+        radius, mass, density = self.entry.radius, self.entry.mass, self.entry.density
 
-    @cached_property
-    def handbook(self) -> Mapping[str, tuple[Printed, str]]:
-        """Handbook values, and what the evidence says of each, a rounded number itself."""
-        return {
-            name: (printed, self._verdict(printed.value, printed.interval()))
-            for name, printed in self.entry.handbook.items()
-        }
+        def of_mass(function: Function) -> Function:
+            def by_radius(ar: Arithmetic, **entries: Number) -> Number | Fraction:
+                volume = entries[mass] / entries[density]
+                own = ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
+                return function(ar, **{**entries, radius: own})
 
-    def holds_at(self, point: Mapping[str, Fraction]) -> bool:
+            return by_radius
+
+        own = self.ledger.claims[radius].as_input(convention)
+        constraints.append((lambda _, **entries: entries[radius], own))
+        return [(of_mass(function), target) for function, target in constraints]
+
+    def holds_at(self, point: Mapping[str, Fraction], convention: Convention) -> bool:
         """Whether the evidence can hold at a point; other inputs are within their rounding."""
-        fixed = {name: (x, x) for name, x in point.items() if name in self._box}
-        return satisfiable(self._joint, {**self._box, **fixed}) is True
+        by_mass = not convention.header_exact and self.entry.radius not in point
+        box = self._box(convention, by_mass=by_mass)
+        fixed = {name: (x, x) for name, x in point.items() if name in box}
+        joint = self._joint(convention, by_mass=by_mass)
+        return satisfying(joint, {**box, **fixed})[0] is True
 
-    def _verdict(self, value: Fraction, handbook: Interval) -> str:
-        ends = handbook.ends
+    def admits(self, value: Fraction, range_: Interval) -> str:
+        """What the evidence says of a value that is printed, with its range, somewhere else."""
+        usual = Convention()
         if self.inner.contains(value):
             return "admitted"
-        if not self.inner.excludes(*ends):
+        if not self.inner.excludes(*range_.ends):
             return "admitted only as a number that was rounded"
-        if self.possible.excludes(*ends):
+        if self.admitted(usual)[1].excludes(*range_.ends):
             return "excluded"
         words = {
             True: "admitted only if the other inputs are rounded",
             False: "excluded",
             None: "undecided",
         }
-        return words[satisfiable(self._joint, {**self._box, self._unknown: ends})]
+        box = {**self._box(usual, by_mass=True), self.name: range_.ends}
+        return words[satisfying(self._joint(usual, by_mass=True), box)[0]]
 
 
-@cache
-def infer(ledger: Ledger, name: str) -> Inference:
+def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
     """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
-    Raises ValueError if the nominal value of the ledger is not admitted.
+    `name` is its id with "inferred:" before it. Evidence that no value serves together with the
+    rest is left out; the Inference names it. If none of it admits any value, the nominal one stays.
     """
-    entry = ledger.inferred[name]
-    inner, outer = _single(ledger, entry, entry.evidence)
-    if not inner.contains(entry.nominal):
-        raise ValueError(f"the evidence does not admit {entry.title} {entry.nominal}: {inner}")
-    return Inference(ledger, entry, inner, outer)
+    evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
+    return _infer(ledger, name, centered, evidence, {})
 
 
-def possible(ledger: Ledger, name: str) -> tuple[Fraction, Fraction]:
-    """The least and greatest value, in SI, of an entry: that prints like it, or is possible."""
-    _, _, inferred = name.partition("inferred:")
-    return infer(ledger, inferred).possible.ends if inferred else rounding(ledger, name)
+def _infer(
+    ledger: Ledger,
+    name: str,
+    centered: bool,
+    evidence: list[str],
+    fixed: Mapping[str, Fraction],
+) -> Inference:
+    search = ledger.inferred[name.removeprefix(INFERRED)].search
+    each = {}
+    for claim in (ledger.claims[name] for name in evidence):
+        function = ledger.function(claim, frozenset({name}), centered=centered, fixed=fixed)
+        each[claim.id] = solve(function, name, search, claim.target())
+    agreeing = _agreeing(each)
+    if not agreeing:
+        nominal = Interval.point(ledger.value(name))
+        return Inference(ledger, name, centered, each, (), nominal, nominal)
+    inner = _intersection([each[claim].inner for claim in agreeing])[0]
+    outer = _intersection([each[claim].outer for claim in agreeing])
+    whole = Interval(outer[0][0], outer[-1][1])
+    return Inference(ledger, name, centered, each, agreeing, Interval(*inner), whole)
 
 
-def _single(
-    ledger: Ledger, entry: Inferred, claims: tuple[str, ...], **fixed: Fraction
-) -> tuple[Interval, Interval]:
-    """What the claims admit of the input where all others are as printed, or fixed."""
-    unknown = f"inferred:{entry.id}"
-    alone = _constraints(ledger, claims, frozenset({unknown}), **fixed)
-    return admitted(alone, unknown, entry.search, entry.resolution)
+def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
+    """The largest set of evidence that one value serves; of several, that of the least value.
+
+    Empty if no value of the search serves any of it.
+    """
+    best: tuple[str, ...] = ()
+    for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):
+        agreeing = tuple(name for name, solutions in each.items() if solutions.admits(value))
+        best = max(best, agreeing, key=len)
+    return best
 
 
-def _constraints(
-    ledger: Ledger, claims: tuple[str, ...], free: frozenset[str], **fixed: Fraction
-) -> list[Constraint]:
-    return [
-        (function_of(ledger, claim, claim.functions[""], free, **fixed), claim.target)
-        for claim in (ledger.claims[name] for name in claims)
-    ]
-
-
-def _rounded_inputs(ledger: Ledger, entry: Inferred) -> Box:
-    """The inputs that the evidence rests on and that may be other than printed."""
-    names = {
-        name
-        for claim in entry.evidence
-        for names in ledger.claims[claim].inputs.values()
-        for name in names
-        if not name.startswith("inferred:")
-    }
-    ends = {name: rounding(ledger, name) for name in sorted(names)}
-    return {name: (low, high) for name, (low, high) in ends.items() if low != high}
+def _intersection(
+    unions: list[tuple[tuple[Fraction, Fraction], ...]],
+) -> list[tuple[Fraction, Fraction]]:
+    """What unions of intervals have in common, in order."""
+    common = list(unions[0])
+    for union in unions[1:]:
+        pairs = ((max(a, c), min(b, d)) for a, b in common for c, d in union)
+        common = [(low, high) for low, high in pairs if low <= high]
+    return common

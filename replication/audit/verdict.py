@@ -1,202 +1,315 @@
 """The verdict on one claim: whether the printed number follows from what the report prints."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from enum import Enum
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from math import prod
+from typing import Any
 
-from reference.computations import Computation
-from reference.enclosure import Box, Exploration, Function, explore
-from reference.exact import Reals
-from reference.ledger import Claim, Ledger
-from reference.printed import Interval
-from replication.audit.entries import function_of, replica_of, rounding, value
+from reference.arithmetic import InexactError, Number, Rationals, Reals
+from reference.enclosure import Box, enclose, explore
+from reference.equations import EquationError
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.printed import Rounding
 from replication.audit.inference import Inference, infer
+from replication.audit.replica import replica
+from replication.audit.screen import restates
 
-__all__ = ["Assessment", "Reading", "Verdict", "assess"]
+__all__ = ["Assessment", "Judge", "Judgement", "Reading", "Verdict"]
 
-_REALS = Reals(50)
+_REALS, _RATIONALS = Reals(50), Rationals()
 
 
-class Verdict(Enum):
-    """The five verdicts, from best to worst known."""
+class Verdict(StrEnum):
+    """What the audit can say of a claim."""
 
     REPRODUCED = "reproduced"
     WITHIN_ROUNDING = "reproduced within input rounding"
     NOT_REPRODUCED = "not reproduced"
     UNDECIDED = "undecided"
+    CONSISTENT = "consistent"
+    INCONSISTENT = "inconsistent"
+    AGREES = "agrees with public sources"
+    DIFFERS = "differs from public sources"
+    REMARK = "remark, quantified"
     NOT_CHECKABLE = "not checkable"
+
+    @property
+    def is_failure(self) -> bool:
+        """Whether the number contradicts what the report prints."""
+        return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """The verdict under one convention.
+
+    `lower`, `upper`: a proven range of the value, in the claim's unit: over all admitted values of
+    the inferred inputs where the printed inputs give the number, else over all inputs that print
+    like the report's. `witness` holds entries (SI) that give the number where the printed ones do
+    not.
+    """
+
+    convention: Convention
+    verdict: Verdict
+    lower: Fraction
+    upper: Fraction
+    witness: Mapping[str, Fraction] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
     """What one computation makes of a claim. All numbers are in the claim's unit.
 
-    `computed` is the replica's double at the inputs as printed, `reference` the same to 50 digits.
-    `enclosure` is a proven range of the value: over all admitted values of the inferred inputs if
-    the claim is reproduced, otherwise over all inputs that print like the report's. `witness`
-    holds entries (SI) that reproduce the claim where the printed ones do not; `loose` says, where
-    none do, whether some would if no trailing zero were significant and no choice exact.
+    `computed` is the replica's double at the inputs as printed, `reference` the same to 25 digits;
+    `judgements` hold one for every convention, the usual one first.
     """
 
     name: str
-    computation: Computation
-    verdict: Verdict
+    summary: str
     computed: float
     reference: str
-    enclosure: tuple[Fraction, Fraction]
-    witness: dict[str, Fraction] | None = None
-    loose: bool | None = None
+    judgements: tuple[Judgement, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict under the usual convention."""
+        return self.judgements[0].verdict
+
+    @property
+    def otherwise(self) -> list[Judgement]:
+        """The conventions that give another verdict."""
+        return [judgement for judgement in self.judgements if judgement.verdict != self.verdict]
 
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """The verdict on a claim, with the reading it comes from and the other readings."""
+    """The verdict on a claim, and the readings that it comes from; the first is as printed.
+
+    `reason` tells why its formula has no value, where that is so.
+    """
 
     claim: Claim
     verdict: Verdict
-    reading: Reading | None
-    others: tuple[Reading, ...] = ()
+    readings: tuple[Reading, ...] = ()
+    reason: str = ""
+
+
+class Judge:
+    """Judges the claims of one ledger; what several of them ask for is computed once.
+
+    With `every_convention` they are judged under all of them, else under the usual one only.
+    """
+
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger, self.every_convention = ledger, every_convention
+        self._inferences: dict[tuple[str, bool], Inference] = {}
+        self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
+
+    def inference(self, name: str, *, centered: bool = False) -> Inference:
+        """What the evidence says of an input that is not printed, under one of the schemes."""
+        key = name, centered
+        if key not in self._inferences:
+            self._inferences[key] = infer(self.ledger, name, centered=centered)
+        return self._inferences[key]
+
+    @cached_property
+    def assumed(self) -> Mapping[str, Fraction]:
+        """The value taken for every inferred input: the nominal one, if its evidence admits it."""
+        values = {}
+        for name in (INFERRED + key for key in self.ledger.inferred):
+            inner, nominal = self.inference(name).inner, self.ledger.value(name)
+            values[name] = nominal if inner.contains(nominal) else sum(inner.ends, Fraction(0)) / 2
+        return values
 
     @property
-    def error_in_last_digit(self) -> float | None:
-        """Computed minus printed, in units of the last digit; None where no digit counts."""
-        claim = self.claim
-        printed = claim.printed
-        if self.reading is None or printed is None or claim.relation or printed.quantum == 0:
+    def moved(self) -> set[str]:
+        """The inferred inputs whose evidence does not admit the nominal value."""
+        return {name for name, value in self.assumed.items() if value != self.ledger.value(name)}
+
+    def value(self, name: str) -> Fraction:
+        """An entry's value as printed, or as assumed where it is inferred, in SI."""
+        return self.assumed[name] if name in self.assumed else self.ledger.value(name)
+
+    def assess(self, claim: Claim) -> Assessment:
+        """The verdict on a claim that a computation gives.
+
+        A claim whose formula has no value at the inputs as printed does not follow from them.
+        """
+        if claim.computation is not None and claim.computation.restates:
+            agrees = restates(self.ledger, claim, {})
+            return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
+        try:
+            readings = tuple(self._reading(claim, name) for name in claim.computations)
+        except (ArithmeticError, EquationError) as error:
+            return Assessment(claim, Verdict.NOT_REPRODUCED, reason=str(error))
+        return Assessment(claim, readings[0].verdict, readings)
+
+    def _reading(self, claim: Claim, name: str) -> Reading:
+        judgements = tuple(self._judgements(claim, name))
+        reference = self.reference(claim, name) / _REALS.number(claim.si)
+        # With a misprint planted in an equation, the models, which have it right, do not serve.
+        computed = float(reference) if self.ledger.misprinted else self._replica(claim, name)
+        summary = claim.computations[name].summary
+        digits = str(_REALS.context.nstr(reference, 25))
+        return Reading(name, summary, computed, digits, judgements)
+
+    def reference(self, claim: Claim, name: str = "", *, centered: bool = False) -> Number:
+        """The value of a claim's computation in SI, to 50 digits."""
+        function = self.ledger.function(claim, reading=name, centered=centered)
+        result = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        return _REALS.number(result) if isinstance(result, Fraction) else result
+
+    def _replica(self, claim: Claim, name: str) -> float:
+        computation = claim.computations[name]
+        settings: dict[str, object] = {}
+        if computation.by_row:
+            settings["row"] = claim.entry.row
+        if computation.by_scheme:
+            settings["scheme"] = "published"
+        inputs = {
+            key: float(prod(map(self.value, entries))) for key, entries in claim.inputs.items()
+        }
+        return float(Fraction(replica(computation.name, inputs, **settings)) / claim.si)
+
+    def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
+        usual = Convention()
+        for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
+            convention = replace(usual, rounding=rounding, centered=centered)
+            judgement = self._as_printed(claim, name, convention)
+            if judgement is not None:
+                yield judgement
+            else:
+                for rounded in _input_conventions(self.ledger, claim, convention):
+                    yield self._search(claim, name, rounded)
+                    if not self.every_convention:
+                        return
+            if not self.every_convention:
+                return
+
+    def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
+        """The verdict if the inputs as printed give the number or leave it open."""
+        target = claim.target(convention.rounding)
+        printed = {entry: (self.value(entry),) * 2 for entry in claim.entries}
+        at_print = self._range(claim, name, convention, printed)
+        if target.excludes(*at_print):
             return None
-        quantum = printed.quanta[-1] if claim.kind == "approximation" else printed.quantum
-        return float((Fraction(self.reading.computed) - printed.value) / quantum)
-
-
-def assess(ledger: Ledger, claim: Claim, cell_is_blank: Callable[[str], bool]) -> Assessment:
-    """The verdict on one claim.
-
-    `cell_is_blank` says whether the workbook's Table A-1 leaves a cell empty.
-    """
-    if claim.kind == "blank":
-        assert claim.place.cell is not None
-        blank = cell_is_blank(claim.place.cell)
-        return Assessment(claim, Verdict.REPRODUCED if blank else Verdict.NOT_REPRODUCED, None)
-    if claim.computation is None:
-        return Assessment(claim, Verdict.NOT_CHECKABLE, None)
-    first, *others = (
-        _Question(ledger, claim, name, function).answer()
-        for name, function in claim.functions.items()
-    )
-    return Assessment(claim, first.verdict, first, tuple(others))
-
-
-class _Question:
-    """Does this computation give the printed number?"""
-
-    def __init__(self, ledger: Ledger, claim: Claim, name: str, function: Function) -> None:
-        assert claim.computation is not None
-        self.ledger, self.claim, self.name, self.function = ledger, claim, name, function
-        self.computation = claim.readings.get(name, claim.computation)
-        self.target = claim.target
-        self.entries = sorted({entry for names in claim.inputs.values() for entry in names})
-        self.of_entries = function_of(ledger, claim, function, frozenset(self.entries))
-
-    def explore(self, box: Box) -> Exploration:
-        return explore(self.of_entries, box, self.target)
-
-    def answer(self) -> Reading:
-        at_nominal = self.explore(self.as_printed())
-        if at_nominal.always:
-            everywhere = self.explore({**self.as_printed(), **self.inferred(_inner)})
-            if everywhere.always:
-                return self.reading(Verdict.REPRODUCED, everywhere)
-            if everywhere.outside is None:
-                return self.reading(Verdict.UNDECIDED, everywhere)
+        inferred = {
+            entry: self.inference(entry, centered=convention.centered).inner.ends
+            for entry in claim.inferred
+        }
+        everywhere = self._range(claim, name, convention, {**printed, **inferred})
+        if target.encloses(*everywhere):
+            return _judgement(claim, convention, Verdict.REPRODUCED, everywhere)
+        if target.encloses(*at_print):
             # Only some admitted values do: the printed evidence does not tell which is meant.
-            return self.reading(Verdict.WITHIN_ROUNDING, everywhere, witness=at_nominal.inside)
-        if not at_nominal.never:
-            return self.reading(Verdict.UNDECIDED, at_nominal)
-        return self.search()
+            witness = {entry: value for entry, (value, _) in printed.items()}
+            return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
+        return _judgement(claim, convention, Verdict.UNDECIDED, everywhere)
 
-    def search(self) -> Reading:
+    def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
-        # With other inputs rounded, the inferred ones may be what is attained, or possible, at all.
-        fixed = self.claim.as_printed_inputs
-        for which in (_inner,) if fixed else (_inner, _attained):
-            found = self.explore({**self.rounded(), **self.inferred(which)})
-            if found.inside is not None and self.evidence_holds(found.inside):
-                return self.reading(Verdict.WITHIN_ROUNDING, found, witness=found.inside)
-        widest = self.inferred(_outer if fixed else _possible)
-        found = self.explore({**self.rounded(), **widest})
-        if not found.never:
-            return self.reading(Verdict.UNDECIDED, found)
-        loosely = self.explore({**self.rounded(loose=True), **widest})
-        return self.reading(Verdict.NOT_REPRODUCED, found, loose=loosely.inside is not None)
+        target = claim.target(convention.rounding)
+        function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        whole_sheet = claim.by_scheme and claim.entry.row is None
+        for box in self.box(claim, convention):
+            found = explore(function, box, target, _BUDGET // 10 if whole_sheet else _BUDGET)
+            if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
+                ends = enclose(function, self.box(claim, convention)[1]).ends
+                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
+        verdict = Verdict.NOT_REPRODUCED if found.never else Verdict.UNDECIDED
+        return _judgement(claim, convention, verdict, (found.lower, found.upper))
 
-    def evidence_holds(self, witness: dict[str, Fraction]) -> bool:
+    def box(self, claim: Claim, convention: Convention) -> tuple[Box, Box]:
+        """Inputs that print like the report's: a narrow box, to search first, and one with all.
+
+        An inferred input has the values that were found, or all that its evidence admits. In the
+        narrow box what this evidence rests on is exact where the author chose it.
+        """
+        claims, exact = self.ledger.claims, replace(convention, choices_exact=True)
+        inferred = {e: self.inference(e, centered=convention.centered) for e in claim.inferred}
+        evidence = {name for inference in inferred.values() for name in inference.inputs}
+        narrow = {
+            entry: claims[entry].as_input(exact if entry in evidence else convention).ends
+            for entry in claim.stated
+        }
+        whole = {entry: claims[entry].as_input(convention).ends for entry in claim.stated}
+        for entry, inference in inferred.items():
+            narrow[entry] = inference.admitted(exact)[0].ends
+            whole[entry] = inference.admitted(convention)[1].ends
+        return narrow, whole
+
+    def _evidence_holds(
+        self, claim: Claim, convention: Convention, witness: Mapping[str, Fraction]
+    ) -> bool:
         """Whether the witness reproduces the evidence of the inferred inputs, too."""
-        names = (name.partition("inferred:")[2] for name in self.entries)
-        return all(infer(self.ledger, name).holds_at(witness) for name in names if name)
+        inferences = (self.inference(e, centered=convention.centered) for e in claim.inferred)
+        return all(inference.holds_at(witness, convention) for inference in inferences)
 
-    def as_printed(self) -> dict[str, tuple[Fraction, Fraction]]:
-        values = {name: value(self.ledger, name) for name in self.entries}
-        return {name: (number, number) for name, number in values.items()}
-
-    def rounded(self, loose: bool = False) -> dict[str, tuple[Fraction, Fraction]]:
-        """Every printed entry that prints like the report's."""
-        if self.claim.as_printed_inputs:
-            return self.as_printed()
-        printed = (name for name in self.entries if not name.startswith("inferred:"))
-        return {name: rounding(self.ledger, name, loose) for name in printed}
-
-    def inferred(self, which: Callable[[Inference], Interval]) -> Box:
-        ends = {}
-        for name in self.entries:
-            _, _, inferred = name.partition("inferred:")
-            if inferred:
-                ends[name] = which(infer(self.ledger, inferred)).ends
-        return ends
-
-    def reading(
-        self,
-        verdict: Verdict,
-        explored: Exploration,
-        witness: dict[str, Fraction] | None = None,
-        loose: bool | None = None,
-    ) -> Reading:
-        si = self.claim.si
-        return Reading(
-            name=self.name,
-            computation=self.computation,
-            verdict=verdict,
-            computed=self.replica(),
-            reference=self.reference(),
-            enclosure=(explored.lower / si, explored.upper / si),
-            witness=witness,
-            loose=loose,
-        )
-
-    def replica(self) -> float:
-        result = replica_of(self.ledger, self.claim, self.computation)({})
-        return float(Fraction(result) / self.claim.si)
-
-    def reference(self) -> str:
-        numbers = {name: _REALS.number(value(self.ledger, name)) for name in self.entries}
-        result = self.of_entries(_REALS, **numbers)
-        if isinstance(result, Fraction):
-            result = _REALS.number(result)
-        digits = 25  # shown; computed to 50
-        return str(_REALS.context.nstr(result / _REALS.number(self.claim.si), digits))
+    def _range(
+        self, claim: Claim, name: str, convention: Convention, box: Box
+    ) -> tuple[Fraction, Fraction]:
+        computation = claim.computations[name]
+        key = (
+            computation.name, claim.entry.row, convention.centered,
+            tuple(sorted(claim.inputs.items())), tuple(sorted(box.items())),
+        )  # fmt: skip
+        if key not in self._ranges:
+            function = self.ledger.function(claim, reading=name, centered=convention.centered)
+            whole_sheet = computation.by_scheme and not computation.by_row
+            range_ = enclose(function, box)
+            exact = None if whole_sheet else _exactly(function, box, range_.idle)
+            self._ranges[key] = range_.ends if exact is None else (exact, exact)
+        return self._ranges[key]
 
 
-def _inner(inference: Inference) -> Interval:
-    return inference.inner
+def _judgement(
+    claim: Claim,
+    convention: Convention,
+    verdict: Verdict,
+    ends: tuple[Fraction, Fraction],
+    witness: Mapping[str, Fraction] | None = None,
+) -> Judgement:
+    lower, upper = (end / claim.si for end in ends)
+    return Judgement(convention, verdict, lower, upper, witness)
 
 
-def _outer(inference: Inference) -> Interval:
-    return inference.outer
+def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
+    """The function's only value, if it has one and that is a fraction: an end of a print is met.
+
+    `idle` inputs are proven to make no difference.
+    """
+    if any(low != high and name not in idle for name, (low, high) in box.items()):
+        return None
+    try:
+        return Fraction(function(_RATIONALS, **{name: low for name, (low, _) in box.items()}))
+    except InexactError:
+        return None
 
 
-def _attained(inference: Inference) -> Interval:
-    return inference.attained
+_BUDGET = 100
+"""Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
 
 
-def _possible(inference: Inference) -> Interval:
-    return inference.possible
+def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:
+    """The conventions on inputs that make a difference to the claim, the usual one first.
+
+    Truncation of a sheet's result is judged with its inputs exact: which rounded inputs would do is
+    no question then, as the table, which the same sheet printed, is not truncated. Choices are
+    exact for a whole sheet: were the 5 of beta rounded to its one digit, any depth would do.
+    """
+    claims = [ledger.claims[entry] for entry in claim.stated]
+    chosen = any(entry.chosen for entry in claims)
+    header = bool(claim.inferred) or any(
+        (entry.entry.cell or "").startswith("B") for entry in claims
+    )
+    if claim.by_scheme and usual.rounding is Rounding.CUT:
+        yield replace(usual, header_exact=True)
+        return
+    whole_sheet = claim.by_scheme and claim.entry.row is None
+    choices_exact = (True, False) if chosen and not whole_sheet else (True,)
+    for choices, head in product(choices_exact, (False, True) if header else (False,)):
+        yield replace(usual, choices_exact=choices, header_exact=head)

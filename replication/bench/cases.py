@@ -8,11 +8,11 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from reference.exact import Number
-from reference.trajectory import Trajectory
-from replication.analysis.budget import exact_motion
-from replication.analysis.stability import HARD_CASES
-from replication.impact import Impact
+from reference.arithmetic import Number
+from reference.motion import Trajectory
+from replication.error.budget import exact_motion
+from replication.error.hard_cases import HARD_CASES
+from replication.models.impact import Impact
 
 __all__ = ["CASES", "Case", "build", "relative_error"]
 

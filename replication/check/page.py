@@ -1,18 +1,19 @@
-"""One file for a browser: what was found, and the sheets drawn with the cells marked."""
+"""What was found, for a browser, with the sheets drawn and the cells marked; and as JUnit file."""
 
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib import resources
 from typing import Any, NamedTuple
+from xml.etree import ElementTree as ET
 
-from replication.check.difference import Difference
+from replication.check.difference import NO_FAULT, Difference
 from replication.check.lines import address
 from replication.check.record import safe
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["html"]
+__all__ = ["html", "junit"]
 
 _ROWS, _COLUMNS = 400, 40
 """More rows or columns of a sheet are drawn only around what is marked."""
@@ -119,3 +120,36 @@ def _kept(used: set[int], marked: set[int], most: int) -> list[int | None]:
         kept += list(gap) if len(gap) <= _NEAR else [None]
         kept.append(line)
     return kept
+
+
+def junit(record: Mapping[str, Any], kinds: Sequence[str]) -> str:
+    """A suite with one test for each kind: failed where it was found, skipped where not covered."""
+    differences = record["differences"]
+    failed = {d["kind"] for d in differences} - NO_FAULT
+    suite = ET.Element(
+        "testsuite",
+        name=f"coldspray {safe(record['file'], 200)}",
+        tests=str(len(kinds)),
+        failures=str(len(failed)),
+        errors="0",
+        skipped=str(int("not calculated" in record["summary"])),
+    )
+    for kind in kinds:
+        case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
+        found = [d for d in differences if d["kind"] == kind]
+        text = "\n".join(_line(d) for d in found)
+        if kind in failed:
+            message = f"{len(found)} found, the first at {_line(found[0])}"
+            ET.SubElement(case, "failure", message=message).text = text
+        elif kind == "not calculated" and found:
+            ET.SubElement(case, "skipped", message=text)
+        elif found:
+            ET.SubElement(case, "system-out").text = text
+    ET.indent(suite)
+    declared = '<?xml version="1.0" encoding="UTF-8"?>\n'
+    return declared + ET.tostring(suite, encoding="unicode") + "\n"
+
+
+def _line(difference: Mapping[str, Any]) -> str:
+    where = f"{safe(difference['sheet'], 40)}!{difference['cell']}"
+    return f"{where}: {safe(difference['explanation'], 300)}"

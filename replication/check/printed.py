@@ -133,4 +133,4 @@ def _labelled(calculation: Calculation, table: Table) -> Iterator[tuple[str, Pos
 
 def _judged(name: str, place: Position, value: Fraction) -> Held:
     claim = load().claims[name]
-    return Held(claim, place, float(value / claim.si), claim.target.contains(value))
+    return Held(claim, place, float(value / claim.si), claim.target().contains(value))

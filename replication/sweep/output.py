@@ -1,19 +1,17 @@
-"""A sweep's file, block after block: whole under its name, or not there."""
+"""A sweep's file, CSV or Parquet by pyarrow: whole under its name, or not there."""
 
 from collections.abc import Callable
-from contextlib import closing
-from functools import partial
-from importlib.util import find_spec
+from concurrent.futures import ThreadPoolExecutor
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from replication.sweep.compute import Block, block
-from replication.sweep.formats import FORMATS
-from replication.sweep.plan import BLOCK, Plan
-from replication.sweep.pool import in_order
+from replication.sweep.plan import BLOCK, Plan, compute
 from spreadsheets.safely import check_target, draft_of
 
-__all__ = ["check_output", "write"]
+__all__ = ["check_output", "provenance", "write"]
+
+SUFFIXES = (".csv", ".parquet")
 
 
 def write(
@@ -21,38 +19,66 @@ def write(
     path: Path,
     *,
     numbers: range | None = None,
-    processes: int = 1,
     done: Callable[[int], object] = lambda _: None,
 ) -> None:
     """Compute the blocks of these numbers (default: all) and write them to one file.
 
     The suffix of the path says which: .csv or .parquet. `done` is told the number of cases of each
-    block that is written. The same plan and numbers make the same bytes, whatever the processes.
-    Raises ValueError and OSError as `check_output` and `block` do, and leaves no file then.
+    block. The same plan and numbers make the same bytes. Raises ValueError and OSError as
+    `check_output` and `compute` do, and leaves no file then.
     """
+    import pyarrow as pa
+
     check_output(path)
-    form = FORMATS[path.suffix.lower()]
+    types = {float: pa.float64(), bool: pa.bool_(), int: pa.int64()}
+    schema = pa.schema(
+        [
+            pa.field(name, types[kind], nullable=False, metadata={"unit": unit})
+            for name, (unit, kind) in plan.columns.items()
+        ],
+        metadata=provenance(plan),
+    )
     numbers = range(plan.blocks) if numbers is None else numbers
-    pieces = in_order(partial(_piece, form.piece, plan), numbers, processes)
-    with closing(pieces), draft_of(path) as draft, form.open(draft, plan) as put:
-        for number, piece in zip(numbers, pieces, strict=True):
-            put(piece)
-            done(min(BLOCK, plan.count - number * BLOCK))
+    with (
+        draft_of(path) as draft,
+        draft.open("wb") as file,  # Python's own, whose errors have a number
+        _writer(path.suffix.lower(), file, plan, schema) as writer,
+        ThreadPoolExecutor(1) as pool,  # a block is written while the next is computed
+    ):
+        written = pool.submit(lambda: None)
+        for number in numbers:
+            first = number * BLOCK
+            count = min(BLOCK, plan.count - first)
+            table = pa.table(compute(plan, first, count), schema)
+            written.result()
+            written = pool.submit(writer.write_table, table)
+            done(count)
+        written.result()
 
 
-def _piece(of: Callable[[Block], Any], plan: Plan, number: int) -> Any:
-    return of(block(plan, number))
+def _writer(suffix: str, file: Any, plan: Plan, schema: Any) -> Any:
+    if suffix == ".csv":
+        from pyarrow.csv import CSVWriter, WriteOptions
+
+        heads = (f"{name} [{unit}]" if unit else name for name, (unit, _) in plan.columns.items())
+        file.write(f"{','.join(heads)}\n".encode("ascii"))
+        return CSVWriter(file, schema, write_options=WriteOptions(include_header=False))
+    from pyarrow.parquet import ParquetWriter
+
+    # Dictionaries do not pay: the results hardly repeat, and the inputs compress as they are.
+    return ParquetWriter(file, schema, compression="zstd", use_dictionary=False)
+
+
+def provenance(plan: Plan) -> dict[str, str]:
+    """What a file comes from: the program's version and the SHA-256 of the sweep's TOML file."""
+    return {"coldspray": version("coldspray"), "sweep_sha256": plan.digest}
 
 
 def check_output(path: Path) -> None:
     """Whether a sweep can be written there, before it is computed.
 
-    Raises ValueError for another suffix and where Parquet's library is missing, OSError as
-    `check_target` does.
+    Raises ValueError for another suffix, OSError as `check_target` does.
     """
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise ValueError(f"{path}: the file's name must end in {' or '.join(FORMATS)}")
-    if suffix == ".parquet" and find_spec("pyarrow") is None:
-        raise ValueError("Parquet needs pyarrow: python -m pip install 'coldspray[parquet]'")
+    if path.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"{path}: the file's name must end in {' or '.join(SUFFIXES)}")
     check_target(path)

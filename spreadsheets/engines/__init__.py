@@ -8,12 +8,17 @@ formualizer), two from the system (LibreOffice and Gnumeric). The libraries behi
 only when an engine is used.
 """
 
-from spreadsheets.engines.base import Engine, EngineError, Recalculated, Value
+from spreadsheets.engines.base import (
+    Engine,
+    EngineError,
+    Recalculated,
+    Value,
+    repairs_wrong_value,
+)
 from spreadsheets.engines.formualizer import Formualizer
 from spreadsheets.engines.gnumeric import Gnumeric
 from spreadsheets.engines.ironcalc import IronCalc
 from spreadsheets.engines.libreoffice import LibreOffice
-from spreadsheets.engines.selftest import repairs_wrong_value
 
 __all__ = [
     "ENGINES",

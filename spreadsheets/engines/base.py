@@ -1,14 +1,15 @@
-"""What every engine has in common: the interface, its error and the shape of its answer."""
+"""What every engine has in common: interface, errors, the shape of its answer, a test of itself."""
 
 from __future__ import annotations
 
+import zipfile
+import zlib
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-
-from spreadsheets.engines.package import UNREADABLE, checked_worksheets
+from xml.etree import ElementTree as ET
 
 Value = float | str | bool
 
@@ -120,3 +121,63 @@ def address(row: int, column: int) -> str:
         column, letter = divmod(column - 1, 26)
         letters = chr(ord("A") + letter) + letters
     return f"{letters}{row}"
+
+
+def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
+    """Plant a wrong stored value beside a formula and tell whether the engine puts it right.
+
+    One that gives stored values back verifies nothing.
+    """
+    import xlsxwriter
+
+    path = folder / f"planted-{engine.name}.xlsx"
+    with xlsxwriter.Workbook(path) as workbook:
+        sheet = workbook.add_worksheet("planted")
+        sheet.write_number("A1", 6)
+        sheet.write_formula("A2", "=A1*7", value=41)
+    return engine.recalculate(path)["planted"].get("A2") == 42
+
+
+# The parts of an .xlsx file: enough to find its worksheets and to see that none is damaged.
+
+UNREADABLE = (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError)
+"""What reading a file raises that is not a sound .xlsx file."""
+
+
+def read_part(archive: zipfile.ZipFile, part: str) -> ET.Element:
+    """Parse one XML part of the file."""
+    return ET.fromstring(archive.read(part))
+
+
+def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
+    """Map each worksheet's name, in the workbook's order, to the part that holds its cells."""
+    parts = {
+        relation.attrib["Id"]: _part(relation.attrib["Target"])
+        for relation in read_part(archive, "xl/_rels/workbook.xml.rels")
+        if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
+    }
+    sheets = read_part(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
+    related = {sheet.attrib["name"]: _relation(sheet) for sheet in sheets}
+    return {name: parts[relation] for name, relation in related.items() if relation in parts}
+
+
+def checked_worksheets(path: Path) -> list[str]:
+    """List the worksheets of a file; raise one of UNREADABLE unless every part is well formed."""
+    with zipfile.ZipFile(path) as archive:
+        for part in archive.namelist():
+            if part.endswith((".xml", ".rels")):
+                read_part(archive, part)
+        sheets = worksheets(archive)
+        for part in sheets.values():
+            archive.getinfo(part)
+    return list(sheets)
+
+
+def _part(target: str) -> str:
+    """Resolve a target, which is relative to xl/ unless it starts at the root."""
+    return target[1:] if target.startswith("/") else f"xl/{target}"
+
+
+def _relation(sheet: ET.Element) -> str:
+    """Read the attribute r:id, whose namespace differs between the two kinds of Office Open XML."""
+    return next(value for key, value in sheet.attrib.items() if key.endswith("}id"))

@@ -17,8 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree import ElementTree as ET
 
-from spreadsheets.engines.base import Cell, Engine, EngineError, Value
-from spreadsheets.engines.package import read_part, worksheets
+from spreadsheets.engines.base import Cell, Engine, EngineError, Value, read_part, worksheets
 
 FORMAT = "Gnumeric_Excel:xlsx"
 TIME_LIMIT_S = 120

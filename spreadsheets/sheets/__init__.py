@@ -1,60 +1,105 @@
-"""The sheets of the workbook, one module each, and their order."""
+"""The sheets of the workbook and their order: which cell holds what, and by which formula."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from spreadsheets.plan import Place, SheetPlan, WorkbookPlan
-from spreadsheets.sheets import (
-    audit,
-    contents,
-    convergence,
-    crater,
-    equations,
-    figure_3,
-    figure_5,
-    frank_zook,
-    inputs,
-    resistance,
-    steps,
-    table_a1,
-    table_check,
-)
-from spreadsheets.sheets.case import CaseSheet
+from reference.ledger import Ledger
+from spreadsheets.plan import SheetPlan, WorkbookPlan, place_of
+from spreadsheets.sheets import audit, figures, inputs, models, overview, steps, table_a1
+from spreadsheets.sheets.audit import Findings
+from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["workbook_plan"]
+__all__ = ["About", "workbook_plan"]
 
 
-def workbook_plan(cases: Sequence[CaseSheet], coarse: Sequence[CaseSheet] = ()) -> WorkbookPlan:
-    """The whole workbook for one or two cases; `Table A-1` shows the last of them.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class About:
+    """What the workbook says of itself beside its numbers.
 
-    With `coarse`, the same cases with the coarser step, it is the report's workbook, with all that
-    is about the report alone: those sheets, the checks against what is printed, and Figure 5.
+    warning_limits: see `inputs.sheet`. shown: sheet -> what its chart shows as written, in words.
     """
-    cases, coarse = tuple(cases), tuple(coarse)
-    table = table_a1.sheet(cases[-1], bool(coarse))
-    sheets = [inputs.sheet(cases, bool(coarse)), table]
-    if coarse:
-        sheets.append(table_check.sheet(table))
-    sheets += [*map(steps.sheet, (*cases, *coarse)), figure_3.sheet(cases)]
-    if coarse:
-        sheets += [figure_5.sheet(cases[-1]), convergence.sheet(cases)]
-    sheets += [frank_zook.sheet(), crater.sheet(), resistance.sheet(cases)]
-    if coarse:
-        sheets.append(equations.sheet(cases))
-        sheets.append(audit.sheet(_where(sheets)))
+
+    version: str
+    warning_limits: tuple[float, float]
+    shown: Mapping[str, str]
+
+
+def workbook_plan(
+    ledger: Ledger,
+    cases: Sequence[CaseSheet],
+    about: About,
+    coarse: Sequence[CaseSheet] = (),
+    findings: Findings | None = None,
+) -> WorkbookPlan:
+    """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
+
+    With `coarse`, the same cases with the coarser step, and `findings`, the result of the audit, it
+    is the report's own workbook, with all that is about the report alone. Raises ValueError where
+    the ledger has a claim computed by a cell that is none.
+    """
+    report, shown = findings is not None, about.shown
+    table = table_a1.sheet(ledger, cases[-1], report)
+    sheets = [
+        (
+            inputs.sheet(ledger, cases, report, about.warning_limits),
+            "Every physical number: yours and the report’s, unit, check, limits, name",
+        ),
+        (table, "The five rows that the report’s appendix prints, cell for cell"),
+    ]
+    if report:
+        check = "Printed, computed in full, and the difference in the last digit"
+        sheets.append((table_a1.check_sheet(ledger, table), check))
+    for case in (*cases, *coarse):
+        what = "All rows of the scheme down to the stop, and its final depth (appendix)"
+        again = "The same with the coarser time step, and what that changes (section 3)"
+        sheets.append((steps.sheet(ledger, case), again if case.coarse else what))
+    sheets += [
+        (figures.figure_3(cases, shown["Figure 3"]), "Depth against time, with its chart"),
+        (
+            figures.figure_5(cases[-1], shown["Figure 5"]),
+            "Normalized depth against velocity, with its chart (section 4)",
+        ),
+        (
+            figures.convergence(cases, shown["Convergence"]),
+            "Final depth at eight time steps against the depth at rest, with its chart",
+        ),
+        (models.frank_zook(ledger), "Eq. 16 as printed and as derived (Eqs. 14 to 17)"),
+        (
+            models.crater(ledger),
+            "Section 2: crater volume, depth and contact diameter; particle velocities",
+        ),
+        (
+            models.resistance(ledger, cases),
+            "β by three routes, grain strengths, centerline stress, strain rate",
+        ),
+    ]
+    if findings is not None:
+        everything = "Every printed number: what prints like it, computed value, verdict, its cell"
+        sheets.append((audit.sheet(ledger, findings), everything))
+        _require_cells(ledger, [sheet for sheet, _ in sheets])
+    described = {sheet.name: what for sheet, what in sheets}
+    first = overview.sheet(ledger, cases, described, about.version, findings)
     return WorkbookPlan(
-        sheets=(contents.sheet(cases, [sheet.name for sheet in sheets]), *sheets),
-        title=f"{contents.REPORT}: the model as a workbook",
-        author=f"after {contents.AUTHOR}",
-        subject="Replication with live formulas, each beside its computed value",
-        keywords="cold spray, penetration, replication, audit",
-        comments="Written by coldspray. No macros, no links to other files.",
+        sheets=(first, *(sheet for sheet, _ in sheets)),
+        title=f"{ledger.report.title}: the model as a workbook",
+        properties={
+            "author": f"coldspray {about.version}",
+            "subject": f"The model of a report by {ledger.report.author} "
+            f"({ledger.report.year}), as live formulas beside their computed values",
+            "keywords": "cold spray, penetration, replication, audit",
+            "comments": "No macros, no links to other files, no dates: the same inputs give the "
+            "same file.",
+        },
     )
 
 
-def _where(sheets: Sequence[SheetPlan]) -> dict[str, Place]:
-    return {
-        cell.key: (sheet.name, address)
-        for sheet in sheets
-        for address, cell in sheet.cells.items()
-        if cell.key
-    }
+def _require_cells(ledger: Ledger, sheets: Sequence[SheetPlan]) -> None:
+    """Raise ValueError unless every claim's cell is one that is computed."""
+    cells = {sheet.name: sheet.cells for sheet in sheets}
+    for claim in audit.computed_claims(ledger):
+        sheet, address = place_of(str(claim.entry.workbook))
+        cell = cells.get(sheet, {}).get(address)
+        if cell is None or not cell.formula:
+            raise ValueError(
+                f"claim {claim.id!r}: the workbook computes nothing in {sheet}!{address}"
+            )

@@ -1,143 +1,158 @@
-"""The sheet `Audit`: every claim of the ledger; those that a cell computes with a live verdict."""
+"""The sheet `Audit`: every claim of the ledger, with a live verdict where a cell computes it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-from reference.ledger import Claim, load
-from spreadsheets.plan import Cell, Place, Rule, SheetPlan
-from spreadsheets.sheets.audit_cells import CELLS, SCALES
-
-__all__ = ["FAILED", "REPRODUCED", "UNITS", "sheet"]
-
-REPRODUCED = "reproduced"
-FAILED = "not as printed"
-
-_NOTES = (
-    "Each number that the report prints, in its order. Computed refers to the cell that the link "
-    "on the right leads to; the verdict compares it with the values that print like the text.",
-    "The verdict is about the inputs as they stand. Whether other inputs that print like the "
-    "report’s would do, and the proof, is in audit.json, which coldspray audit writes.",
+from reference.ledger import Claim, Ledger
+from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
 )
-_HEAD = 5
+
+__all__ = ["AS_PRINTED", "KINDS", "OTHERWISE", "Findings", "computed_claims", "sheet"]
+
+AS_PRINTED, OTHERWISE = "as printed", "not as printed"
+KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
+"""Live verdicts, and what the names of their counts end with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a finished audit tells the workbook; texts and numbers only.
+
+    counts: verdict -> how many numbers have it. verdicts, explanations: by claim. failing: claims
+    that do not follow from what the report says. differing: those that public sources contradict.
+    """
+
+    headline: str
+    counts: Mapping[str, int]
+    verdicts: Mapping[str, str]
+    explanations: Mapping[str, str]
+    failing: Sequence[str]
+    differing: Sequence[str]
+
+
 _HEADS = (
-    ("Claim", "head"),
-    ("Where", "head"),
-    ("What", "head"),
-    ("Printed", "head right"),
-    ("Unit", "head unit"),
-    ("From", "head right"),
-    ("To", "head right"),
-    ("Computed", "head right"),
-    ("Verdict", "head unit"),
-    ("Computed in", "head unit"),
-)
-_WIDTHS = (26.0, 28.0, 52.0, 28.0, 9.0, 13.0, 13.0, 14.0, 16.0, 26.0)
-UNITS = {
-    "um": "µm",
-    "um^3": "µm³",
-    "kg/m^3": "kg/m³",
-    "m/s^2": "m/s²",
-    "gram_force": "gf",
-    "us": "µs",
-    "1": "–",
-}
+    "Claim", "What", "Printed", "Unit", "Computed", "Live verdict", "The audit’s verdict", "From",
+    "To", "Where", "Computed in", "Explanation",
+)  # fmt: skip
+_COLUMNS = "ABCDEFGHIJKL"
+_WIDTHS = (27.0, 36.0, 15.0, 8.0, 13.0, 15.0, 25.0, 12.0, 12.0, 34.0, 20.0, 60.0)
+_HEAD_ROW = 11
 
 
-def sheet(where: Mapping[str, Place]) -> SheetPlan:
-    """The sheet; `where` tells the place of a key on the other sheets."""
-    claims = load().claims
-    live = [claim for name, claim in claims.items() if name in CELLS]
-    rest = [claim for name, claim in claims.items() if name not in CELLS]
-    cells = {"A1": Cell(text="Audit: every number that the report prints", style="title")}
-    for row, note in enumerate(_NOTES, start=2):
-        cells[f"A{row}"] = Cell(text=note, style="note")
-    for column, (text, style) in zip("ABCDEFGHIJ", _HEADS, strict=True):
-        cells[f"{column}{_HEAD}"] = Cell(text=text, style=style)
-    for row, claim in enumerate(live, start=_HEAD + 1):
-        cells |= _what(claim, row, "body") | _verdict(claim, row, where[CELLS[claim.id]])
-    last = _HEAD + len(live)
-    cells[f"A{last + 2}"] = Cell(text="Claims that no cell computes, and why", style="block")
-    for row, claim in enumerate(rest, start=last + 3):
-        cells |= _what(claim, row, "printed label")
-        cells[f"F{row}"] = Cell(text=_reason(claim), style="printed label")
+def computed_claims(ledger: Ledger) -> list[Claim]:
+    """The claims that a cell of the workbook computes."""
+    return [claim for claim in ledger.claims.values() if claim.entry.workbook]
+
+
+def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
+    """The sheet. Each claim's entry in the ledger names the cell that computes it."""
+    first = _HEAD_ROW + 1
+    last = _HEAD_ROW + len(ledger.claims)
+    cells = title("Audit: every number that the report prints") | notes(
+        3,
+        "Live verdict: whether the computed cell, with the inputs in use, prints as the report "
+        "does; From and To are the values that print so. The audit’s verdict is about the report: "
+        "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
+        width=150,
+    )
+    cells |= _counts(first, last)
+    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CEHI")
+    for row, claim in enumerate(ledger.claims.values(), start=first):
+        live = _live(claim, row) if claim.entry.workbook else {"F": text("–", "text")}
+        cells |= row_of(row, _claim(ledger, claim, findings) | live)
+    verdicts = f"F{first}:F{last}"
     return SheetPlan(
         name="Audit",
         cells=cells,
-        widths=dict(zip("ABCDEFGHIJ", _WIDTHS, strict=True)),
-        frozen=f"B{_HEAD + 1}",
-        repeated_rows=(_HEAD, _HEAD),
+        widths=dict(zip(_COLUMNS, _WIDTHS, strict=True)),
+        frozen=f"B{first}",
+        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
+        print_area=f"A1:I{last}",
+        filtered=f"A{_HEAD_ROW}:L{last}",
         rules=tuple(
-            Rule(
-                cells=f"I{_HEAD + 1}:I{last}",
-                formula=f'=$I{_HEAD + 1}{sign}"{REPRODUCED}"',
-                style=style,
+            Rule(cells=verdicts, formula=f'=$F{first}="{words}"', style=style)
+            for words, style in (
+                (AS_PRINTED, "good"),
+                (OTHERWISE, "warning"),
+                (NOT_COMPUTED, "changed"),
             )
-            for sign, style in (("=", "good"), ("<>", "warning"))
         ),
     )
 
 
-def _what(claim: Claim, row: int, style: str) -> dict[str, Cell]:
-    texts = (
-        ("A", claim.id, style),
-        ("B", str(claim.place), style),
-        ("C", claim.title, style),
-        ("D", claim.text, "printed"),
-        ("E", UNITS.get(claim.unit, claim.unit), "unit"),
-    )
-    return {f"{column}{row}": Cell(text=text, style=how) for column, text, how in texts if text}
-
-
-def _verdict(claim: Claim, row: int, place: Place) -> dict[str, Cell]:
-    key, there = f"audit.{claim.id}", "'{}'!{}".format(*place)
-    assert claim.interval is not None
-    shown = "0.0000E+00" if claim.place.cell else "0.0###"
-    cells = {
-        f"{column}{row}": Cell(key=f"{key}.{end}", style="printed", number_format=shown)
-        for column, end in (("F", "lower"), ("G", "upper"))
-        if getattr(claim.interval, end) is not None
-    }
-    scale = SCALES.get(claim.id, "")
-    value = f"=IF(ISNUMBER({there}),{there}{scale},{there})" if scale else f"={there}"
-    cells[f"H{row}"] = Cell(
-        key=f"{key}.computed",
-        formula=value,
-        style="number",
-        number_format=shown.replace("#", "0"),
-        # It may refer to a value that is.
-        transcendental=True,
-    )
-    cells[f"I{row}"] = Cell(key=f"{key}.verdict", formula=_inside(claim, row), style="text")
-    cells[f"J{row}"] = Cell(text="{}!{}".format(*place), style="link", link=place)
+def _counts(first: int, last: int) -> dict[str, Cell]:
+    """How many live verdicts there are of each kind."""
+    cells = {"A6": text("Live verdicts", "block")}
+    for row, (words, what) in enumerate(KINDS, start=7):
+        cells[f"A{row}"] = text(words, "text")
+        count = f'=COUNTIF(F{first}:F{last},"{words}")'
+        cells[f"B{row}"] = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
     return cells
 
 
+def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
+    """What the ledger and the audit say of a claim, by column."""
+    return {
+        "A": text(claim.id),
+        "B": text(claim.title, wrap=True),
+        "C": printed(ledger, claim.id, claim.unit, wrap=True),
+        "D": unit_text(claim.unit),
+        "G": text(findings.verdicts[claim.id], "text", wrap=True),
+        "J": text(str(claim.place), "unit"),
+        "L": text(findings.explanations[claim.id], "unit"),
+    }
+
+
+def _live(claim: Claim, row: int) -> dict[str, Cell]:
+    """The computed value, the ends of what prints like the text, and the verdict, by column."""
+    assert claim.entry.workbook
+    place, interval = place_of(claim.entry.workbook), claim.interval()
+    key, shown = f"audit.{claim.id}", _format(claim)
+    cells = {
+        column: Cell(number=float(end), style="recorded", number_format=shown, claim=claim.id)
+        for column, end in (("H", interval.lower), ("I", interval.upper))
+        if end is not None
+    }
+    # It may hand on a value that is transcendental.
+    there = "='{}'!{}".format(*place)
+    more: dict[str, Any] = {"unit": claim.unit, "transcendental": True}
+    return cells | {
+        "E": formula(f"{key}.computed", there, number_format=shown, **more),
+        "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
+        "K": text(claim.entry.workbook, "link", link=place),
+    }
+
+
+def _format(claim: Claim) -> str:
+    """Fixed decimals for most, powers of ten where those would be long."""
+    size = 0 if claim.printed is None else abs(claim.printed.value)
+    return "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
+
+
 def _inside(claim: Claim, row: int) -> str:
-    """Whether H lies between F and G, ends counted as they are closed or open."""
-    interval = claim.interval
-    assert interval is not None
-    verdict = f'"{REPRODUCED}"'
-    if interval.lower == interval.upper:
+    """Whether E lies between H and I, ends counted as they are closed or open."""
+    interval = claim.interval()
+    verdict = f'"{AS_PRINTED}"'
+    if interval.is_point:
         # To nine digits: no program holds 2/3, and not all round it alike.
-        near = f"ABS(H{row}-F{row})*1000000000<=ABS(F{row})"
-        return f'=IF(ISNUMBER(H{row}),IF({near},{verdict},"{FAILED}"),"{FAILED}")'
-    if interval.upper is not None:
-        sign = "<=" if interval.upper_closed else "<"
-        verdict = f'IF(H{row}{sign}G{row},{verdict},"{FAILED}")'
-    if interval.lower is not None:
-        sign = ">=" if interval.lower_closed else ">"
-        verdict = f'IF(H{row}{sign}F{row},{verdict},"{FAILED}")'
-    return f'=IF(ISNUMBER(H{row}),{verdict},"{FAILED}")'
-
-
-def _reason(claim: Claim) -> str:
-    """Why no cell computes a claim, in a few words."""
-    if claim.kind == "blank":
-        return "a blank cell: blank on the sheet Table A-1, too"
-    if claim.computation is None:
-        return f"not checkable: {claim.given}"
-    if claim.computation.name == "same_as":
-        (names,) = claim.inputs.values()
-        return f"repeats {' × '.join(names)}"
-    if claim.computation.name == "count":
-        return "counts what the report lists"
-    return f"decided outside the workbook: coldspray claims {claim.id}"
+        near = f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"
+        verdict = f'IF({near},{verdict},"{OTHERWISE}")'
+    else:
+        if interval.upper is not None:
+            sign = "<=" if interval.upper_closed else "<"
+            verdict = f'IF(E{row}{sign}I{row},{verdict},"{OTHERWISE}")'
+        if interval.lower is not None:
+            sign = ">=" if interval.lower_closed else ">"
+            verdict = f'IF(E{row}{sign}H{row},{verdict},"{OTHERWISE}")'
+    return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'

@@ -1,306 +1,328 @@
-"""The sheet `Inputs`: every physical number of the workbook, typed once, as printed."""
+"""The sheet `Inputs`: every physical number, typed in the report's units, with what is made of it.
 
-from collections.abc import Iterator
+Yellow cells are typed; beside each stand the value in use in SI units, what the report has, and
+within what limits a number is taken. What follows from the inputs stands apart, below.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from decimal import Decimal
 
+from reference.ledger import INFERRED, Ledger
+from reference.units import to_si
 from spreadsheets.plan import Cell, Limits, Rule, SheetPlan
-from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.lines import WIDTHS, Line, heads, live, place
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    guarded,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
+)
+from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["ALL_VALID", "INPUTS", "REPORT_INPUTS", "Input", "sheet"]
+__all__ = ["COARSE", "INPUTS", "LIMITS", "REPORT", "Input", "inputs_of", "sheet"]
 
-NUMBER = "0.0####E+00"
-"""For lengths, times and stresses: up to six digits, so that what was typed can be read."""
+REPORT = "report"
+"""What the switch says to take the report's inputs; with any other text, the user's are taken."""
 
-
-_POSITIVE = Limits()
+LIMITS = {
+    "m/s": Limits(1e-6, 1e6),
+    "um": Limits(1e-4, 1e6),
+    "ns": Limits(1e-6, 1e6),
+    "kg/m^3": Limits(25.0, 1e5),
+    "Pa": Limits(1e5, 1e15),
+    "MPa": Limits(1e-3, 1e6),
+    "GPa": Limits(1e-4, 1e5),
+    "ksi": Limits(1e-3, 1e5),
+    "1": Limits(1e-4, 1e4),
+}
+"""What may be typed, by unit: wide enough for any impact, and too narrow for a number in SI units
+where the sheet asks for another (2E-10 for 0.2 ns, 7E8 for 700 MPa, 8.9 for 8900 kg/m³)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """One number: `text` in the report's unit, times ten to the `exponent`, in the SI `unit`.
+    """A number that is typed: its defined name, symbol, place in the ledger and unit.
 
-    `name` is the cell's defined name and, after "inputs.", its key; `printed` quotes the report,
-    and is empty for a number that the report does not print.
+    source: the id of the claim that prints it, or of an inferred input.
     """
 
     name: str
     symbol: str
-    meaning: str
-    text: str
-    exponent: int
-    unit: str
-    printed: str
     source: str
-    limits: Limits = _POSITIVE
+    unit: str = "1"
+    least: float | None = None
+    most: float | None = None
+    meaning: str = ""
 
     @property
-    def si(self) -> float:
-        """The double nearest to the decimal number in the SI unit.
+    def limits(self) -> Limits:
+        """The limits of its unit, or narrower or wider ones of its own."""
+        usual = LIMITS[self.unit]
+        return Limits(
+            usual.least if self.least is None else self.least,
+            usual.most if self.most is None else self.most,
+        )
 
-        >>> INPUTS["Y_t"].si, INPUTS["dt_s"].si
-        (700000000.0, 2e-10)
+    def of_report(self, ledger: Ledger) -> float:
+        """The report's number in this unit.
+
+        >>> from reference.ledger import load
+        >>> INPUTS["dt_s"].of_report(load()), INPUTS["R_p"].of_report(load())
+        (0.2, 11.0)
         """
-        return float(Decimal(self.text).scaleb(self.exponent))
+        return float(ledger.value(self.source) / to_si(self.unit))
 
 
-_INFERRED = "INFERRED from Table A-1: a handbook value of plain carbon steel"
-_A1 = "Table A-1"
-_FZ = "Section 3, Eq. 17 (fitted by Frank and Zook)"
-
-_IMPACT = (
-    Input("V_impact", "V", "impact velocity", "500", 0, "m/s", "500", f"{_A1}; section 3"),
-    Input("R_p", "R", "particle radius", "1.10E-05", 0, "m", "1.10E-05", f"{_A1}; 22 µm / 2"),
-    Input("rho_p", "ρ_p", "particle density (copper)", "8.90E+03", 0, "kg/m³", "8.90E+03", _A1),
-    Input("rho_t", "ρ_t", "target density (steel)", "7850", 0, "kg/m³", "", _INFERRED),
-    Input("dt_s", "Δt", "time step", "0.2", -9, "s", "0.2 ns", "Appendix; section 3"),
-    Input("v_stop", "v_stop", "stop velocity", "1", 0, "m/s", "1 m/s", "Appendix",
-          Limits(closed=True)),
-)  # fmt: skip
-_FLOW_STRESS = Input("Y_t", "Y_t", "target flow stress", "700", 6, "Pa", "700 MPa", "Section 3")
-_BETAS = (
-    Input("beta_low", "β", "resistance over flow stress, low", "3", 0, "1", "3", "Section 3"),
-    Input("beta_high", "β", "resistance over flow stress, high", "5", 0, "1", "5", "Section 3"),
-)
-_COARSE = Input(
-    "dt_coarse", "Δt", "coarser time step", "0.5", -9, "s", "0.5 ns",
-    "Section 3: “did not change significantly”",
-)  # fmt: skip
-_CRATER = (
-    Input("CV_PV", "CV/PV", "crater volume over particle volume, least", "0.06", 0, "1", "0.06",
-          "Section 2, above Eq. 4", Limits(most=0.5)),
-    Input("CV_PV_line", "CV/PV", "slope of the line in figure 1", "0.058", 0, "1", "0.058",
-          "Section 2", Limits(most=0.5)),
-    Input("d_min", "d", "smallest particle diameter", "10", -6, "m", "10 μm", "Section 2"),
-    Input("d_max", "d", "largest particle diameter", "30", -6, "m", "30 μm", "Section 2"),
-)  # fmt: skip
-_RESISTANCE = (
-    Input("q_Y", "q/Y_t", "Goodier's pressure over flow stress", "2.77", 0, "1", "2.77 Y_t",
-          "Section 3, below Eq. 8"),
-    Input("E_t", "E_t", "Young's modulus of the target", "200", 9, "Pa", "200 GPa",
-          "Section 3, below Eq. 11"),
-    Input("Y_steel", "Y", "yield strength of stainless steel", "215", 6, "Pa", "215 MPa",
-          "Section 3, below Eq. 11"),
-    Input("HB_ratio", "HB/UTS", "Brinell hardness over tensile strength", "3", 0, "1",
-          "“three times”", "Section 3"),
-    Input("S_feathery", "S", "strength, feathery grains", "110", 0, "ksi", "110 ksi", "Section 3"),
-    Input("S_clear", "S", "strength, clear grains", "98", 0, "ksi", "98 ksi", "Section 3"),
-    Input("S_bulk", "S", "strength, bulk material", "30", 0, "ksi", "~30 ksi", "Section 3"),
-    Input("Y_copper", "Y_p", "yield strength of annealed copper", "90", 6, "Pa", "90 MPa",
-          "Section 3"),
-    Input("L_typ", "L", "typical dimension for the strain rate", "20", -6, "m", "20 μm",
-          "Section 3"),
-)  # fmt: skip
-_FRANK_ZOOK = (
-    Input("k_1", "k_1", "unsteady-motion parameter", "0.557", 0, "1", "0.557", _FZ),
-    Input("k_t", "k_t", "inertia parameter (instead of 1/2)", "1.046", 0, "1", "1.046", _FZ),
-    Input("R_t_RHA", "R_t", "target resistance, rolled homogeneous armor", "9.13", 9, "Pa",
-          "9.13 × 10^9 Pa", _FZ),
-    Input("R_t_lower", "R_t", "target resistance, lower", "7.6", 9, "Pa", "7.6 × 10^9 Pa",
-          "Section 3, below Eq. 17"),
-)  # fmt: skip
-_UNITS = (
-    Input("lbf_N", "lbf", "pound-force", "4.4482216152605", 0, "N", "", "Exact, by definition"),
-    Input("inch_m", "in", "inch", "0.0254", 0, "m", "", "Exact, by definition"),
-)
-
-_FIGURE_5 = (
-    Input("V_from", "V", "least velocity of figure 5", "400", 0, "m/s", "400", "Section 4"),
-    Input("V_to", "V", "greatest velocity of figure 5", "500", 0, "m/s", "500 m/s", "Section 4"),
-)
-_EQUATIONS = (
-    Input("D_mean", "D", "mean particle diameter of the powder", "22", -6, "m", "22 μm",
-          "Section 2"),
-    Input("observed_ratio", "X/R", "observed normalized depth", "0.3", 0, "1", "0.3",
-          "Section 4: “0.9 or 0.7 vs. 0.3”"),
-)  # fmt: skip
+COARSE = "dt_coarse"
+"""The input that only the report's own workbook has."""
 
 _BLOCKS = {
-    "Impact": (*_IMPACT, _COARSE),
-    "Figure 5": _FIGURE_5,
-    "Target resistance of the sheets": (_FLOW_STRESS, *_BETAS),
-    "Crater data": _CRATER,
-    "Material data": _RESISTANCE,
-    "Frank-Zook": _FRANK_ZOOK,
-    "Equations": _EQUATIONS,
-    "Unit conversion": _UNITS,
+    "Impact": (
+        Input("V_impact", "V", "a1-initial-velocity", "m/s"),
+        Input("R_p", "R", "a1-radius", "um"),
+        Input("rho_p", "ρ_p", "a1-density", "kg/m^3"),
+        Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3"),
+        Input("dt_s", "Δt", "a-step", "ns"),
+        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", least=0.0),
+        Input(COARSE, "Δt", "coarse-step", "ns"),
+    ),
+    "Target resistance": (Input("Y_t", "Y_t", "flow-stress", "MPa"),),
+    "Velocities of Figure 5": (
+        Input("V_from", "V", "figure-5-velocity-least", "m/s"),
+        Input("V_to", "V", "figure-5-velocity-greatest", "m/s"),
+    ),
+    "Craters and particles": (
+        Input("CV_PV", "CV/PV", "volume-ratio", most=0.5),
+        Input("CV_PV_line", "CV/PV", "volume-ratio-line", most=0.5),
+        Input("D_mean", "D", "mean-diameter", "um"),
+        Input("d_min", "d", "particle-size-least", "um"),
+        Input("d_max", "d", "particle-size-greatest", "um"),
+        Input("observed_ratio", "X/R", "discussion-observed"),
+    ),
+    "Materials": (
+        Input("q_Y", "q/Y_t", "goodier-q"),
+        Input("E_t", "E_t", "elastic-modulus", "GPa"),
+        Input("Y_steel", "Y", "yield-strength", "MPa"),
+        Input("HB_ratio", "HB/UTS", "brinell-ratio"),
+        Input("S_feathery", "S", "strength-feathery", "ksi"),
+        Input("S_clear", "S", "strength-clear", "ksi"),
+        Input("S_bulk", "S", "strength-bulk", "ksi"),
+        Input("Y_copper", "Y_p", "copper-yield", "MPa"),
+        Input("L_typ", "L", "strain-rate-length", "um"),
+    ),
+    "Frank and Zook": (
+        Input("k_1", "k_1", "fz-k1"),
+        Input("k_t", "k_t", "fz-kt"),
+        Input("R_t_RHA", "R_t", "fz-resistance-rha", "Pa"),
+        Input("R_t_lower", "R_t", "fz-resistance-stainless", "Pa"),
+    ),
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
-"""Every input by its name."""
+"""Every input that does not differ between the cases, by its name."""
 
-REPORT_INPUTS = {_COARSE.name, *(entry.name for entry in (*_FIGURE_5, *_EQUATIONS))}
-"""What only sheets about the report take, and other workbooks leave out."""
+_HEADS = (
+    "Symbol", "Quantity", "Type here", "Unit", "Check", "In use", "Unit", "The report’s",
+    "It prints", "Where", "Least", "Greatest", "Name",
+)  # fmt: skip
+_COLUMNS = "ABCDEFGHIJKLM"
+_WIDTHS = (8.0, 42.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
+_HEAD_ROW = 9
+_SCIENTIFIC = "0.0####E+00"
 
-ALL_VALID = "All inputs are in range."
-_NOT_VALID = "CHECK THE INPUTS: column I tells which one is out of range."
-_CHECKED = '"ok";;"out of range"'
-"""Shows 1 and 0."""
+_SAME, _INFERRED, _YOURS = "the report’s", "as inferred", "yours"
+_BAD = ("too small", "too large", "no number")
+MESSAGES = {
+    "unusable": "CHECK THE INPUTS: column E tells which number cannot be used, and why.",
+    "report": "In use: the report’s inputs. What you typed is set aside.",
+    "changed": "In use: your inputs. Column E tells which of them are not the report’s.",
+    "same": "In use: the report’s inputs.",
+}
 
 
-def sheet(cases: tuple[CaseSheet, ...], report: bool) -> SheetPlan:
+def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input, ...]]:
+    """The inputs of a workbook of these cases, in blocks; `report`: it is the report's own."""
+    blocks = dict(_BLOCKS)
+    if not report:
+        blocks["Impact"] = tuple(entry for entry in blocks["Impact"] if entry.name != COARSE)
+    resistance = "Target resistance"
+    if cases[0].resistance_given:
+        given = "target resistance, given instead of β and Y_t"
+        blocks[resistance] = (Input("R_t", "R_t", "a1-resistance", "Pa", meaning=given),)
+    else:
+        meaning = "target resistance over flow stress, {}"
+        blocks[resistance] += tuple(
+            Input(case.named("beta"), "β", case.beta_claim, meaning=meaning.format(case.name))
+            for case in cases
+        )
+    return blocks
+
+
+def sheet(
+    ledger: Ledger, cases: Sequence[CaseSheet], report: bool, warning_limits: tuple[float, float]
+) -> SheetPlan:
     """The sheet for these cases, which share every input but the target resistance.
 
-    `report`: the workbook is the report's, and has the sheets that are about it alone.
+    warning_limits: above which share of the radius a step, and above which share of the exact
+    depth the sheet's excess over it, deserves a warning.
     """
-    cells = {
-        "A1": Cell(text="Inputs", style="title"),
-        "A2": Cell(
-            text="Change a blue number on yellow; every other sheet follows. SI units, except the "
-            "strengths in ksi. To restore the report's values, copy column H and paste values into "
-            "column C.",
-            style="note",
-        ),
-    }
-    cells |= heads(5) | place(list(_lines(cases, report)), 6)
-    named = {address: cell.name for address, cell in cells.items() if cell.name}
-    cells |= {f"G{address[1:]}": Cell(text=name, style="source") for address, name in named.items()}
-    checks = _checks(cells)
-    for column, head in (("G", "Name in formulas"), ("H", "Report's value"), ("I", "Check")):
-        cells[f"{column}5"] = Cell(text=head, style="head" if column == "G" else "head right")
-    cells |= checks | _report_values(cells) | _status(checks)
-    widths = dict(zip("ABCDEFGHI", (*WIDTHS, 18.0, 15.0, 12.0), strict=True))
-    warning = Rule(cells="A3", formula="=$I$3=0", style="warning")
-    failed = Rule(cells=f"I3:I{_last(checks)}", formula="=AND(ISNUMBER(I3),I3=0)", style="warning")
+    cells = title("Inputs") | notes(
+        3,
+        "Type into the yellow cells, in the unit beside them; every sheet follows. On orange: an "
+        "input that the report never prints, inferred from Table A-1.",
+    )
+    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CFHIKL")
+    row = first = _HEAD_ROW + 1
+    for block, entries in inputs_of(cases, report).items():
+        cells[f"A{row}"] = text(block, "block")
+        for entry in entries:
+            row += 1
+            cells |= row_of(row, _input(ledger, entry, row))
+        row += 2
+    checks = f"E{first}:E{row}"
+    cells |= _status(checks)
+    for block, rows in (
+        ("What follows from them", _derived(ledger, cases)),
+        ("Constants", _constants(warning_limits)),
+    ):
+        cells[f"A{row}"] = text(block, "block")
+        for follows in rows:
+            row += 1
+            cells |= row_of(row, follows)
+        row += 2
+    bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     return SheetPlan(
         name="Inputs",
         cells=cells,
-        widths=widths,
-        frozen="A6",
-        repeated_rows=(5, 5),
-        rules=(warning, failed),
+        widths=dict(zip(_COLUMNS, _WIDTHS, strict=True)),
+        frozen=f"C{first}",
+        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
+        print_area=f"A1:J{row - 2}",
+        rules=(
+            Rule(cells=checks, formula=f"=OR({bad})", style="warning"),
+            Rule(cells=checks, formula=f'=$E{first}="{_YOURS}"', style="changed"),
+            Rule(cells="A7", formula="=inputs_unusable>0", style="warning"),
+        ),
     )
 
 
-def _checks(cells: dict[str, Cell]) -> dict[str, Cell]:
-    """Column I: 1 beside an input that is a number in range, 0 beside another.
+def _status(checks: str) -> dict[str, Cell]:
+    """The switch, and how many inputs differ from the report's or cannot be used."""
+    unusable = "+".join(f'COUNTIF({checks},"{word}")' for word in _BAD)
+    said = {name: f'"{words}"' for name, words in MESSAGES.items()}
+    message = (
+        f'=IF(inputs_unusable>0,{said["unusable"]},IF(inputs_from="{REPORT}",{said["report"]},'
+        f"IF(inputs_changed>0,{said['changed']},{said['same']})))"
+    )
+    switch = Cell(key="inputs.from", style="input", name="inputs_from", choices=("yours", REPORT))
+    changed = f'=COUNTIF({checks},"{_YOURS}")'
+    return {
+        "B4": text("Inputs to take: yours, or the report’s"),
+        "C4": switch,
+        "B5": text("Inputs in use that are not the report’s"),
+        "C5": formula("inputs.changed", changed, "result", name="inputs_changed"),
+        "B6": text("Inputs that cannot be used"),
+        "C6": formula("inputs.unusable", f"={unusable}", "result", name="inputs_unusable"),
+        "A7": formula("inputs.message", message, "message"),
+    }
 
-    Beside the mass: whether it is one that doubles can hold.
+
+def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
+    """The cells of one input, by column."""
+    inferred = entry.source.startswith(INFERRED)
+    typed, in_use, own, least, most = (f"{column}{row}" for column in "CFHKL")
+    same = _INFERRED if inferred else _SAME
+    factor, none, key = _factor(entry.unit), f'"{NOT_COMPUTED}"', f"inputs.{entry.name}"
+    taken = f"IF({typed}<{least},{none},IF({typed}>{most},{none},{typed}{factor}))"
+    taken = f'=IF(inputs_from="{REPORT}",{own}{factor},IF(ISNUMBER({typed}),{taken},{none}))'
+    good = f'IF(inputs_from="{REPORT}","{same}",IF({typed}={own},"{same}","{_YOURS}"))'
+    bad = f'IF(ISNUMBER({typed}),IF({typed}<{least},"{_BAD[0]}","{_BAD[1]}"),"{_BAD[2]}")'
+    style = "inferred" if inferred else "input"
+    shown = _SCIENTIFIC if factor else "General"
+    si = _si(entry.unit)
+    cells = {
+        "A": text(entry.symbol, "text"),
+        "B": text(entry.meaning or ledger.title(entry.source)),
+        "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
+        "D": unit_text(entry.unit),
+        "E": formula(f"{key}.check", f"=IF(ISNUMBER({in_use}),{good},{bad})", "text"),
+        "F": formula(key, taken, name=entry.name, unit=si, number_format=shown),
+        "G": unit_text(si),
+        "H": Cell(number=entry.of_report(ledger), style="recorded"),
+        "I": text("nowhere", "recorded"),
+        "J": text("inferred from Table A-1", "unit"),
+        "K": Cell(number=entry.limits.least, style="recorded"),
+        "L": Cell(number=entry.limits.most, style="recorded"),
+        "M": text(entry.name, "unit"),
+    }
+    return cells if inferred else cells | _as_printed(ledger, entry.source, entry.unit)
+
+
+def _as_printed(ledger: Ledger, claim: str, unit: str) -> dict[str, Cell]:
+    """What the report prints, and where."""
+    place = str(ledger.claims[claim].place)
+    return {"I": printed(ledger, claim, unit), "J": text(place, "unit")}
+
+
+def _si(unit: str) -> str:
+    """The SI unit in which a value is in use."""
+    return {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}.get(unit, unit)
+
+
+def _factor(unit: str) -> str:
+    """What brings a number to SI: a division by a power of ten, where that is exact.
+
+    >>> _factor("ns"), _factor("MPa"), _factor("m/s")
+    ('/1000000000', '*1000000', '')
     """
-    checks = {}
-    for address, cell in cells.items():
-        if cell.limits:
-            formula = f"=IF(ISNUMBER({address}),{_in_range(address, cell.limits)},0)"
-        elif cell.name == "M_p":
-            formula = "=IFERROR(IF(rho_p*R_p*R_p*R_p>0,1,0),0)"
-        else:
-            continue
-        checks[f"I{address[1:]}"] = Cell(
-            key=f"inputs.{cell.name}.check",
-            formula=formula,
-            style="number",
-            number_format=_CHECKED,
-        )
-    return checks
+    if unit == "ksi":
+        return "*ksi_Pa"
+    factor = to_si(unit)
+    if factor == 1:
+        return ""
+    return f"*{factor}" if factor > 1 else f"/{1 / factor}"
 
 
-def _in_range(address: str, limits: Limits) -> str:
-    above = f"{address}{'>=' if limits.closed else '>'}{limits.least:g}"
-    if limits.most is None:
-        return f"IF({above},1,0)"
-    return f"IF({above},IF({address}<={limits.most:g},1,0),0)"
-
-
-def _last(checks: dict[str, Cell]) -> int:
-    return max(int(address[1:]) for address in checks)
-
-
-def _report_values(cells: dict[str, Cell]) -> dict[str, Cell]:
-    """Column H: the report's own value of each input, to be copied back."""
-    return {
-        f"H{address[1:]}": Cell(
-            key=f"inputs.{cell.name}.report", style="printed", number_format=cell.number_format
-        )
-        for address, cell in cells.items()
-        if cell.limits and cell.name in INPUTS
-    }
-
-
-def _status(checks: dict[str, Cell]) -> dict[str, Cell]:
-    """The one cell that every guard asks, and what it means."""
-    rows = [int(address[1:]) for address in checks]
-    return {
-        "A3": Cell(
-            key="inputs.message",
-            formula=f'=IF(inputs_ok=1,"{ALL_VALID}","{_NOT_VALID}")',
-            style="message",
-        ),
-        "I3": Cell(
-            key="inputs.ok",
-            formula=f"=MIN(I{min(rows)}:I{max(rows)})",
-            style="result",
-            number_format=_CHECKED,
-            name="inputs_ok",
-        ),
-    }
-
-
-def _lines(cases: tuple[CaseSheet, ...], report: bool) -> Iterator[Line | str]:
-    for title, entries in _BLOCKS.items():
-        kept = [entry for entry in entries if report or entry.name not in REPORT_INPUTS]
-        if not kept:
-            continue
-        yield title
-        if _FLOW_STRESS in kept:
-            yield from _resistance_lines(cases)
-        else:
-            yield from map(_line, kept)
-    yield "Derived"
-    yield _derived("D_p", "D", "particle diameter", "=2*R_p", "m", "2.20E-05", "Below Eq. 12")
-    yield _derived(
-        "M_p", "M", "particle mass", "=rho_p*4/3*PI()*R_p*R_p*R_p", "kg", "4.96E-11", "Table A-1"
-    )
-    yield _derived("half_step", "Δt/2", "half step to start", "=dt_s/2", "s", "0.1 ns", "Appendix")
-
-
-def _resistance_lines(cases: tuple[CaseSheet, ...]) -> Iterator[Line]:
-    if cases[0].resistance_given:
-        yield from map(_given_resistance, cases)
-        return
-    yield _line(_FLOW_STRESS)
-    yield from map(_beta, cases)
-    for case in cases:
-        printed = "3.50E+09" if case.slug == "high" else ""
-        formula = f"={case.named('beta')}*Y_t"
-        yield _derived(
-            case.named("R_t"), "R_t", f"target resistance, {case.name}", formula, "Pa", printed,
-            "Eq. 7; Eq. A-2",
+def _derived(ledger: Ledger, cases: Sequence[CaseSheet]) -> Iterator[dict[str, Cell]]:
+    """Name, symbol, meaning, formula, unit and claim of what follows; no name, no use elsewhere."""
+    rows = [
+        ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
+        ("M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", "a1-mass"),
+    ]
+    if not cases[0].resistance_given:
+        rows += [
+            (case.named("R_t"), "R_t", f"target resistance, {case.name}",
+             f"={case.named('beta')}*Y_t", "Pa", "a1-resistance" if case.slug == "high" else "")
+            for case in cases
+        ]  # fmt: skip
+    rows += [
+        ("half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns", "a-half-step"),
+        ("mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
+         "particle-radius"),
+    ]  # fmt: skip
+    for name, symbol, meaning, expression, unit, claim in rows:
+        in_si = unit not in ("ns", "um")
+        value = formula(
+            f"inputs.{name}", guarded(expression), unit=unit, name=name if in_si else "",
+            number_format=_SCIENTIFIC if in_si else "General",
         )  # fmt: skip
+        cells = {"A": text(symbol, "text"), "B": text(meaning), "F": value, "G": unit_text(unit)}
+        yield cells | (_as_printed(ledger, claim, unit) if claim else {})
 
 
-def _beta(case: CaseSheet) -> Line:
-    name = case.named("beta")
-    if name in INPUTS:
-        return _line(INPUTS[name])
-    return _line(
-        Input(name, "β", "resistance over flow stress", "", 0, "1", "3 and 5", "Section 3")
-    )
-
-
-def _given_resistance(case: CaseSheet) -> Line:
-    meaning = f"target resistance, {case.name}"
-    note = "Given instead of β and Y_t (the report: Eq. 7)"
-    return _line(Input(case.named("R_t"), "R_t", meaning, "", 0, "Pa", "", note))
-
-
-def _line(entry: Input) -> Line:
-    cell = Cell(
-        key=f"inputs.{entry.name}",
-        style="input" if entry.source != _INFERRED else "inferred",
-        number_format=NUMBER if entry.unit in ("m", "s", "Pa") else "General",
-        name=entry.name,
-        unit=entry.unit,
-        source=entry.source,
-        limits=entry.limits,
-    )
-    printed = entry.printed or "not printed"
-    return Line(symbol=entry.symbol, meaning=entry.meaning, cell=cell, printed=printed)
-
-
-def _derived(
-    name: str, symbol: str, meaning: str, formula: str, unit: str, printed: str, source: str
-) -> Line:
-    return live(
-        f"inputs.{name}", symbol, meaning, formula, unit, source,
-        printed=printed, number_format="0.00E+00", name=name,
-    )  # fmt: skip
+def _constants(warning_limits: tuple[float, float]) -> Iterator[dict[str, Cell]]:
+    # Programs differ in the digits of their own pi, so it stands in a cell.
+    for name, meaning, value, unit in (
+        ("pi_", "circumference over diameter, π", math.pi, "1"),
+        ("ksi_Pa", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
+        ("travel_most", "a step may pass this share of the radius", warning_limits[0], "1"),
+        ("excess_most", "the sheet may exceed the exact depth by", warning_limits[1], "1"),
+    ):
+        number = Cell(number=value, style="recorded", name=name, unit=unit)
+        named = text(name, "unit")
+        yield {"B": text(meaning), "F": number, "G": unit_text(unit), "M": named}

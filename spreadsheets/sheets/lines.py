@@ -1,123 +1,205 @@
-"""The table that most sheets are made of: one quantity a line, its value, unit and source."""
+"""What sheets are made of: cells, notes, and tables of one quantity a line."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import Any
 
-from spreadsheets.plan import Cell
+from reference.ledger import Ledger
+from reference.units import written
+from spreadsheets.plan import Cell, SheetPlan
 
-__all__ = ["CHECK_INPUTS", "HEADS", "WIDTHS", "Line", "heads", "live", "place", "valid_only"]
+__all__ = [
+    "HOME",
+    "NOT_COMPUTED",
+    "Line",
+    "formula",
+    "guarded",
+    "heads",
+    "log1p",
+    "notes",
+    "place",
+    "printed",
+    "row_of",
+    "sheet_of_lines",
+    "text",
+    "title",
+    "unit_text",
+]
 
-CHECK_INPUTS = "check the inputs"
-"""What stands in place of a value while an input is out of range."""
+NOT_COMPUTED = "not computed"
+"""What stands in place of a value that hangs on an input that cannot be used."""
 
-HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or section")
-WIDTHS = (9.0, 41.0, 15.0, 8.0, 17.0, 54.0)
+HOME = "Overview"
+"""The first sheet, to which a link leads back from every other."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+def text(words: str, style: str = "body", **more: Any) -> Cell:
+    """A cell with a text."""
+    return Cell(text=words, style=style, **more)
+
+
+def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:
+    """A cell with a formula, given with its "="; its value is supplied under the key."""
+    return Cell(key=key, formula=expression, style=style, **more)
+
+
+def row_of(row: int, cells: dict[str, Cell]) -> dict[str, Cell]:
+    """Cells by address, given by column."""
+    return {f"{column}{row}": cell for column, cell in cells.items()}
+
+
+def heads(
+    row: int, columns: Iterable[str], texts: Iterable[str], right: str = ""
+) -> dict[str, Cell]:
+    """Column heads; `right` names the columns of numbers, which are aligned to the right."""
+    return {
+        f"{column}{row}": text(
+            words, "head right" if column in right else "head" if column == "A" else "head unit"
+        )
+        for column, words in zip(columns, texts, strict=True)
+    }
+
+
+def title(words: str) -> dict[str, Cell]:
+    """The first two rows of a sheet: its title, and the way back."""
+    return {"A1": text(words, "title"), "A2": text(f"Back to {HOME}", "link", link=(HOME, "A1"))}
+
+
+def notes(row: int, *texts: str, width: int = 165, column: str = "A") -> dict[str, Cell]:
+    """Texts from `row` down, broken into lines that fit a page."""
+    lines = [line for words in texts for line in wrap(words, width)]
+    return {f"{column}{at}": text(line, "note") for at, line in enumerate(lines, row)}
+
+
+def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
+    """The text of a claim as the report prints it, with its unit where that is another."""
+    claim = ledger.claims[name]
+    own = "" if claim.unit == unit else f" {written(claim.unit)}"
+    return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
+
+
+def unit_text(unit: str) -> Cell:
+    """The unit beside a number."""
+    return text(written(unit) or "–", "unit")
+
+
+_REFERENCE = re.compile(
+    r"""(?P<skip>"[^"]*"|(?:'[^']*'!)?\$?[A-Z]{1,2}\$?\d+:\$?[A-Z]{1,2}\$?\d+|[A-Za-z]\w*\()
+    |(?P<cell>(?:'[^']*'!)?\$?\b[A-Z]{1,2}\$?\d+\b|\b[A-Za-z]\w*\b)""",
+    re.VERBOSE,
+)
+
+
+def guarded(expression: str) -> str:
+    """The formula, calculated where all that it refers to are numbers.
+
+    Elsewhere it says that nothing was computed. A mere reference is left as it is: it shows what it
+    refers to.
+
+    >>> guarded("=2*R_p"), guarded("=R_p")
+    ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
+    """
+    found = [match["cell"] for match in _REFERENCE.finditer(expression)]
+    names = list(dict.fromkeys(name for name in found if name))
+    if not names or expression == f"={names[0]}":
+        return expression
+    return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'
+
+
+def log1p(x: str) -> str:
+    """The formula of ln(1 + x) for the cell x > 0, to the last digits however small x is.
+
+    Where 1 + x is rounded to u, ln(u) is right for u: times x/(u - 1) it is right for x. Below 1e-8
+    the series is, whose third term is less than the last digit of the first.
+    """
+    return f"IF({x}<0.00000001,{x}-{x}*{x}/2,{x}*LN(1+{x})/((1+{x})-1))"
+
+
+@dataclass(frozen=True, slots=True)
 class Line:
-    """One quantity. Formulas call other lines of the same table by their `id` in braces."""
+    """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
 
+    The formula calls other lines of the same table by their `id` in braces; `guard`: see `guarded`.
+    claim: where the report prints the value. shown: the number format. Others: as in `Cell`.
+    """
+
+    key: str
     symbol: str
     meaning: str
-    cell: Cell
-    printed: str = ""
+    formula: str
+    unit: str = "1"
+    source: str = ""
+    claim: str = ""
+    shown: str = "0.0000"
+    style: str = "number"
+    name: str = ""
+    transcendental: bool = False
+    column: str = ""
+    guard: bool = True
 
     @property
     def id(self) -> str:
-        """The key without its sheet: "frank_zook.RHA.derived" is called {RHA_derived}."""
-        return self.cell.key.partition(".")[2].replace(".", "_")
+        """The key without its sheet: "frank_zook.rha.derived" is called {rha_derived}."""
+        return self.key.partition(".")[2].replace(".", "_")
 
 
-def live(
-    key: str,
-    symbol: str,
-    meaning: str,
-    formula: str,
-    unit: str = "",
-    source: str = "",
-    *,
-    printed: str = "",
-    number_format: str = "0.0000",
-    style: str = "number",
-    name: str = "",
-    transcendental: bool = False,
-) -> Line:
-    """A line whose value is a formula, calculated while all inputs are in range."""
-    cell = Cell(
-        key=key,
-        formula=valid_only(formula),
-        style=style,
-        number_format=number_format,
-        name=name,
-        unit=unit,
-        source=source,
-        transcendental=transcendental,
-    )
-    return Line(symbol=symbol, meaning=meaning, cell=cell, printed=printed)
-
-
-def valid_only(formula: str) -> str:
-    """The formula, with a message in place of its value while an input is out of range.
-
-    A mere reference is left as it is: it shows what it refers to.
-
-    >>> valid_only("=2*R_p"), valid_only("=R_p")
-    ('=IF(inputs_ok=1,2*R_p,"check the inputs")', '=R_p')
-    """
-    if re.fullmatch(r"=\w+", formula) or "inputs_ok" in formula:
-        return formula
-    return f'=IF(inputs_ok=1,{formula[1:]},"{CHECK_INPUTS}")'
-
-
-def heads(row: int, columns: str = "ABCDEF") -> dict[str, Cell]:
-    """The column heads, in that row."""
-    styles = ("head", "head", "head right", "head unit", "head right", "head unit")
-    return {
-        f"{column}{row}": Cell(text=text, style=style)
-        for column, text, style in zip(columns, HEADS, styles, strict=True)
-    }
-
-
-def place(lines: Sequence[Line | str], row: int, columns: str = "ABCDEF") -> dict[str, Cell]:
-    """Lay out lines from `row` down; a plain string heads a block, after a blank row.
+def place(
+    ledger: Ledger, lines: Sequence[Line | str], row: int, columns: str = "ABCDEF"
+) -> dict[str, Cell]:
+    """A table with its heads in `row`; a plain string heads a block, after a blank row.
 
     `columns` names the six columns taken: symbol, meaning, value, unit, printed text, source.
     """
-    rows = _rows(lines, row)
+    words = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
+    cells = heads(row, columns, words, columns[2] + columns[4])
+    rows: dict[int, Line | str] = {}
+    at = row
+    for line in lines:
+        at += 2 if isinstance(line, str) and rows else 1
+        rows[at] = line
     addresses = {
-        line.id: f"{columns[2]}{at}" for at, line in rows.items() if isinstance(line, Line)
+        line.id: f"{columns[2]}{at}" for at, line in rows.items() if not isinstance(line, str)
     }
-    cells: dict[str, Cell] = {}
     for at, line in rows.items():
         if isinstance(line, str):
-            cells |= {f"{columns[0]}{at}": Cell(text=line, style="block")}
+            cells[f"{columns[0]}{at}"] = text(line, "block")
         else:
-            cells |= _line(line, at, columns, addresses)
-    return cells
+            of_line = _cells(ledger, line, addresses)
+            cells |= row_of(at, dict(zip(columns, of_line, strict=True)))
+    return {address: cell for address, cell in cells.items() if cell != Cell()}
 
 
-def _rows(lines: Sequence[Line | str], row: int) -> dict[int, Line | str]:
-    rows: dict[int, Line | str] = {}
-    for line in lines:
-        if isinstance(line, str) and rows:
-            row += 1
-        rows[row] = line
-        row += 1
-    return rows
+def _cells(ledger: Ledger, line: Line, addresses: dict[str, str]) -> tuple[Cell, ...]:
+    """The six cells of a line."""
+    expression = line.formula.format_map(addresses)
+    value = formula(
+        line.key, guarded(expression) if line.guard else expression, line.style,
+        number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
+        transcendental=line.transcendental,
+    )  # fmt: skip
+    source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
+    return (
+        text(line.symbol, "text") if line.symbol else Cell(),
+        text(line.meaning),
+        value,
+        unit_text(line.unit) if line.style == "number" else Cell(),
+        printed(ledger, line.claim, line.unit) if line.claim else Cell(),
+        text(source, "unit") if source else Cell(),
+    )
 
 
-def _line(line: Line, row: int, columns: str, addresses: dict[str, str]) -> dict[str, Cell]:
-    value = line.cell
-    if value.formula:
-        value = replace(value, formula=value.formula.format_map(addresses))
-    unit = "–" if value.unit == "1" else value.unit
-    texts = (line.symbol, line.meaning, "", unit, line.printed, value.source)
-    styles = ("symbol", "body", "", "unit", "printed", "source")
-    cells = {
-        f"{column}{row}": Cell(text=text, style=style)
-        for column, text, style in zip(columns, texts, styles, strict=True)
-        if text
-    }
-    return cells | {f"{columns[2]}{row}": value}
+def sheet_of_lines(
+    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
+) -> SheetPlan:
+    """A sheet of one table under notes."""
+    above = title(heading) | notes(3, *said)
+    row = 2 + len(above)
+    return SheetPlan(
+        name=name,
+        cells=above | place(ledger, lines, row),
+        widths=dict(zip("ABCDEF", (9.0, 44.0, 14.0, 8.0, 20.0, 46.0), strict=True)),
+        frozen=f"A{row + 1}",
+        repeated_rows=(row, row),
+    )

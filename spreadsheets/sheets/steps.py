@@ -1,127 +1,416 @@
-"""The sheets of a case: the whole midpoint scheme, down to the stop, with either time step.
+"""The sheets of a case: the scheme row by row down to the stop, and what is read off the last row.
 
-Below the stop follow rows that are blank until an input needs them. If even they do not suffice,
-the result says so instead of giving a depth.
+Below the stop follow rows that stay blank until an input needs them. If even they do not suffice,
+the sheet says so instead of giving a depth; if the time step is too long for the motion, too.
 """
 
+from dataclasses import dataclass
+
+from reference.ledger import Ledger
+from reference.units import written
 from spreadsheets.plan import Cell, Rule, SheetPlan
-from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.motion import guarded, impact_index, moves_on, step_cells
-from spreadsheets.sheets.results import WIDTHS, results
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    Line,
+    formula,
+    heads,
+    log1p,
+    notes,
+    place,
+    text,
+    title,
+)
 
-__all__ = ["FIRST_ROW", "sheet"]
+__all__ = [
+    "FIRST_ROW",
+    "MAX_ROWS",
+    "SCHEMES",
+    "CaseSheet",
+    "prepared_rows",
+    "rest_depth",
+    "sheet",
+    "step_formulas",
+]
 
-FIRST_ROW = 6
+FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 
-_HEADS = (
-    ("A", "Row", "", ""),
-    ("B", "Time", "s", "Appendix"),
-    ("C", "dx/dt initial", "m/s", "Appendix"),
-    ("D", "x", "m", "Appendix"),
-    ("E", "d²x/dt²", "m/s²", "Eqs. 13, A-3"),
-    ("F", "dx/dt final", "m/s", "Appendix"),
-    ("G", "x", "µm", ""),
-)
-_FORMATS = {"C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000"}
+MAX_ROWS = 20_000
+"""A sheet of more rows is refused: writing it takes half a minute and gigabytes of memory."""
+
+SPARE_ROWS = 100
+"""At least so many rows stay blank after the stop, for inputs that need more steps."""
+
+SCHEMES = {
+    "published": "the drag is taken at the velocity with which a row begins",
+    "centered": "the drag is taken at the velocity in the middle of a row",
+}
+"""The two readings of the appendix, and what each does."""
 
 
-def sheet(case: CaseSheet) -> SheetPlan:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaseSheet:
+    """One case: what its sheet is called, how long it is, and what of the report is its own.
+
+    slug: "low" or "high" where two cases stand side by side, "case" where one is alone; its keys
+    and defined names carry it. label: what tells it from the other, as written ("β = 5"). steps,
+    rows: those in use and those prepared, after row 0. resistance_given: the target resistance is
+    an input and not the product of beta and the flow stress. beta_claim: where the report prints
+    its beta. depth_claim, ratio_claim: where it prints its results, if the case is the report's.
+    longer: the command that writes a longer workbook. coarse: with the step `dt_coarse`.
+    """
+
+    name: str
+    slug: str
+    label: str
+    steps: int
+    rows: int
+    scheme: str
+    beta_claim: str
+    depth_claim: str = ""
+    ratio_claim: str = ""
+    longer: str = ""
+    resistance_given: bool = False
+    coarse: bool = False
+
+    def named(self, symbol: str) -> str:
+        """The defined name of this case's `symbol`: R_t_low beside R_t_high, or R_t alone."""
+        return symbol if self.slug == "case" else f"{symbol}_{self.slug}"
+
+    @property
+    def part(self) -> str:
+        """What the keys of its sheet begin with: "low", or "low_coarse"."""
+        return f"{self.slug}_coarse" if self.coarse else self.slug
+
+    def result(self, what: str) -> str:
+        """The defined name of a result of its sheet: depth_um_low, or depth_um_low_coarse."""
+        return f"{self.named(what)}_coarse" if self.coarse else self.named(what)
+
+    def rules(self, cells: str) -> tuple[Rule, ...]:
+        """How cells look that say whether the run can be trusted."""
+        trust = self.result("trust")
+        return tuple(
+            Rule(cells=cells, formula=f"={trust}={state}", style=style)
+            for state, style in ((0, "warning"), (1, "changed"))
+        )
+
+    @property
+    def step_name(self) -> str:
+        """The defined name of its time step."""
+        return "dt_coarse" if self.coarse else "dt_s"
+
+    @property
+    def last_row(self) -> int:
+        """The last prepared row of its sheet."""
+        return FIRST_ROW + self.rows
+
+
+def prepared_rows(steps: int, wanted: int | None = None) -> int:
+    """Rows to prepare for so many steps: as wanted, or twice as many, in full hundreds.
+
+    Raises ValueError where that is too few for the steps or more than `MAX_ROWS`.
+
+    >>> prepared_rows(178), prepared_rows(3), prepared_rows(178, 1000)
+    (400, 200, 1000)
+    """
+    if steps > MAX_ROWS:
+        raise ValueError(
+            f"the workbook would need {steps:,} rows, more than {MAX_ROWS:,}: take a larger step"
+        )
+    if wanted is None:
+        return min(-(-max(2 * steps, steps + SPARE_ROWS) // 100) * 100, MAX_ROWS)
+    if not max(steps, 1) <= wanted <= MAX_ROWS:
+        raise ValueError(f"{wanted:,} rows do not do: the case needs {steps:,} to {MAX_ROWS:,}")
+    return wanted
+
+
+_HEADS = ("Row", "Time", "dx/dt initial", "x", "d²x/dt²", "dx/dt final", "x", "dx/dt middle")
+_COLUMNS = {
+    "A": ("index", "1", "General", ""),
+    "B": ("time", "s", "0.00E+00", ""),
+    "C": ("velocity_initial", "m/s", "0.000", "velocity"),
+    "D": ("depth", "m", "0.0000E+00", "depth"),
+    "E": ("deceleration", "m/s^2", "0.0000E+00", "deceleration"),
+    "F": ("velocity_final", "m/s", "0.000", "velocity"),
+    "G": ("depth_um", "um", "0.0000", "depth_um"),
+    "H": ("velocity_middle", "m/s", "0.000", "velocity"),
+}
+"""Column -> the end of its keys, its unit, its number format, and the cells of like size; the last
+is that of the centered scheme."""
+
+_RESULTS = "IJKLMN"
+_WIDTHS = (7.0, 33.0, 13.0, 7.0, 24.0, 26.0)
+
+
+def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
-    last = FIRST_ROW + case.rows
-    cells = _title(case) | {"A2": Cell(text=_NOTE, style="note")}
-    for column, head, unit, source in _HEADS:
-        cells[f"{column}4"] = Cell(text=head, style="head right")
-        if unit:
-            cells[f"{column}5"] = Cell(text=unit, style="unit right")
-        if source:
-            cells[f"{column}3"] = Cell(text=source, style="printed")
-    cells |= results(case, FIRST_ROW, last) | _impact_row(case)
-    for step in range(1, case.rows + 1):
-        cells |= _step_row(step, case)
-    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 12.0), "G": 8.0, "H": 3.0}
-    widths |= WIDTHS
+    centered = case.scheme == "centered"
+    columns = "ABCDEFGH" if centered else "ABCDEFG"
+    cells = _head(case, columns) | _results(ledger, case)
+    for step in range(case.rows + 1):
+        cells |= _row(step, case)
+    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, "H": 13.0 if centered else 3.0}
+    used = f"A{FIRST_ROW}:{columns[-1]}{case.last_row}"
     return SheetPlan(
         name=case.name,
         cells=cells,
-        widths=widths,
+        widths=widths | dict(zip(_RESULTS, _WIDTHS, strict=True)),
         frozen=f"A{FIRST_ROW}",
-        repeated_rows=(4, 5),
-        print_area=f"A1:N{FIRST_ROW + case.steps}",
-        rules=_rules(case, cells, last),
+        repeated_rows=(FIRST_ROW - 2, FIRST_ROW - 1),
+        print_area=f"A1:M{FIRST_ROW + max(case.steps, _RESULT_ROWS)}",
+        rules=(
+            Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
+            Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
+            *case.rules("A3"),
+        ),
     )
 
 
-def _title(case: CaseSheet) -> dict[str, Cell]:
-    """The title, with the live β and Δt: the sheet keeps its name when they change."""
-    cells = {"A1": Cell(text="Rigid-body penetration, row by row", style="title")}
-    shown = [("I", "J", "Δt [s] =", "step", case.step_named)]
+def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
+    """The title with the live β, the state of the run, notes, and the heads of the columns."""
+    top = FIRST_ROW - 2
+    cells = title("Rigid-body penetration, row by row") | notes(
+        4,
+        "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
+        f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
+        "The run stops with the first row below v_stop; printed pages end with the last row as "
+        f"written. {case.rows} rows are prepared; for more: {case.longer}",
+        width=140,
+    )
+    cells["A3"] = formula(f"{case.part}.state", f"={case.result('message')}", "message")
+    cells["I1"] = text(case.label, "title")
     if not case.resistance_given:
-        shown.append(("F", "G", "β =", "beta", case.named("beta")))
-    for label, value, text, what, name in shown:
-        cells[f"{label}1"] = Cell(text=text, style="title right")
-        cells[f"{value}1"] = Cell(
-            key=f"{case.part}.title.{what}", formula=f"={name}", style="title left", source="Inputs"
+        label = f'="β = "&{case.named("beta")}'
+        renamed = f'=IF(I1="{case.label}","","{KEPT_NAME}")'
+        cells["I1"] = formula(f"{case.part}.label", label, "title")
+        cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
+    cells |= heads(top, columns, _HEADS[: len(columns)], columns)
+    units = {column: written(_COLUMNS[column][1]) for column in columns}
+    return cells | {f"{c}{top + 1}": text(unit, "unit right") for c, unit in units.items() if unit}
+
+
+def step_formulas(
+    row: int, first: bool, resistance: str, step: str, middle: str = ""
+) -> dict[str, str]:
+    """The formulas of one time step, by column (appendix, Eqs. A-1 to A-3, both cases of Eq. 13).
+
+    Columns C to F hold dx/dt initial, x, d²x/dt² and dx/dt final; `first` marks the row after row
+    0, with its half step. resistance, step: the defined names of R_t and the time step. middle: in
+    the centered scheme, the column of the velocity in the middle of the row. The order of the
+    operations is fixed: it decides the last digit.
+    """
+    above = row - 1
+    v, x, a = f"C{row}", f"D{row}", f"E{row}"
+    area = f"IF({x}<R_p,D_p*{x}-{x}*{x},R_p*R_p)"
+
+    def deceleration(velocity: str) -> str:
+        return f"(0.5*rho_t*{velocity}*{velocity}+{resistance})*pi_*{area}/M_p"
+
+    formulas = {
+        "C": f"C{above}" if first else f"F{above}",
+        "D": f"{v}*({step}/2)" if first else f"D{above}+{v}*{step}",
+        "E": deceleration(f"{middle}{row}" if middle else v),
+        "F": f"{v}-{a}*{step}",
+    }
+    if middle:
+        formulas[middle] = f"{v}-{deceleration(v)}*({step}/2)"
+    # A test for "" instead of a number fails in two spreadsheet programs.
+    return {key: f'=IF(ISNUMBER(A{row}),{text},"")' for key, text in formulas.items()}
+
+
+def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
+    """One row of the sheet; row 0 is the impact itself, with no final velocity."""
+    row, dt = FIRST_ROW + step, case.step_name
+    if step:
+        velocity = f"{'C' if step == 1 else 'F'}{row - 1}"
+        going = f'IF({velocity}<v_stop,"",A{row - 1}+1)'
+        formulas = {"A": f'=IF(ISNUMBER(A{row - 1}),{going},"")'}
+        middle = "H" if case.scheme == "centered" else ""
+        formulas |= step_formulas(row, step == 1, case.named("R_t"), dt, middle)
+        time = f"A{row}*{dt}"
+    else:
+        needed = ("V_impact", "R_p", "rho_p", "rho_t", case.named("R_t"), dt, "v_stop", "M_p")
+        formulas = {"A": f'=IF(COUNT({",".join(needed)})={len(needed)},0,"")'}
+        starts = {"C": "V_impact", "D": "0", "E": "0"}
+        formulas |= {c: f'=IF(ISNUMBER(A{row}),{text},"")' for c, text in starts.items()}
+        time = "0"
+    formulas["B"] = f'=IF(ISNUMBER(A{row}),{time},"")'
+    formulas["G"] = f'=IF(ISNUMBER(A{row}),D{row}*1000000,"")'
+    cells = {}
+    for column, expression in formulas.items():
+        what, unit, shown, like = _COLUMNS[column]
+        cells[f"{column}{row}"] = formula(
+            f"{case.part}.row[{step}].{what}",
+            expression,
+            number_format=shown if step or column == "C" else "General",
+            unit=unit,
+            column=like and f"{case.part}.{like}",
         )
     return cells
 
 
-_NOTE = (
-    "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt; d²x/dt² is printed positive, "
-    "from that x and the initial velocity. The run stops with the first row below v_stop. "
-    "Printing ends with the last row of the inputs as emitted."
-)
+# The block beside the rows
+
+_RESULT_ROWS = 42
+
+KEPT_NAME = "The sheet keeps the name with which it was written."
+YES_NO = '"yes";;"no"'
+"""Shows 1 and 0; a truth value would show as TRUE in one program and as 1 in another."""
+
+STOPPED = "Stopped: the run is complete."
+WARNED = "Stopped, with a warning."
+INVALID = "NOT COMPUTED: an input cannot be used, see the sheet Inputs."
+OUT_OF_ROWS = "OUT OF ROWS: the rows end before the particle stops. See the note below."
+DOUBTFUL = "DO NOT TRUST THIS RUN."
+DOUBTS = {
+    "reversed": " The last step reverses the velocity.",
+    "coarse": " One step passes too much of the radius.",
+    "deep": " The depth is beyond the exact one.",
+}
+"""What is said of a run whose time step is too long, by kind."""
 
 
-def _rules(case: CaseSheet, cells: dict[str, Cell], last: int) -> tuple[Rule, ...]:
-    """A thin line under each row in use; a red message when the rows do not suffice."""
-    places = {cell.key: address for address, cell in cells.items()}
-    message, stopped = places[f"{case.part}.message"], places[f"{case.part}.stopped"]
-    return (
-        Rule(cells=f"A{FIRST_ROW}:G{last}", formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
-        Rule(cells=message, formula=f"={stopped}=0", style="warning"),
+def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
+    """Inputs, result, and the depth without time steps."""
+    lines: list[Line | str] = [
+        "Inputs of this sheet",
+        *_inputs(case),
+        "Result of the sheet",
+        *_result(case),
+        "Without time steps: Eqs. 12 and 13 integrated to rest",
+        *_exact(case),
+        "Is the time step short enough?",
+        *_doubts(case),
+    ]
+    if case.coarse:
+        lines += ["Against the sheet with the step dt_s", *_against_fine(case)]
+    return place(ledger, lines, FIRST_ROW - 2, _RESULTS)
+
+
+def _inputs(case: CaseSheet) -> list[Line]:
+    inputs = (
+        ("radius", "R", "particle radius", "R_p", "m"),
+        ("particle_density", "ρ_p", "particle density", "rho_p", "kg/m^3"),
+        ("mass", "M", "particle mass", "M_p", "kg"),
+        ("diameter", "D", "particle diameter", "D_p", "m"),
+        ("velocity", "V", "impact velocity", "V_impact", "m/s"),
+        ("resistance", "R_t", "target resistance", case.named("R_t"), "Pa"),
+        ("target_density", "ρ_t", "target density", "rho_t", "kg/m^3"),
+        ("step", "Δt", "time step", case.step_name, "s"),
+        ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
     )
+    return [
+        Line(f"{case.part}.{what}", symbol, meaning, f"={name}", unit, shown="0.0000E+00")
+        for what, symbol, meaning, name, unit in inputs
+    ]
 
 
-def _impact_row(case: CaseSheet) -> dict[str, Cell]:
-    """Row 0: time, x and deceleration are 0 by the initial conditions; no final velocity."""
-    row, key = FIRST_ROW, f"{case.part}.row[0]"
-    starts = {"B": "time", "D": "depth", "E": "deceleration"}
-    cells = {
-        f"{column}{row}": Cell(key=f"{key}.{what}", formula=guarded(row, "0"), style="number")
-        for column, what in starts.items()
+def _result(case: CaseSheet) -> list[Line]:
+    part = case.part
+
+    def cells(column: str) -> str:
+        return f"{column}{FIRST_ROW}:{column}{case.last_row}"
+
+    # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
+    count = f"COUNT({cells('A')})"
+
+    def result(
+        what: str, symbol: str, meaning: str, expression: str, unit: str, shown: str,
+        claim: str = "", column: str = "",
+    ) -> Line:  # fmt: skip
+        return Line(
+            f"{part}.{what}", symbol, meaning,
+            f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit, "" if claim else "Appendix",
+            claim=claim, shown=shown, name=case.result(what),
+            column=column and f"{part}.{column}", guard=False,
+        )  # fmt: skip
+
+    def final(column: str) -> str:
+        return f"INDEX({cells(column)},{count})"
+
+    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({final("F")}<v_stop,1,0),"{NOT_COMPUTED}")'
+    return [
+        Line(f"{part}.stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
+             name=case.result("stopped"), guard=False),
+        result("final_depth", "X", "final penetration depth", final("D"), "m", "0.0000E+00",
+               column="depth"),
+        result("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000",
+               "" if case.coarse else case.depth_claim, "depth_um"),
+        result("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
+               "" if case.coarse else case.ratio_claim),
+        result("steps", "", "steps taken", f"{count}-1", "1", "0"),
+        result("stop_time", "t", "time of the final row", final("B"), "s", "0.0000E+00"),
+        result("final_velocity", "v", "velocity that ends it",
+               f"IF({{steps}}>0,{final('F')},V_impact)", "m/s", "0.0000", column="velocity"),
+        Line(f"{part}.excess", "", "X/R over the observed X/R",
+             "={normalized_depth}/observed_ratio", claim="excess", shown="0.00"),
+    ]  # fmt: skip
+
+
+def rest_depth(pressure: str, c: str) -> tuple[str, str]:
+    """The formulas of c from the cell of rho_t V²/2R_t, and of X/R at rest from the cell of c."""
+    angle = f"ASIN(SQRT(3*{c})/2)/3"
+    shallow = f"4*SIN({angle})*SIN({angle}+pi_/3)"
+    return f"=4*rho_p/(3*rho_t)*{log1p(pressure)}", f"=IF({c}<=2/3,{shallow},1/3+{c})"
+
+
+def _exact(case: CaseSheet) -> list[Line]:
+    pressure = f"=rho_t*V_impact*V_impact/2/{case.named('R_t')}"
+    c, depth = rest_depth("{pressure}", "{c}")
+    lines = (
+        ("pressure", "p", "dynamic pressure over R_t", pressure, "1", "ρ_t V²/2R_t"),
+        ("c", "c", "work over the particle’s inertia", c, "1", "(4ρ_p/3ρ_t) ln(1 + p)"),
+        ("exact_normalized_depth", "X/R", "normalized depth at rest", depth, "1",
+         "root of y² - y³/3 = c, or 1/3 + c"),
+        ("exact_depth_um", "X", "penetration depth at rest",
+         "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above"),
+    )  # fmt: skip
+    return [
+        Line(f"{case.part}.{what}", symbol, meaning, expression, unit, source,
+             transcendental=what != "pressure",
+             shown="0.0000E+00" if what in ("pressure", "c") else "0.0000",
+             name=case.result(what) if unit == "um" else "")
+        for what, symbol, meaning, expression, unit, source in lines
+    ]  # fmt: skip
+
+
+def _doubts(case: CaseSheet) -> list[Line]:
+    """What tells that the time step is too long for the motion, and the message."""
+    part = case.part
+    signs = {
+        "reversed": "{final_velocity}<-v_stop",
+        "coarse": "{travel}>travel_most",
+        "deep": "{over_exact}>1+excess_most",
     }
-    cells[f"A{row}"] = Cell(key=f"{key}.index", formula=impact_index(), style="number")
-    cells[f"C{row}"] = Cell(
-        key=f"{key}.velocity_initial",
-        formula=guarded(row, "V_impact"),
-        style="number",
-        number_format="0.000",
-    )
-    cells[f"G{row}"] = _micrometers(row, key)
-    return cells
+    said = "&".join(f'IF({sign},"{DOUBTS[kind]}","")' for kind, sign in signs.items())
+    none = f'"{NOT_COMPUTED}"'
+    serious = "IF({coarse},1,IF({deep},1,0))".format_map(signs)
+    trust = f"IF({serious}=1,0,IF({signs['reversed']},1,2))"
+    stopped = f'IF({{trust}}=2,"{STOPPED}",IF({{trust}}=1,"{WARNED}","{DOUBTFUL}")&{said})'
+    message = f'IF({{stopped}}=1,{stopped},"{OUT_OF_ROWS}")'
+    return [
+        Line(f"{part}.travel", "Δt V/R", "radii passed in one step at V",
+             f"={case.step_name}*V_impact/R_p", shown="0.0000",
+             source="warning above travel_most"),
+        Line(f"{part}.over_exact", "", "depth over the depth at rest",
+             f"=IF({{stopped}}=1,{{normalized_depth}}/{{exact_normalized_depth}},{none})",
+             transcendental=True, shown="0.0000",
+             source="warning above 1 + excess_most", guard=False),
+        Line(f"{part}.trust", "", "2 sound, 1 with a warning, 0 do not use",
+             f"=IF({{stopped}}=1,{trust},0)",
+             shown="0", name=case.result("trust"), guard=False),
+        Line(f"{part}.message", "", "",
+             f'=IF(ISNUMBER({{stopped}}),{message},"{INVALID}")', style="message",
+             name=case.result("message"), guard=False),
+    ]  # fmt: skip
 
 
-def _step_row(step: int, case: CaseSheet) -> dict[str, Cell]:
-    row, first, key = FIRST_ROW + step, step == 1, f"{case.part}.row[{step}]"
-    index = moves_on(row, first, f"A{row - 1}+1")
-    cells = {
-        f"A{row}": Cell(key=f"{key}.index", formula=index, style="number"),
-        f"B{row}": Cell(
-            key=f"{key}.time",
-            formula=guarded(row, f"A{row}*{case.step_named}"),
-            style="number",
-            number_format="0.00E+00",
-        ),
-    }
-    cells |= step_cells(row, first, (case.named("R_t"), case.step_named), key, _FORMATS)
-    return cells | {f"G{row}": _micrometers(row, key)}
-
-
-def _micrometers(row: int, key: str) -> Cell:
-    return Cell(
-        key=f"{key}.depth_um",
-        formula=guarded(row, f"D{row}*1000000"),
-        style="number",
-        number_format="0.0000",
-    )
+def _against_fine(case: CaseSheet) -> list[Line]:
+    """The final depth beside that of the finer step."""
+    part, fine = case.part, case.named("depth_um")
+    return [
+        Line(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
+             claim=case.depth_claim),
+        Line(f"{part}.over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
+             claim="coarse-step-remark", shown="0.00%"),
+    ]  # fmt: skip

@@ -1,129 +1,198 @@
-"""The sheet `Table A-1`: the report's table, cell for cell in A1:F12, as live formulas.
+"""The sheets `Table A-1` and `Table A-1 check`: the report's table, as formulas and as printed.
 
-Every number format gives the text that the report prints, `6E-10` in General included. Beside it,
-from column H on, stands the printed text itself.
+`Table A-1` has it cell for cell in A1:F12; every number format gives the text that the report
+prints, `6E-10` in General included. From column H on stands the printed text itself.
 """
 
-from spreadsheets.plan import Cell, SheetPlan
-from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.motion import impact_index, moves_on, step_cells
+from reference.ledger import Claim, Ledger
+from spreadsheets.plan import Cell, Rule, SheetPlan
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    heads,
+    notes,
+    printed,
+    row_of,
+    text,
+    title,
+    unit_text,
+)
+from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, step_formulas
 
-__all__ = ["PRINTED", "ROWS", "sheet"]
+__all__ = ["DIGITS", "ROWS", "check_sheet", "sheet"]
 
 ROWS = 5
 """Rows of the table, row 0 (the impact itself) included."""
 
-PRINTED = (
-    ("R =", "1.10E-05", "", "", "", ""),
-    ("Density =", "8.90E+03", "", "", "", ""),
-    ("M =", "4.96E-11", "", "", "", ""),
-    ("D =", "2.20E-05", "", "", "", ""),
-    ("Initial vel =", "500", "", "", "", ""),
-    ("Rt =", "3.50E+09", "", "", "", ""),
-    ("Time", "", "dx/dt initial", "x", "d²x/dt²", "dx/dt final"),
-    ("0", "", "500", "0", "0", ""),
-    ("2.00E-10", "", "500", "5.00E-08", "3.11E+08", "5.00E+02"),
-    ("4.00E-10", "", "5.00E+02", "1.50E-07", "9.30E+08", "5.00E+02"),
-    ("6E-10", "", "5.00E+02", "2.50E-07", "1.54E+09", "4.99E+02"),
-    ("8.00E-10", "", "4.99E+02", "3.50E-07", "2.15E+09", "4.99E+02"),
-)
-"""The text of A1:F12, as the report prints it."""
-
 _FIRST = 8
-_SCIENTIFIC = "0.00E+00"
+_LABELS = ("R =", "Density =", "M =", "D =", "Initial vel =", "Rt =")
+_HEADS = ("Time", "", "dx/dt initial", "x", "d²x/dt²", "dx/dt final")
 _HEADER = {
-    "radius": ("R_p", "m"),
-    "particle_density": ("rho_p", "kg/m³"),
-    "mass": ("M_p", "kg"),
-    "diameter": ("D_p", "m"),
-    "velocity": ("V_impact", "m/s"),
-    "resistance": ("R_t", "Pa"),
+    "B1": ("radius", "R_p"),
+    "B2": ("particle_density", "rho_p"),
+    "B3": ("mass", "M_p"),
+    "B4": ("diameter", "D_p"),
+    "B5": ("velocity", "V_impact"),
+    "B6": ("resistance", "R_t"),
+}
+_COLUMNS = {
+    "A": "time",
+    "C": "velocity_initial",
+    "D": "depth",
+    "E": "deceleration",
+    "F": "velocity_final",
+    "G": "velocity_middle",
 }
 
 
-def sheet(case: CaseSheet, report: bool) -> SheetPlan:
+def _claims(ledger: Ledger) -> dict[str, Claim]:
+    """Address in the table -> the claim that is printed there."""
+    return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
+
+
+def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     """The table for a case: the report's is the one of beta = 5.
 
-    `report`: with the printed text beside it.
+    report: with the printed text beside it.
     """
-    cells = _header(case) | _impact_row()
-    for step in range(1, ROWS):
-        cells |= _step_row(step, (case.named("R_t"), case.step_named))
+    claims = _claims(ledger)
+    cells = {f"A{row}": text(words) for row, words in enumerate(_LABELS, start=1)}
+    for address, (what, symbol) in _HEADER.items():
+        name = case.named(symbol) if symbol == "R_t" else symbol
+        cells[address] = _live(claims, address, f"table.{what}", f"={name}")
+    for column, words in zip("ABCDEFG", (*_HEADS, "dx/dt middle"), strict=True):
+        if column != "G" or case.scheme == "centered":
+            style = "head" if column in "AB" else "head right"
+            cells[f"{column}{_FIRST - 1}"] = text(words, style)
+    for step in range(ROWS):
+        for column, expression in _row(step, case).items():
+            key = f"table.row[{step}].{_COLUMNS[column]}"
+            address = f"{column}{_FIRST + step}"
+            cells[address] = _live(claims, address, key, expression)
     if report:
-        cells |= _printed()
-    notes = (
-        "Table A-1. Rigid body penetration. Columns A to F: live formulas, the inputs of "
-        f"{case.name}." + (" Columns H to M: the report's text." if report else ""),
-        "M: Eq. 3 times the density. Rt: Eqs. 7, A-2. d²x/dt²: Eqs. 13, A-1, A-3. "
-        "Velocities and x: appendix.",
+        cells |= _beside(ledger, claims)
+    cells |= notes(
+        14,
+        "Table A-1, rigid body penetration. Columns A to F are live, with the inputs of "
+        f"{case.name}." + (" Columns H to M are the report’s text." if report else ""),
+        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
     )
-    for row, note in enumerate(notes, start=14):
-        cells[f"A{row}"] = Cell(text=note, style="note")
-    widths = dict.fromkeys("ABCDEF", 13.0) | {"G": 4.0} | dict.fromkeys("HIJKLM", 13.0)
+    cells["A18"] = title("")["A2"]
+    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0)
+    if case.scheme != "centered":
+        widths["G"] = 4.0
     return SheetPlan(name="Table A-1", cells=cells, widths=widths)
 
 
-def _header(case: CaseSheet) -> dict[str, Cell]:
-    cells: dict[str, Cell] = {}
-    for row, (what, (symbol, unit)) in enumerate(_HEADER.items(), start=1):
-        label, printed = PRINTED[row - 1][:2]
-        name = case.named(symbol) if what == "resistance" else symbol
-        cells[f"A{row}"] = Cell(text=label, style="body")
-        cells[f"B{row}"] = Cell(
-            key=f"table.{what}",
-            formula=f"={name}",
-            style="number",
-            number_format=_format(printed),
-            unit=unit,
-            source="Table A-1",
-        )
-    for column, text in zip("ABCDEF", PRINTED[_FIRST - 2], strict=True):
-        style = "head" if column in "AB" else "head right"
-        cells[f"{column}{_FIRST - 1}"] = Cell(text=text, style=style)
+def _live(claims: dict[str, Claim], address: str, key: str, expression: str) -> Cell:
+    """A cell of the table, in the unit and with the number format of what is printed there."""
+    if address not in claims:
+        return formula(key, expression, number_format=_SCIENTIFIC, unit="m/s")
+    shown, unit = _format(claims[address].text), claims[address].unit
+    return formula(key, expression, number_format=shown, unit=unit)
+
+
+def _row(step: int, case: CaseSheet) -> dict[str, str]:
+    """The formulas of one row of the table, by column; row 0 is the impact itself."""
+    row = _FIRST + step
+    if not step:
+        ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
+        starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
+        return {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
+    time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
+    velocity = f"{'C' if step == 1 else 'F'}{row - 1}"
+    going = f'IF({velocity}<v_stop,"",{time})'
+    middle = "G" if case.scheme == "centered" else ""
+    formulas = step_formulas(row, step == 1, case.named("R_t"), case.step_name, middle)
+    return {"A": f'=IF(ISNUMBER(A{row - 1}),{going},"")', **formulas}
+
+
+def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
+    """The printed text, in columns H to M."""
+    shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
+    cells = {f"H{row}": text(words, "unit") for row, words in enumerate(_LABELS, start=1)}
+    for column, words in zip("ABCDEF", _HEADS, strict=True):
+        if words:
+            cells[f"{shifted[column]}{_FIRST - 1}"] = text(words, "unit right")
+    for address, claim in claims.items():
+        cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
 
 
-def _impact_row() -> dict[str, Cell]:
-    """Row 0: at time 0 the particle stands at x = 0, not yet decelerated."""
-    start = {"A": "time", "D": "depth", "E": "deceleration"}
-    cells = {
-        f"{column}{_FIRST}": Cell(
-            key=f"table.row[0].{what}", formula=impact_index(), style="number"
-        )
-        for column, what in start.items()
-    }
-    velocity = Cell(key="table.row[0].velocity_initial", formula="=V_impact", style="number")
-    return cells | {f"C{_FIRST}": velocity}
+_SCIENTIFIC = "0.00E+00"
 
 
-def _step_row(step: int, names: tuple[str, str]) -> dict[str, Cell]:
-    row, first = _FIRST + step, step == 1
-    printed = dict(zip("ABCDEF", PRINTED[row - 1], strict=True))
-    formats = {column: _format(text) for column, text in printed.items()}
-    time = moves_on(row, first, f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*dt_s")
-    cells = step_cells(row, first, names, f"table.row[{step}]", formats)
-    cells[f"A{row}"] = Cell(
-        key=f"table.row[{step}].time",
-        formula=time,
-        style="number",
-        number_format=formats["A"],
-        unit="s",
-        source="Table A-1",
-    )
-    return cells
-
-
-def _printed() -> dict[str, Cell]:
-    cells = {}
-    for row, texts in enumerate(PRINTED, start=1):
-        for column, text in zip("HIJKLM", texts, strict=True):
-            if text:
-                label = column == "H" and row < _FIRST
-                style = "printed label" if label else "printed"
-                cells[f"{column}{row}"] = Cell(text=text, style=style)
-    return cells
-
-
-def _format(printed: str) -> str:
+def _format(words: str) -> str:
     """The number format that shows a number as printed: "6E-10" is General, "2.00E-10" is not."""
-    return _SCIENTIFIC if "." in printed else "General"
+    return _SCIENTIFIC if "." in words else "General"
+
+
+# The check
+
+DIGITS = 4
+"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
+
+_HEAD_ROW = 6
+_CHECK_HEADS = (
+    "Cell", "Quantity", "Unit", "The report prints", "Computed", "Difference", "",
+    "Last printed digit",
+)  # fmt: skip
+_FULL = "0.0000000000000000E+00"
+SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
+
+
+def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
+    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
+    cells = title("Table A-1: printed and computed") | notes(
+        3,
+        "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
+        "minus printed, in units of the last printed digit; up to 0.5 it prints the same.",
+    )
+    cells |= heads(_HEAD_ROW, "ABCDEFGH", _CHECK_HEADS, "DEFH")
+    first = _HEAD_ROW + 1
+    for row, (address, claim) in enumerate(_claims(ledger).items(), start=first):
+        cells |= row_of(row, _check(claim, address, row, table))
+    widths = (8.0, 26.0, 9.0, 17.0, 25.0, 12.0, 18.0, 17.0)
+    verdicts = f"G{first}:G{row}"
+    return SheetPlan(
+        name="Table A-1 check",
+        cells=cells,
+        widths=dict(zip("ABCDEFGH", widths, strict=True)),
+        frozen=f"B{first}",
+        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
+        rules=tuple(
+            Rule(cells=verdicts, formula=f'=$G{first}="{words}"', style=style)
+            for words, style in ((SAME_TEXT, "good"), (OTHER_TEXT, "warning"))
+        ),
+    )
+
+
+def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
+    """The cells of one number, by column."""
+    assert claim.printed is not None
+    key, there = f"table_check.{address}", f"'{table.name}'!{address}"
+    difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"
+    verdict = f'IF(ABS(F{row})<=0.5,"{SAME_TEXT}","{OTHER_TEXT}")'
+    if claim.is_exact:
+        difference = f"E{row}-D{row}"
+        verdict = f'IF(F{row}=0,"{SAME_TEXT}","{OTHER_TEXT}")'
+    difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
+    verdict = f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
+    shown = table.cells[address].number_format
+    number = Cell(
+        number=float(claim.printed.value), style="recorded", number_format=shown, claim=claim.id
+    )
+    digit = Cell(number=float(claim.printed.quantum), style="recorded", number_format="0E+00")
+    return {
+        "A": text(address, "link", link=(table.name, address)),
+        "B": text(claim.title),
+        "C": unit_text(claim.unit),
+        "D": number,
+        "E": formula(f"{key}.computed", f"={there}", number_format=_FULL, unit=claim.unit),
+        # Rounding is done by each program in its own way: it may cost a last digit.
+        "F": formula(
+            f"{key}.difference", difference, "result", number_format="0.0000", transcendental=True
+        ),
+        "G": formula(f"{key}.verdict", verdict, "text"),
+        "H": digit,
+    }

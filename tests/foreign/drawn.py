@@ -4,7 +4,7 @@ import random
 
 from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters
 
-from replication.impact import Impact
+from replication.models.impact import Impact
 
 HEADS = {
     TIME: ["t", "Time", "time (UNIT)", "Zeit [UNIT]", "temps (UNIT)", "t [UNIT]", "t/UNIT", "Zeit"],

@@ -8,8 +8,8 @@ is the impact, row 1 the first step. `faults.py` spoils them, `writers.py` makes
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from replication.impact import Impact
-from replication.midpoint import run
+from replication.models.impact import Impact
+from replication.models.sheet import run
 
 Place = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""

@@ -17,8 +17,8 @@ from foreign.drawn import drawn
 from foreign.faults import FAULTS, Planted
 from foreign.layouts import Foreign, by_hand
 
+from replication.cases import BETA_3, BETA_5
 from replication.check.workbook import Check, check
-from replication.impact import BETA_3, BETA_5
 
 DRAWN = range(24)
 CASES = (BETA_5, BETA_3)

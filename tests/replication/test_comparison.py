@@ -9,10 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from reference.exact import Reals, final_depth
-from reference.ledger import load
-from replication import closed_form
 from replication.analysis.approaches import Approach, approaches
 from replication.analysis.scatter import SHARES, scatter, stated_deviations, tied_particles
 from replication.analysis.sensitivity import (
@@ -21,8 +18,12 @@ from replication.analysis.sensitivity import (
     stated_effects,
     ten_percent_effects,
 )
+
+from reference.ledger import load
 from replication.audit import assess_claim
-from replication.impact import BETA_3, BETA_5, Impact
+from replication.cases import BETA_3, BETA_5
+from replication.models import arrays
+from replication.models.impact import Impact
 
 OBSERVED = 0.29803390509065253
 CLAIMS = (
@@ -69,7 +70,7 @@ impacts = st.builds(
 @given(impacts, st.sampled_from(INPUTS))
 def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str) -> None:
     ar = Reals(50)
-    if abs(float(closed_form.final_depth(**impact.motion)) / impact.radius - 1) < 1e-6:
+    if abs(float(arrays.final_depth(**impact.motion)) / impact.radius - 1) < 1e-6:
         return  # the second derivative jumps at y = 1, so that differences across it are coarser
 
     def log_depth(share: mpmath.mpf) -> mpmath.mpf:
@@ -112,7 +113,7 @@ def test_quantiles_of_the_ratio_are_those_of_the_velocity() -> None:
     whole = NormalDist(500.0, deviations["velocity"])
     for share, quantile in zip(SHARES, independent.ratio.quantiles, strict=True):
         there = replace(BETA_5, velocity=whole.inv_cdf(share))
-        exact = float(closed_form.final_depth(**there.motion)) / there.radius
+        exact = float(arrays.final_depth(**there.motion)) / there.radius
         # Linear interpolation between points 0.04 deviations apart.
         assert quantile == pytest.approx(exact, rel=1e-4)
 
@@ -131,7 +132,7 @@ def test_depths_of_independent_particles_against_drawn_ones() -> None:
     radius = random.normal(11e-6, deviations["diameter"] / 2, 200_000)
     velocity = random.normal(500.0, deviations["velocity"], 200_000)
     kept = (radius > 0) & (velocity > 0)
-    depths = closed_form.final_depth(velocity[kept], radius[kept], 8900.0, 7850.0, 3.5e9)
+    depths = arrays.final_depth(velocity[kept], radius[kept], 8900.0, 7850.0, 3.5e9)
     # 200,000 draws tell a quantile to about 0.2 % in the middle, 0.4 % at the ends.
     drawn = np.quantile(depths, SHARES)
     assert np.allclose(independent.depth.quantiles, drawn, rtol=0.01)
@@ -148,7 +149,7 @@ def test_the_velocity_for_the_observed_depth_gives_it() -> None:
     tied, independent = scatter(BETA_3, stated_deviations(load()), OBSERVED)
     needed = tied.velocity_for_observed
     there = replace(BETA_3, velocity=needed)
-    assert float(closed_form.final_depth(**there.motion)) / 11e-6 == pytest.approx(OBSERVED, 1e-13)
+    assert float(arrays.final_depth(**there.motion)) / 11e-6 == pytest.approx(OBSERVED, 1e-13)
     assert independent.velocity_for_observed == needed
     assert independent.share_below_observed < 1e-6
 

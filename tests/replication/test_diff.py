@@ -9,8 +9,8 @@ import pytest
 from foreign import layouts, writers
 from foreign.layouts import Foreign, letters, place
 
+from replication.cases import BETA_5
 from replication.check.diff import KINDS, Tolerance
-from replication.impact import BETA_5
 
 Run = Callable[..., tuple[int, str, str]]
 Diff = Callable[..., tuple[int, dict]]

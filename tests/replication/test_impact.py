@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.case import INPUTS, inputs_of, read_case
-from replication.impact import BETA_3, BETA_5, CASES, Impact
+from replication.cases import BETA_3, BETA_5, CASES, INPUTS, inputs_of, read_case
+from replication.models.impact import Impact
 
 
 def test_the_reports_cases_differ_only_in_beta() -> None:

@@ -1,14 +1,24 @@
-"""The engines, as fixtures: ``engine`` runs a test once for each, ``usable`` gives one by name."""
+"""The engines, as fixtures; workbooks, and files of them into which somebody typed."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+import re
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
 
 import pytest
 
+from replication import workbook
+from replication.audit.audit import audit
+from replication.workbook import Workbook
 from spreadsheets import engines
 from spreadsheets.engines import Engine
+from spreadsheets.engines.base import worksheets
 
 FROM_PIP = ("ironcalc", "formualizer")
 """Required for the tests, so a missing one fails; the others come from the system."""
@@ -34,3 +44,72 @@ def usable() -> Callable[[str], Engine]:
 def engine(request: pytest.FixtureRequest, usable: Callable[[str], Engine]) -> Engine:
     """Each engine in turn."""
     return usable(request.param)
+
+
+@pytest.fixture(scope="session")
+def build() -> Callable[..., Workbook]:
+    """`workbook.build`, with one finished audit for all."""
+    return partial(workbook.build, record=audit())
+
+
+@pytest.fixture(scope="session")
+def book(build: Callable[..., Workbook]) -> Workbook:
+    """The report's workbook."""
+    return build()
+
+
+@dataclass(frozen=True)
+class Emitted:
+    """A workbook and its file."""
+
+    book: Workbook
+    path: Path
+
+    def typed(self, numbers: Mapping[str, float | str | None], path: Path) -> Path:
+        """A copy of the file in which numbers, texts or nothing were typed into cells, by key.
+
+        All stored values remain those of the file, as when a person types.
+        """
+        cells: dict[str, dict[str, Any]] = {}
+        for key, number in numbers.items():
+            sheet, address = self.book.plan.where[key]
+            cells.setdefault(sheet, {})[address] = number
+        with zipfile.ZipFile(self.path) as old, zipfile.ZipFile(path, "w") as new:
+            parts = {part: cells.get(sheet, {}) for sheet, part in worksheets(old).items()}
+            for part in old.namelist():
+                content = old.read(part).decode()
+                for address, number in parts.get(part, {}).items():
+                    content = _type(content, address, number)
+                new.writestr(part, content)
+        return path
+
+
+def _type(content: str, address: str, number: float | str | None) -> str:
+    found = re.search(rf'<c r="{address}"( s="\d+")?[^>]*>.*?</c>', content)
+    assert found is not None
+    start = f'<c r="{address}"{found[1]}'
+    if number is None:
+        cell = f"{start}/>"
+    elif isinstance(number, str):
+        cell = f'{start} t="inlineStr"><is><t>{number}</t></is></c>'
+    else:
+        cell = f"{start}><v>{number!r}</v></c>"
+    return content.replace(found[0], cell)
+
+
+@pytest.fixture(scope="session")
+def emit_to(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Workbook], Emitted]:
+    """Return a function that writes a workbook and gives it with its file."""
+
+    def written(book: Workbook) -> Emitted:
+        path = tmp_path_factory.mktemp("emitted") / "workbook.xlsx"
+        path.write_bytes(book.to_bytes())
+        return Emitted(book, path)
+
+    return written
+
+
+@pytest.fixture(scope="session")
+def emitted(book: Workbook, emit_to: Callable[[Workbook], Emitted]) -> Emitted:
+    """The report's workbook as a file."""
+    return emit_to(book)

@@ -23,16 +23,17 @@ def test_one_ulp_is_a_difference() -> None:
 
 
 def test_only_named_cells_are_allowed_a_distance() -> None:
-    expected, found = {"S": {"A1": 1.0, "A2": 1.0}}, {"S": {"A1": 1.1, "A2": 1.1}}
+    expected, found = {"S": {"A1": 10.0, "A2": 10.0}}, {"S": {"A1": 10.1, "A2": 10.1}}
     (left,) = compare(expected, found, {("S", "A1"): 0.2})
     assert left.cell == "A2"
+    assert len(compare(expected, found, {("S", "A1"): 0.05})) == 2  # it is not relative
 
 
-@pytest.mark.parametrize(("one", "other"), [(0.0, None), (1.0, "1.0"), ("#N/A", 1.0), ("a", "b")])
-def test_kinds_are_not_mixed(one: float | str, other: float | str | None) -> None:
-    found = {"S": {} if other is None else {"A1": other}}
-    (left,) = compare({"S": {"A1": one}}, found)
-    assert (left.expected, left.found, left.ulps) == (one, other, None)
+@pytest.mark.parametrize(("want", "got"), [(0.0, None), (1.0, "1.0"), ("#N/A", 1.0), ("a", "b")])
+def test_kinds_are_not_mixed(want: float | str, got: float | str | None) -> None:
+    found = {"S": {} if got is None else {"A1": got}}
+    (left,) = compare({"S": {"A1": want}}, found, {("S", "A1"): 9.0})
+    assert (left.expected, left.found, left.ulps) == (want, got, None)
 
 
 def test_surplus_cells_and_sheets_are_differences() -> None:

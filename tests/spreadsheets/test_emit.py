@@ -1,18 +1,25 @@
 """The file itself: all digits, the same bytes everywhere, whole or not written at all."""
 
+from __future__ import annotations
+
+import io
 import os
 import random
+import re
 import struct
 import subprocess
 import sys
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
+from openpyxl import load_workbook
 
-from replication import workbook
 from spreadsheets import emit
+from spreadsheets.engines import Engine
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
 from spreadsheets.readback import read
 
@@ -20,8 +27,12 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
 def plan_of(**cells: Cell) -> WorkbookPlan:
-    sheet = SheetPlan(name="S", cells=cells, widths={"A": 10.0})
-    return WorkbookPlan(sheets=(sheet,), title="t", author="a", subject="s")
+    return WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, widths={"A": 10.0}),), title="t")
+
+
+def written(path: Path, plan: WorkbookPlan, values: dict[str, Value]) -> Path:
+    emit.write(path, emit.to_bytes(plan, values))
+    return path
 
 
 def elements(path: Path, part: str = "xl/worksheets/sheet1.xml") -> dict[str, ET.Element]:
@@ -39,9 +50,7 @@ def test_random_doubles_survive_as_number_and_as_formula_value(tmp_path: Path) -
     cells = {f"A{r}": Cell(key=f"n{r}") for r in range(1, len(doubles) + 1)}
     cells |= {f"B{r}": Cell(key=f"f{r}", formula="=1+1") for r in range(1, len(doubles) + 1)}
     values: dict[str, Value] = {f"{k}{r}": d for r, d in enumerate(doubles, 1) for k in "nf"}
-    path = tmp_path / "w.xlsx"
-    emit.write(path, plan_of(**cells), values)
-    stored = read(path).values["S"]
+    stored = read(written(tmp_path / "w.xlsx", plan_of(**cells), values)).values["S"]
     assert [stored[f"A{r}"] for r in range(1, len(doubles) + 1)] == doubles
     assert [stored[f"B{r}"] for r in range(1, len(doubles) + 1)] == doubles
 
@@ -52,8 +61,9 @@ def test_empty_text_and_truth_have_their_types(tmp_path: Path) -> None:
         "A2": Cell(key="true", formula="=1=1"),
         "A3": Cell(key="text", formula='="x"'),
     }
-    emit.write(tmp_path / "w.xlsx", plan_of(**cells), {"blank": "", "true": True, "text": "x"})
-    types = {place: cell.get("t") for place, cell in elements(tmp_path / "w.xlsx").items()}
+    values: dict[str, Value] = {"blank": "", "true": True, "text": "x"}
+    path = written(tmp_path / "w.xlsx", plan_of(**cells), values)
+    types = {place: cell.get("t") for place, cell in elements(path).items()}
     assert types == {"A1": "str", "A2": "b", "A3": "str"}
 
 
@@ -82,14 +92,82 @@ def test_a_failed_write_leaves_the_old_file_and_no_draft(tmp_path: Path) -> None
     target = tmp_path / "taken"
     target.mkdir()
     with pytest.raises(OSError, match="taken"):
-        emit.write(target, plan_of(A1=Cell(key="k")), {"k": 1.0})
+        emit.write(target, b"", force=True)
     assert list(tmp_path.iterdir()) == [target]
+
+
+# Files of others
+
+
+def test_only_our_own_file_is_written_over(tmp_path: Path) -> None:
+    path = tmp_path / "w.xlsx"
+    first, second = (emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": k}) for k in (1.0, 2.0))
+    emit.write(path, first)
+    emit.write(path, second)
+    assert path.read_bytes() == second
+
+
+def changed(content: bytes, old: bytes, new: bytes) -> bytes:
+    """The file with that change in one of its parts."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
+        for name in before.namelist():
+            after.writestr(name, before.read(name).replace(old, new))
+    return buffer.getvalue()
+
+
+OURS = emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": 1.5})
+FOREIGN = {
+    "a number typed": changed(OURS, b"<v>1.5</v>", b"<v>1.6</v>"),
+    "a column widened": changed(OURS, b'width="10.7', b'width="12.7'),
+    "a seal of its own": changed(OURS, b"coldspray-sha256", b"coldspray-sha257"),
+    "a text": b"notes",
+    "nothing": b"",
+    "half of it": OURS[: len(OURS) // 2],
+}
+
+
+@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
+def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "w.xlsx"
+    path.write_bytes(content)
+    assert content != OURS
+    with pytest.raises(FileExistsError, match="not as coldspray wrote it; take another name"):
+        emit.write(path, OURS)
+    assert path.read_bytes() == content
+    emit.write(path, OURS, force=True)
+    assert emit.is_own(path)
+
+
+def test_a_file_that_libreoffice_saved_is_not_ours_and_keeps_its_looks(
+    emitted: Any, usable: Callable[[str], Engine], tmp_path: Path
+) -> None:
+    usable("libreoffice")
+    command = ["soffice", f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}", "--headless"]
+    command += ["--convert-to", "xlsx", "--outdir", str(tmp_path), str(emitted.path)]
+    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    saved = tmp_path / "workbook.xlsx"
+    assert emit.is_own(emitted.path)
+    assert not emit.is_own(saved)
+    before, after = load_workbook(emitted.path), load_workbook(saved)
+    assert set(before.defined_names) <= set(after.defined_names)
+    for sheet in emitted.book.plan.sheets:
+        assert len(before[sheet.name]._charts) == len(after[sheet.name]._charts)
+        for address in list(sheet.cells)[:60]:
+            old, new = before[sheet.name][address], after[sheet.name][address]
+            assert old.number_format == new.number_format
+            assert (old.fill.fgColor.rgb, old.font.b) == (new.fill.fgColor.rgb, new.font.b)
+    validations = after["Inputs"].data_validations.dataValidation
+    assert len(validations) > 30
+
+
+# The whole workbook's file
 
 
 def test_same_bytes_whatever_the_surroundings(tmp_path: Path) -> None:
     code = (
         "import sys; from pathlib import Path; from replication import workbook; "
-        "workbook.write(Path(sys.argv[1]))"
+        "Path(sys.argv[1]).write_bytes(workbook.build([workbook.BETA_5]).to_bytes())"
     )
     settings = [
         {"TZ": "Pacific/Kiritimati", "PYTHONHASHSEED": "1", "LC_ALL": "C"},
@@ -104,10 +182,46 @@ def test_same_bytes_whatever_the_surroundings(tmp_path: Path) -> None:
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
-def test_properties_name_the_report(tmp_path: Path) -> None:
-    path = tmp_path / "w.xlsx"
-    workbook.write(path)
-    with zipfile.ZipFile(path) as archive:
+def test_properties_claim_nothing_that_is_not_so(emitted: Any) -> None:
+    with zipfile.ZipFile(emitted.path) as archive:
         core = archive.read("docProps/core.xml").decode()
+        app = archive.read("docProps/app.xml").decode()
     assert "Modeling Impacts for Cold-Gas Dynamic Spray" in core
-    assert "2006-01-01T00:00:00Z" in core
+    assert "<dc:creator>coldspray " in core
+    assert "Rosset</dc:creator>" not in core
+    assert "dcterms:" not in re.sub(r"xmlns:\w+=\S+", "", core)  # no date: none would be true
+    assert "<Application>coldspray</Application>" in app
+    assert "Excel" not in app
+
+
+def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
+    """Finite numbers, cells in order, names that differ in more than case, no marked errors."""
+    names = [name.casefold() for name in load_workbook(emitted.path).defined_names]
+    assert len(names) == len(set(names))
+    with zipfile.ZipFile(emitted.path) as archive:
+        parts = {name: archive.read(name).decode() for name in archive.namelist()}
+    sheets = [text for name, text in parts.items() if "worksheets/sheet" in name]
+    for text in sheets:
+        rows = [int(row) for row in re.findall(r'<row r="(\d+)"', text)]
+        assert rows == sorted(set(rows))
+        assert not re.search(r"<v>(?:nan|inf|-inf)</v>|_xlfn|#REF!", text)
+        assert text.count("<ignoredError ") == 3
+    assert sum("<autoFilter " in text for text in sheets) == 1
+    charts = [text for name, text in parts.items() if "charts/chart" in name]
+    assert len(charts) == 3
+    for text in charts:
+        assert "<c:numCache>" in text
+        assert text.count("<c:strRef>") == text.count("<c:ser>")  # the live names of the curves
+    drawings = [text for name, text in parts.items() if "drawings/drawing" in name]
+    assert all('descr="Line chart' in text for text in drawings)
+
+
+def test_rows_are_as_high_as_their_text(emitted: Any) -> None:
+    page = load_workbook(emitted.path)["Audit"]
+    for sheet in emitted.book.plan.sheets:
+        for address, cell in sheet.cells.items():
+            if cell.wrap and sheet.name == "Audit":
+                width = sheet.widths[address[0]]
+                lines = -(-len(cell.text) // int(1.3 * width))
+                height = page.row_dimensions[int(address[1:])].height
+                assert height >= 13 * lines

@@ -1,0 +1,439 @@
+"""What the report's formulas may be computed in, so that each stands once.
+
+`Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
+`Duals` carry the derivatives along in either of them. `Ratios` are quotients of polynomials with
+rational coefficients, in which two forms of an equation are equal exactly or not at all.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+__all__ = [
+    "Arithmetic",
+    "DiscontinuityError",
+    "Dual",
+    "Duals",
+    "Floats",
+    "InexactError",
+    "Number",
+    "Ratio",
+    "Rationals",
+    "Ratios",
+    "Reals",
+]
+
+Number = Any
+"""A number of the arithmetic in use; all of them have the operators + - * /."""
+
+
+class Arithmetic(Protocol):
+    """What the formulas need of numbers, beyond the operators."""
+
+    def __hash__(self) -> int:
+        """As of any object: what was computed in an arithmetic is kept by it."""
+
+    @property
+    def pi(self) -> Number:
+        """The ratio of a circle's circumference to its diameter."""
+
+    def number(self, value: Fraction | int) -> Number:
+        """The rational in this arithmetic."""
+
+    def log(self, x: Number) -> Number:
+        """The natural logarithm."""
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        """x to a rational power; x > 0 unless the exponent is a whole number."""
+
+    def least(self, x: Number, bound: Number) -> Number:
+        """min(x, bound)."""
+
+    def greatest(self, x: Number, bound: Number) -> Number:
+        """max(x, bound)."""
+
+    def contact_share(self, y: Number) -> Number:
+        """y (2 - y), which increases on its domain, 0 <= y <= 1."""
+
+    def cap_root(self, c: Number) -> Number:
+        """The y in [0, 1] with y^2 - y^3/3 = c; c in [0, 2/3]."""
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        """Whether x < bound is possible."""
+
+    def is_below(self, x: Number, bound: Number) -> bool:
+        """Whether x < bound is certain."""
+
+    def hull(self, numbers: list[Number]) -> Number:
+        """A number that stands for all of them."""
+
+
+class Reals:
+    """mpmath numbers of a given number of decimal digits; no global precision is changed.
+
+    >>> print(Reals(30).pi)
+    3.14159265358979323846264338328
+    """
+
+    def __init__(self, digits: int = 50) -> None:
+        import mpmath  # a twentieth of a second that a command without proofs need not wait for
+
+        self.context = mpmath.MPContext()
+        self.context.dps = digits
+        self.log = self.context.log
+        self.least, self.greatest = min, max
+
+    @property
+    def pi(self) -> Number:
+        return +self.context.pi
+
+    def number(self, value: Fraction | int) -> Number:
+        return self.context.mpf(value.numerator) / value.denominator
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        return self.context.root(x, exponent.denominator) ** exponent.numerator
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def cap_root(self, c: Number) -> Number:
+        # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
+        root = self.context.sqrt(c)
+        return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class InexactError(ArithmeticError):
+    """A number is not rational, or not known to be."""
+
+
+class Rationals:
+    """Exact fractions, for as long as a formula needs no other numbers.
+
+    >>> Rationals().number(1) / 3
+    Fraction(1, 3)
+    """
+
+    least, greatest = staticmethod(min), staticmethod(max)
+
+    @property
+    def pi(self) -> Number:
+        raise InexactError("pi is no fraction")
+
+    def number(self, value: Fraction | int) -> Number:
+        return Fraction(value)
+
+    def log(self, x: Number) -> Number:
+        raise InexactError(f"the logarithm of {x} is no fraction")
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        if exponent.denominator != 1:
+            raise InexactError("a root is no fraction")
+        return x ** int(exponent)
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def cap_root(self, c: Number) -> Number:
+        raise InexactError(f"the root of y^2 - y^3/3 = {c} is no fraction")
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class Floats:
+    """IEEE doubles, for a quick look; what they tell is no proof.
+
+    >>> f"{Floats().cap_root(0.08):.4f}"
+    '0.2980'
+    """
+
+    pi = math.pi
+    log = staticmethod(math.log)
+    least, greatest = staticmethod(min), staticmethod(max)
+
+    def number(self, value: Fraction | int) -> Number:
+        return float(value)
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        return x ** float(exponent)
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def cap_root(self, c: Number) -> Number:
+        third = math.asin(math.sqrt(3 * c) / 2) / 3
+        return 2 * math.sin(third) ** 2 + math.sqrt(3) * math.sin(2 * third)
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class DiscontinuityError(ArithmeticError):
+    """A function may jump where its derivatives are asked for, so it has none there."""
+
+
+class Dual:
+    """A number with its derivatives by some variables, `slopes` in their order."""
+
+    __slots__ = ("slopes", "value")
+
+    def __init__(self, value: Number, slopes: tuple[Number, ...]) -> None:
+        self.value, self.slopes = value, slopes
+
+    def __neg__(self) -> "Dual":
+        return Dual(-self.value, tuple(-slope for slope in self.slopes))
+
+    def __add__(self, other: Any) -> "Dual":
+        if not isinstance(other, Dual):
+            return Dual(self.value + other, self.slopes)
+        pairs = zip(self.slopes, other.slopes, strict=True)
+        return Dual(self.value + other.value, tuple(a + b for a, b in pairs))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> "Dual":
+        if not isinstance(other, Dual):
+            return Dual(self.value - other, self.slopes)
+        pairs = zip(self.slopes, other.slopes, strict=True)
+        return Dual(self.value - other.value, tuple(a - b for a, b in pairs))
+
+    def __rsub__(self, other: Any) -> "Dual":
+        return Dual(other - self.value, tuple(-slope for slope in self.slopes))
+
+    def __mul__(self, other: Any) -> "Dual":
+        if not isinstance(other, Dual):
+            return Dual(self.value * other, tuple(slope * other for slope in self.slopes))
+        pairs = zip(self.slopes, other.slopes, strict=True)
+        u, v = self.value, other.value
+        return Dual(u * v, tuple(a * v + u * b for a, b in pairs))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> "Dual":
+        if not isinstance(other, Dual):
+            return Dual(self.value / other, tuple(slope / other for slope in self.slopes))
+        pairs = zip(self.slopes, other.slopes, strict=True)
+        quotient = self.value / other.value
+        return Dual(quotient, tuple((a - quotient * b) / other.value for a, b in pairs))
+
+    def __rtruediv__(self, other: Any) -> "Dual":
+        quotient = other / self.value
+        return Dual(quotient, tuple(-(quotient / self.value) * slope for slope in self.slopes))
+
+    def __pow__(self, exponent: int) -> "Dual":
+        outer = self.value ** (exponent - 1) * exponent
+        return Dual(self.value**exponent, tuple(outer * slope for slope in self.slopes))
+
+
+class Duals:
+    """Numbers of another arithmetic with their derivatives.
+
+    >>> ar = Duals(Reals(20), 1)
+    >>> x = Dual(ar.arithmetic.number(3), (1,))
+    >>> print(*(x * x + ar.log(x)).slopes)
+    6.3333333333333333333
+    """
+
+    def __init__(self, arithmetic: Any, variables: int) -> None:
+        self.arithmetic, self.variables = arithmetic, variables
+
+    def constant(self, value: Number) -> Dual:
+        """A number that depends on no variable."""
+        return Dual(value, (self.arithmetic.number(0),) * self.variables)
+
+    def variable(self, value: Number, place: int) -> Dual:
+        """The variable with this place among the variables."""
+        ones = tuple(self.arithmetic.number(k == place) for k in range(self.variables))
+        return Dual(value, ones)
+
+    @property
+    def pi(self) -> Number:
+        return self.constant(self.arithmetic.pi)
+
+    def number(self, value: Fraction | int) -> Number:
+        return self.constant(self.arithmetic.number(value))
+
+    def log(self, x: Dual) -> Dual:
+        return self._applied(self.arithmetic.log(x.value), 1 / x.value, x)
+
+    def power(self, x: Dual, exponent: Fraction) -> Dual:
+        value = self.arithmetic.power(x.value, exponent)
+        return self._applied(value, value / x.value * self.arithmetic.number(exponent), x)
+
+    def least(self, x: Dual, bound: Dual) -> Dual:
+        return self._bent(self.arithmetic.least, x, bound)
+
+    def greatest(self, x: Dual, bound: Dual) -> Dual:
+        return self._bent(self.arithmetic.greatest, x, bound)
+
+    def contact_share(self, y: Dual) -> Dual:
+        return self._applied(self.arithmetic.contact_share(y.value), 2 - 2 * y.value, y)
+
+    def cap_root(self, c: Dual) -> Dual:
+        y = self.arithmetic.cap_root(c.value)
+        return self._applied(y, 1 / self.arithmetic.contact_share(y), c)
+
+    def may_be_below(self, x: Dual, bound: Dual) -> bool:
+        below = self.arithmetic.is_below(x.value, bound.value)
+        if not below and self.arithmetic.may_be_below(x.value, bound.value):
+            raise DiscontinuityError("the last row of the sheet is not the same for all inputs")
+        return bool(below)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Dual]) -> Dual:
+        (only,) = numbers
+        return only
+
+    def _applied(self, value: Number, outer: Number, x: Dual) -> Dual:
+        return Dual(value, tuple(outer * slope for slope in x.slopes))
+
+    def _bent(self, choose: Callable[..., Number], x: Dual, bound: Dual) -> Dual:
+        """The chosen one; where it cannot be told which, its slopes are anything between both."""
+        value = choose(x.value, bound.value)
+        below = self.arithmetic.is_below(x.value, bound.value)
+        above = not self.arithmetic.may_be_below(x.value, bound.value)
+        if below or above:
+            return Dual(value, (x if below == (choose == self.arithmetic.least) else bound).slopes)
+        pairs = zip(x.slopes, bound.slopes, strict=True)
+        return Dual(value, tuple(self.arithmetic.hull(list(pair)) for pair in pairs))
+
+
+class Ratio:
+    """A quotient of two polynomials with rational coefficients."""
+
+    __slots__ = ("over", "under")
+
+    def __init__(self, over: Any, under: Any) -> None:
+        self.over, self.under = over, under
+
+    def __neg__(self) -> "Ratio":
+        return Ratio(-self.over, self.under)
+
+    def __add__(self, other: Any) -> "Ratio":
+        other = self._ratio(other)
+        over = self.over * other.under + other.over * self.under
+        return Ratio(over, self.under * other.under)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> "Ratio":
+        other = self._ratio(other)
+        over = self.over * other.under - other.over * self.under
+        return Ratio(over, self.under * other.under)
+
+    def __rsub__(self, other: Any) -> "Ratio":
+        return self._ratio(other) - self
+
+    def __mul__(self, other: Any) -> "Ratio":
+        other = self._ratio(other)
+        return Ratio(self.over * other.over, self.under * other.under)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> "Ratio":
+        other = self._ratio(other)
+        if other.over == 0:
+            raise ZeroDivisionError("division by a polynomial that is zero")
+        return Ratio(self.over * other.under, self.under * other.over)
+
+    def __rtruediv__(self, other: Any) -> "Ratio":
+        return self._ratio(other) / self
+
+    def __pow__(self, exponent: int) -> "Ratio":
+        if exponent < 0:
+            return (1 / self) ** -exponent
+        return Ratio(self.over**exponent, self.under**exponent)
+
+    def __eq__(self, other: object) -> bool:
+        other = self._ratio(other)
+        return bool(self.over * other.under == other.over * self.under)
+
+    __hash__ = None  # type: ignore[assignment]  # equal quotients may be written in many ways
+
+    @property
+    def constant(self) -> Fraction | None:
+        """Its value if it is the same number whatever the symbols stand for, else None."""
+        if self.over == 0:
+            return Fraction(0)
+        over, under = self.over.leading_coefficient(), self.under.leading_coefficient()
+        value = over / under
+        if self.over != self.under * value:
+            return None
+        return Fraction(int(value.p), int(value.q))
+
+    def _ratio(self, other: Any) -> "Ratio":
+        if isinstance(other, Ratio):
+            return other
+        return Ratio(self.under * 0 + other, self.under * 0 + 1)
+
+
+class Ratios:
+    """Quotients of polynomials in some symbols; what is no polynomial gets a symbol of its own.
+
+    >>> ar = Ratios(["x", "y"])
+    >>> x, y = ar.symbols["x"], ar.symbols["y"]
+    >>> (x * x - y * y) / (x - y) == x + y
+    True
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self._names = [*names, "pi", *(f"other_{k}" for k in range(8))]
+        from flint import Ordering, fmpq_mpoly_ctx
+
+        self._context = fmpq_mpoly_ctx.get(self._names, Ordering.lex)
+        one = self._context.constant(1)
+        ratios = [Ratio(generator, one) for generator in self._context.gens()]
+        self._named = dict(zip(self._names, ratios, strict=True))
+        self.symbols: Mapping[str, Ratio] = {name: self._named[name] for name in names}
+        self._others: list[tuple[str, Ratio, Fraction]] = []
+
+    @property
+    def pi(self) -> Ratio:
+        return self._named["pi"]
+
+    def number(self, value: Fraction | int) -> Ratio:
+        from flint import fmpq
+
+        constant = self._context.constant
+        return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
+
+    def log(self, x: Ratio) -> Ratio:
+        """A symbol: the same one for the same argument."""
+        return self._other("log", x, Fraction(1))
+
+    def power(self, x: Ratio, exponent: Fraction) -> Ratio:
+        if exponent.denominator == 1:
+            return x ** int(exponent)
+        if x == 1:
+            return x
+        return self._other("power", x, exponent)
+
+    def _other(self, kind: str, x: Ratio, exponent: Fraction) -> Ratio:
+        for number, (known, argument, power) in enumerate(self._others):
+            if (known, power) == (kind, exponent) and argument == x:
+                return self._named[f"other_{number}"]
+        self._others.append((kind, x, exponent))
+        return self._named[f"other_{len(self._others) - 1}"]

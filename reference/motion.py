@@ -1,0 +1,240 @@
+"""One impact to any precision: the report's sheet, and the motion without time steps (Eqs. 12-13).
+
+`sheet_rows` is the appendix's scheme over any arithmetic. `Trajectory` separates Eq. 13: the energy
+integral gives velocity and depth in closed form, and time by quadrature of dx/v with
+x = X (1 - s^2), which removes the square root singularity at rest. SI units throughout.
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cached_property
+from typing import NamedTuple
+
+from reference.arithmetic import Arithmetic, Number, Reals
+
+__all__ = [
+    "Row",
+    "Trajectory",
+    "contact_share",
+    "final_depth",
+    "sheet_depth",
+    "sheet_rows",
+]
+
+
+def contact_share(ar: Arithmetic, y: Number) -> Number:
+    """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond."""
+    return ar.contact_share(ar.least(y, ar.number(1)))
+
+
+def final_depth(
+    ar: Arithmetic,
+    velocity: Number,
+    radius: Number,
+    particle_density: Number,
+    target_density: Number,
+    resistance: Number,
+) -> Number:
+    """Depth at rest [m] from the energy integral of Eq. 13, whatever the time step.
+
+    M v dv / (rho_t v^2/2 + R_t) = -A(x) dx gives y^2 - y^3/3 = c up to y = x/R = 1, and one unit
+    of c for one unit of y beyond.
+    """
+    pressure = target_density * velocity**2 / 2
+    c = 4 * particle_density / (3 * target_density) * ar.log(1 + pressure / resistance)
+    limit = ar.number(Fraction(2, 3))
+    beyond = ar.greatest(c - limit, ar.number(0))
+    return radius * (ar.cap_root(ar.least(c, limit)) + beyond)
+
+
+class Row(NamedTuple):
+    """One time step of the sheet: the columns of Table A-1, in SI units."""
+
+    time: Number
+    velocity_initial: Number
+    depth: Number
+    deceleration: Number
+    velocity_final: Number
+
+
+def sheet_rows(
+    ar: Arithmetic,
+    velocity: Number,
+    radius: Number,
+    particle_density: Number,
+    target_density: Number,
+    resistance: Number,
+    step: Number,
+    mass: Number | None = None,
+    centered: bool = False,
+    stop_velocity: Number | None = None,
+    most_rows: int = 5000,
+) -> Iterator[Row]:
+    """The rows of the appendix's scheme after row 0 (Eqs. A-1 to A-3).
+
+    x of the first row is V dt/2, later rows add v dt with the row's initial velocity; the
+    deceleration belongs to that x and that velocity, or, in the centered variant, to that x and the
+    velocity half a step on. The mass is the sphere's unless another is given. It ends with the
+    first row that is certain to end below the stop velocity. Raises ArithmeticError after
+    `most_rows`, by default forty times those of the report.
+    """
+    if mass is None:
+        # pi R^2 over the sphere's mass: shorter, so that an uncertain R counts once.
+        area_over_mass = 3 / (4 * radius * particle_density)
+    else:
+        area_over_mass = ar.pi * radius * radius / mass
+
+    drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
+    half_step, per_radius = step / 2, 1 / radius
+
+    def deceleration(x: Number, v: Number) -> Number:
+        return (drag * v**2 + push) * contact_share(ar, x * per_radius)
+
+    time, x, v = ar.number(0), velocity * half_step, velocity
+    for _ in range(most_rows):
+        time = time + step
+        a = deceleration(x, v)
+        if centered:
+            a = deceleration(x, v - a * half_step)
+        v_final = v - a * step
+        yield Row(time, v, x, a, v_final)
+        v = v_final
+        if stop_velocity is not None and ar.may_be_below(v, stop_velocity):
+            if ar.is_below(v, stop_velocity):
+                return
+            # Where a box of inputs is run, only those that have not stopped go on.
+            v = ar.greatest(v, stop_velocity)
+        x = x + v * step
+    raise ArithmeticError(f"the sheet does not end in {most_rows} rows")
+
+
+def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:
+    """Depth [m] in the first row whose final velocity is below the stop velocity [m/s].
+
+    In interval arithmetic: the hull over every row that may be the first.
+    """
+    return ar.hull([r.depth for r in rows if ar.may_be_below(r.velocity_final, stop_velocity)])
+
+
+class Trajectory:
+    """The motion by the separated equation.
+
+    With y = x/R and the time in units of R/V, the acceleration is -(drag u^2 + push) (2y - y^2) for
+    the velocity u = v/V; the area factor is 1 beyond y = 1.
+
+    >>> motion = Trajectory(*map(Fraction, ("500", "11e-6", "8900", "7850", "35e8")), digits=20)
+    >>> print(motion.context.nstr(motion.final_depth * 10**6, 12))
+    7.67493292603
+    >>> print(motion.context.nstr(motion.stop_time() * 10**9, 12))
+    26.0792337824
+    """
+
+    def __init__(
+        self,
+        velocity: Fraction,
+        radius: Fraction,
+        particle_density: Fraction,
+        target_density: Fraction,
+        resistance: Fraction,
+        *,
+        digits: int = 50,
+    ) -> None:
+        self.reals = Reals(digits + _GUARD)
+        self.context = self.reals.context
+        self.velocity, self.radius = self.reals.number(velocity), self.reals.number(radius)
+        self.drag = self.reals.number(3 * target_density / (8 * particle_density))
+        self.push = self.reals.number(3 * resistance / (4 * particle_density * velocity**2))
+
+    @cached_property
+    def _c(self) -> Number:
+        """The work of the whole impact, y^2 - y^3/3 at rest (y - 1/3 beyond the radius)."""
+        return self.context.log1p(self.drag / self.push) / (2 * self.drag)
+
+    @cached_property
+    def _final(self) -> Number:
+        return self._buried(self._c)
+
+    def _buried(self, c: Number) -> Number:
+        limit = self.reals.number(Fraction(2, 3))
+        past = self.reals.greatest(c - limit, self.context.zero)
+        return self.reals.cap_root(self.reals.least(c, limit)) + past
+
+    @property
+    def final_depth(self) -> Number:
+        """Depth at rest [m]."""
+        return self.radius * self._final
+
+    def _work_left(self, short: Number) -> Number:
+        """The work from y = Y - short to rest at Y, without cancellation."""
+        deep = self.reals.greatest(self._final - 1, self.context.zero)
+        if short <= deep:
+            return short
+        y, short = min(self._final, self.context.one), short - deep
+        return deep + short * (2 * y - y * y - short * (1 - y) - short * short / 3)
+
+    def _velocity(self, short: Number) -> Number:
+        """u = v/V where the depth is short of the final one by `short` radii."""
+        gained = self.context.expm1(2 * self.drag * self._work_left(short))
+        return self.context.sqrt(self.push / self.drag * gained)
+
+    def velocity_at_depth(self, depth: Number) -> Number:
+        """Velocity [m/s] at a depth [m], which must not exceed the final one."""
+        return self.velocity * self._velocity(self._final * self._left(depth))
+
+    def _left(self, depth: Number) -> Number:
+        """The share of the final depth that is still ahead at a depth [m]."""
+        left = 1 - self.context.convert(depth) / self.final_depth
+        if not -8 * self.context.eps <= left <= 1:
+            raise ValueError(f"the particle never gets to a depth of {depth} m")
+        return self.reals.greatest(left, self.context.zero)
+
+    def depth_at_velocity(self, velocity: Number) -> Number:
+        """Depth [m] at which the velocity has fallen to a value [m/s]; only its square counts."""
+        u = self.context.convert(velocity) / self.velocity
+        if abs(u) > 1:
+            raise ValueError(f"the particle never has a velocity of {velocity} m/s")
+        lost = (1 - u) * (1 + u) * self.drag / (self.push + self.drag * u * u)
+        return self.radius * self._buried(self.context.log1p(lost) / (2 * self.drag))
+
+    def time_to_depth(self, depth: Number) -> Number:
+        """Time [s] to a depth [m], which must not exceed the final one."""
+        return self._time_from(self.context.sqrt(self._left(depth)))
+
+    def stop_time(self, stop_velocity: Number = 0) -> Number:
+        """Time [s] until the velocity has fallen to the stop velocity [m/s], 0 for rest."""
+        return self.time_to_depth(self.depth_at_velocity(stop_velocity))
+
+    def _time_from(self, s: Number) -> Number:
+        """The integral of dx/v from depth 0 to X (1 - s^2)."""
+        if s >= 1:
+            return self.context.zero
+        panels = [s, *(edge for edge in self._edges if s < edge < 1), self.context.one]
+        return self.radius / self.velocity * self.context.quad(self._slowness, panels)
+
+    def _slowness(self, s: Number) -> Number:
+        return 2 * self._final * s / self._velocity(self._final * s * s)
+
+    @cached_property
+    def _edges(self) -> list[Number]:
+        """Where the integrand is cut: at the radius, and often enough for its steep growth."""
+        cuts = int(self.drag * self._c) + 1
+        edges = [self.context.mpf(k) / cuts for k in range(1, cuts)]
+        if self._final > 1:
+            edges.append(self.context.sqrt(1 - 1 / self._final))
+        return sorted(edges)
+
+    def depth_at_time(self, time: Number) -> Number:
+        """Depth [m] at a time [s]; the final one from the stop time on."""
+        time, whole = self.context.convert(time), self.stop_time()
+        if time < 0:
+            raise ValueError(f"a time of {time} s is before the impact")
+        if time >= whole:
+            return self.final_depth
+        s = self.context.findroot(
+            lambda s: (self._time_from(s) - time) / whole, (0, 1), solver="anderson"
+        )
+        return self.final_depth * (1 - s * s)
+
+
+_GUARD = 20
+"""Digits carried beyond those asked for."""

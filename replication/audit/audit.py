@@ -1,0 +1,640 @@
+"""The audit: every verdict, explanation and finding, computed once, as one record."""
+
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR
+from fractions import Fraction
+from hashlib import sha256
+from importlib import metadata, resources
+from math import inf, nextafter
+
+from reference import findings as asserted
+from reference import ledger as ledgers
+from reference.arithmetic import Floats
+from reference.equations import MATHML, PLAIN, Node, Notation, evaluate, rendered
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
+from reference.printed import Interval
+from reference.units import to_si
+from replication.audit import comparison, wording
+from replication.audit import record as r
+from replication.audit.equations import EquationAssessment, assess_equation
+from replication.audit.explain import BackSolved, Explainer, Repair
+from replication.audit.findings import EVIDENCE, Known, case
+from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
+from replication.models import sheet
+from replication.text import number, powers_of_ten, rounded
+
+__all__ = ["Audit", "audit", "audit_claim"]
+
+
+def audit(ledger: Ledger | None = None) -> r.Record:
+    """Audit every number and equation of the report, or of a copy of its ledger with a misprint.
+
+    >>> print(audit().claim("depth-beta-5").verdict)
+    reproduced
+    """
+    return Audit(ledger or ledgers.load()).record()
+
+
+def audit_claim(name: str) -> r.ClaimRecord:
+    """Audit one claim. Raises KeyError if the ledger has none of this id."""
+    whole = Audit(ledgers.load())
+    return whole.claim(whole.ledger.claims[name])
+
+
+class Audit:
+    """The audit of one ledger; what several parts of its record need is computed once."""
+
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger = ledger
+        self.judge = Judge(ledger, every_convention=every_convention)
+        self.explainer = Explainer(self.judge)
+        self._equations: dict[str, EquationAssessment] = {}
+        self._assessments: dict[str, Assessment] = {}
+        self._repairs: dict[str, list[Repair]] = {}
+        self._shown_values: dict[str, tuple[float, float] | None] = {}
+
+    def equation(self, name: str) -> EquationAssessment:
+        """The verdict on one equation."""
+        if name not in self._equations:
+            self._equations[name] = assess_equation(self.ledger, name)
+        return self._equations[name]
+
+    def assessment(self, claim: Claim) -> Assessment:
+        """The verdict on one claim."""
+        if claim.id not in self._assessments:
+            self._assessments[claim.id] = self._assess(claim)
+        return self._assessments[claim.id]
+
+    def _assess(self, claim: Claim) -> Assessment:
+        if claim.entry.kind == "remark":
+            return Assessment(claim, Verdict.REMARK)
+        if claim.within is not None:
+            constants = self.equation(claim.within).constants
+            if claim.id in constants and constants[claim.id].settled:
+                return Assessment(claim, constants[claim.id].verdict)
+        elif claim.computation is not None:
+            return self.judge.assess(claim)
+        sources = self._sources(claim.id, claim.target() if claim.printed else None)
+        if sources:
+            agrees = any(source.agrees for source in sources)
+            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
+        if claim.entry.shown_by:
+            consistent = self._shown(claim) is not None
+            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
+        return Assessment(claim, Verdict.NOT_CHECKABLE)
+
+    # The record
+
+    def record(self) -> r.Record:
+        """Everything, as data."""
+        claims = [self.claim(claim) for claim in self.ledger.claims.values()]
+        equations = [self._equation(name) for name in self.ledger.equations]
+        known = Known(self.judge, self.explainer, self._assessments, self._equations)
+        findings = [self._finding(known, finding) for finding in asserted.load().values()]
+        headline = next(finding for finding in findings if finding.kind == "headline")
+        failing = sum(Verdict(claim.verdict).is_failure for claim in claims)
+        report = self.ledger.report
+        return r.Record(
+            schema=r.SCHEMA,
+            headline=headline.statement if headline.holds else f"{failing} numbers fail.",
+            report=r.ReportRecord(title=report.title, author=report.author, year=report.year),
+            summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
+            counts=self._counts(claims, equations),
+            culprit=self._culprit(),
+            claims=claims,
+            equations=equations,
+            findings=[finding for finding in findings if finding is not headline],
+            inferred=[
+                self._inferred(name, centered)
+                for name in self.ledger.inferred
+                for centered in (False, True)
+            ],
+            approaches=comparison.approaches(known),
+            sensitivity=[comparison.sensitivity(known, beta) for beta in comparison.BETAS],
+            scatter=comparison.scatter(known),
+            curves=comparison.curves(known),
+            velocity_curve=comparison.velocity_curve(known),
+            ladders=comparison.ladders(known),
+            blank_cells=list(self.ledger.blank),
+            symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
+            provenance=_provenance(),
+        )
+
+    def _counts(self, claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
+        reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
+        calculations = {
+            (claim.computed_by, claim.cell or "", str(claim.rests_on))
+            if claim.computed_by
+            else claim.id
+            for claim in reproduced
+        }
+        remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
+        derived = [e for e in equations if e.verdict == Verdict.REPRODUCED]
+        return r.Counts(
+            numbers=len(claims) - remarks,
+            remarks=remarks,
+            reproduced=len(reproduced),
+            calculations=len(calculations),
+            failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
+            equations=len(equations),
+            equations_derived=len(derived),
+            blank_cells=len(self.ledger.blank),
+        )
+
+    # Claims
+
+    def claim(self, claim: Claim) -> r.ClaimRecord:
+        """One claim, as data."""
+        assessment = self.assessment(claim)
+        first = assessment.readings[0] if assessment.readings else None
+        fails = assessment.verdict.is_failure or any(
+            reading.verdict is not Verdict.REPRODUCED for reading in assessment.readings[:1]
+        )
+        judgement = None if first is None else first.judgements[0]
+        interval = None if claim.printed is None and claim.bound is None else claim.interval()
+        formula, mathml, by_hand = self._formula(claim, first)
+        restates = claim.computation is not None and claim.computation.restates
+        return r.ClaimRecord(
+            id=claim.id,
+            title=claim.title,
+            where=str(claim.place),
+            line=claim.place.line,
+            section=claim.place.section,
+            equation=claim.place.equation,
+            cell=claim.place.cell,
+            quote=" ".join(claim.entry.quote.split()),
+            printed=claim.text,
+            unit=claim.unit,
+            kind=claim.entry.kind,
+            interval=None if interval is None else _ends(interval),
+            interval_exact=None if interval is None else _exact(interval.lower, interval.upper),
+            interval_text=None if interval is None else str(interval),
+            verdict=assessment.verdict,
+            restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
+            computed_by=claim.entry.computed_by,
+            computed=None if first is None else first.computed,
+            reference=None if first is None else first.reference,
+            enclosure=None if judgement is None else _outward(judgement.lower, judgement.upper),
+            enclosure_exact=None if judgement is None else _exact(judgement.lower, judgement.upper),
+            witness=None if judgement is None else _doubles(judgement.witness),
+            error_in_last_digit=_error(claim, first),
+            holds="" if first is None else wording.holds(claim, first),
+            otherwise=[] if first is None else [_judged(j) for j in first.otherwise],
+            readings=[_reading(claim, reading) for reading in assessment.readings[1:]],
+            rests_on={name: list(entries) for name, entries in claim.inputs.items()},
+            assumes=wording.assumptions(
+                self.judge, claim, None if first is None else first.computed
+            ),
+            explanation=self._explanation(claim, assessment),
+            formula=formula,
+            mathml=mathml,
+            by_hand=by_hand,
+            shown_by=self._shown_record(claim),
+            sources=self._sources(claim.id, interval and claim.target()),
+            figures=self._figures(claim),
+            back_solved=[
+                self._back_solved(solved)
+                for solved in (self.explainer.back_solved(claim) if fails and first else [])
+            ],
+            repairs=[self._repair(repair) for repair in (self.repairs(claim.id) if fails else [])],
+            slips=[
+                r.SlipRecord(
+                    name=t.slip.name, reason=t.slip.reason, value=float(t.lower), fits=t.fits
+                )
+                for t in (self.explainer.slips(claim) if fails and first else [])
+            ],
+            workbook=claim.entry.workbook,
+        )
+
+    def repairs(self, name: str) -> list[Repair]:
+        """The misprints that would explain a claim or an equation that fails."""
+        if name not in self._repairs:
+            within = None if name in self.ledger.equations else self.ledger.claims[name].within
+            # A constant is mended with its equation.
+            self._repairs[name] = self.repairs(within) if within else self.explainer.repairs(name)
+        return self._repairs[name]
+
+    def _explanation(self, claim: Claim, assessment: Assessment) -> str:
+        if assessment.readings:
+            return wording.explanation(self.judge, claim, assessment.readings)
+        if assessment.reason:
+            return f"With the numbers as printed it cannot be computed: {assessment.reason}."
+        if claim.entry.kind == "remark":
+            return "A remark, no number: the figures below are what it can be judged by."
+        if claim.computation is not None:
+            return self._restated(claim, assessment)
+        if claim.within is not None:
+            constants = self.equation(claim.within).constants
+            if claim.id in constants:
+                return wording.constant_explanation(self.ledger, claim, constants[claim.id])
+        if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
+            return wording.sources(self._sources(claim.id, claim.target()))
+        if claim.entry.shown_by:
+            ends = self._shown(claim)
+            if ends is None:
+                return "The author's choice; what is computed from it does not come out as printed."
+            low = rounded(Fraction(ends[0]), 4, ROUND_CEILING)
+            high = rounded(Fraction(ends[1]), 4, ROUND_FLOOR)
+            text = wording.quantity(f"{low} to {high}", claim.unit)
+            return f"The author's choice; what is computed from it comes out as printed for {text}."
+        return f"Nothing in the report decides it: {claim.given}."
+
+    def _restated(self, claim: Claim, assessment: Assessment) -> str:
+        assert claim.computation is not None
+        if claim.computation.name == "count":
+            return f"The report lists {len(claim.inputs)}."
+        (name,) = claim.inputs["value"]
+        other = self.ledger.claims[name]
+        text = wording.quantity(other.shown, other.unit)
+        if assessment.verdict is Verdict.CONSISTENT:
+            return f"It repeats or compares with {text} ({other.title})."
+        return f"It repeats or compares with {text} ({other.title}), which does not agree."
+
+    def _formula(
+        self, claim: Claim, reading: Reading | None
+    ) -> tuple[str, str, str] | tuple[None, None, None]:
+        """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand."""
+        if reading is None or reading.verdict is not Verdict.NOT_REPRODUCED:
+            return None, None, None
+        computation = claim.computations[""]
+        if not computation.equations:
+            return None, None, None
+        (left, right) = self.ledger.sides[computation.equations[-1]]
+        values = {
+            _SYMBOLS[key]: self.judge.value(*names)
+            for key, names in claim.inputs.items()
+            if key in _SYMBOLS and len(names) == 1
+        } | {"D": Fraction(1)}  # L is given in diameters
+        names = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
+        put = names | {key: _short(value) for key, value in values.items()}
+        marked = [
+            {key: _mathml_symbol(text) for key, text in texts.items()} for texts in (names, put)
+        ]
+        result = f"{reading.computed:#.3g}"
+        texts = (
+            rendered(left, names), rendered(right, names), rendered(right, put, _NUMBERS), result,
+        )  # fmt: skip
+        rows = (
+            (rendered(left, marked[0], MATHML), rendered(right, marked[0], MATHML)),
+            ("", rendered(right, marked[1], _MATHML_NUMBERS)),
+            ("", f"<mn>{result}</mn>"),
+        )
+        return " = ".join(texts), _lines(rows), _by_hand(right, put, values, result)
+
+    # What a choice is shown to be
+
+    def _shown(self, claim: Claim) -> tuple[float, float] | None:
+        """The values, in its unit, around a chosen number for which what it shows is as printed.
+
+        None if the number itself puts one of those claims wrong.
+        """
+        if claim.id not in self._shown_values:
+            ends = self.explainer.admitted(claim.id, claim.entry.shown_by)
+            self._shown_values[claim.id] = ends and (
+                float(ends[0] / claim.si), float(ends[1] / claim.si),
+            )  # fmt: skip
+        return self._shown_values[claim.id]
+
+    def _shown_record(self, claim: Claim) -> r.Shown | None:
+        ends = self._shown(claim) if claim.entry.shown_by else None
+        if ends is None:
+            return None
+        return r.Shown(claims=list(claim.entry.shown_by), interval=ends, unit=claim.unit)
+
+    def _figures(self, claim: Claim) -> list[r.Figure]:
+        """For a remark: the final depths at both steps, in both schemes."""
+        if claim.entry.kind != "remark":
+            return []
+        known = Known(self.judge, self.explainer, {}, {})
+        found = []
+        for beta in comparison.BETAS:
+            for scheme in sheet.SCHEMES:
+                where = "initial" if scheme == "published" else "middle"
+                depths = {
+                    name: sheet.run(case(known, beta, step=known[name]), scheme).final_depth
+                    for name in ("a-step", "coarse-step")
+                }
+                for name, depth in depths.items():
+                    step = wording.quantity(self.ledger.claims[name].shown, "ns")
+                    means = f"final depth at {step}, beta = {beta}, drag at the {where} velocity"
+                    found.append(r.Figure(means=means, value=depth * 1e6, unit="um"))
+                change = 100 * (depths["coarse-step"] / depths["a-step"] - 1)
+                found.append(
+                    r.Figure(means=f"change, beta = {beta}, drag at the {where} velocity",
+                             value=change, unit="percent")
+                )  # fmt: skip
+        return found
+
+    def _sources(self, name: str, target: Interval | None) -> list[r.SourceRecord]:
+        return [
+            self._source(source, target)
+            for source in self.ledger.sources.values()
+            if name in source.claims
+        ]
+
+    def _source(self, source: Source, target: Interval | None) -> r.SourceRecord:
+        return r.SourceRecord(
+            id=source.id,
+            title=source.title,
+            address=source.address,
+            quote=source.quote,
+            says=source.says,
+            unit=source.unit,
+            applies=source.applies,
+            agrees=None if target is None else target.meets(source.interval),
+        )
+
+    # Explanations
+
+    def _back_solved(self, solved: BackSolved) -> r.BackSolvedRecord:
+        si = to_si(self.ledger.unit(solved.entry))
+        inner, outer = solved.solutions.inner, solved.solutions.outer
+        proof = "proven inside, and none beyond"
+        if not outer:
+            proof = "proven: none in the range does"
+        elif not inner:
+            proof = "undecided"
+        elif solved.solutions.reaches_an_end:
+            proof = "proven, up to an end of the range"
+        low, high = solved.solutions.search
+        return r.BackSolvedRecord(
+            reading=solved.reading,
+            entry=solved.entry,
+            title=self.ledger.title(solved.entry),
+            unit=self.ledger.unit(solved.entry),
+            printed=float(self.judge.value(solved.entry) / si),
+            intervals=[(float(low / si), float(high / si)) for low, high in inner],
+            search=(float(low / si), float(high / si)),
+            search_reason=solved.reason,
+            proof=proof,
+            prints_alike=solved.prints_alike,
+        )
+
+    def _repair(self, repair: Repair) -> r.RepairRecord:
+        equations = self.ledger.equations
+        title = (
+            equations[repair.entry].entry.title
+            if repair.entry in equations
+            else self.ledger.title(repair.entry)
+        )
+        return r.RepairRecord(
+            entry=repair.entry,
+            title=title,
+            reading=repair.reading,
+            printed=repair.printed,
+            text=repair.text,
+            kind=repair.kind,
+            failing=list(repair.failing),
+        )
+
+    def _culprit(self) -> r.CulpritRecord | None:
+        verdicts = {name: a.verdict for name, a in self._assessments.items()}
+        verdicts |= {name: a.verdict for name, a in self._equations.items()}
+        failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
+        culprit = self.explainer.culprit(failing)
+        if culprit is None:
+            return None
+        return r.CulpritRecord(repair=self._repair(culprit.repair), explains=list(culprit.explains))
+
+    # Equations and findings
+
+    def _equation(self, name: str) -> r.EquationRecord:
+        assessed = self.equation(name)
+        entry, place = assessed.equation.entry, assessed.equation.place
+        shown = {key: _mathml_symbol(s.shown) for key, s in self.ledger.symbols.items()}
+        sides = [rendered(side, shown, MATHML) for side in self.ledger.sides[name]]
+        repairs = self.repairs(name) if assessed.verdict.is_failure else []
+        return r.EquationRecord(
+            id=name,
+            number=place.equation,
+            title=entry.title,
+            where=str(place),
+            text=self.ledger.equation_text(name),
+            mathml=_math("<mo>=</mo>".join(sides)),
+            kind=entry.kind,
+            follows_from=entry.follows_from,
+            verdict=assessed.verdict,
+            factor=None if assessed.factor is None else str(assessed.factor),
+            checks=[r.CheckRecord(says=c.says, holds=c.holds) for c in assessed.checks],
+            constants=[
+                r.ConstantRecord(
+                    claim=c.claim, verdict=c.verdict, needed=[str(value) for value in c.needed]
+                )
+                for c in assessed.constants.values()
+            ],
+            explanation=wording.equation_explanation(self.ledger, assessed),
+            repairs=[self._repair(repair) for repair in repairs],
+        )
+
+    def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:
+        computed = EVIDENCE[finding.id](known)
+        evidence = []
+        for name, assertion in finding.evidence.items():
+            value = computed[name]
+            if not isinstance(value, bool):
+                value = Fraction(value) / to_si(assertion.unit)
+            evidence.append(
+                r.EvidenceRecord(
+                    name=name,
+                    means=assertion.means,
+                    unit=assertion.unit,
+                    asserted=assertion.says,
+                    computed=value if isinstance(value, bool) else float(value),
+                    holds=assertion.holds(value),
+                )
+            )
+        return r.FindingRecord(
+            id=finding.id,
+            title=finding.title,
+            kind=finding.kind,
+            status=finding.status,
+            claims=list(finding.claims),
+            statement=finding.statement,
+            by_hand=finding.by_hand,
+            settle=finding.settle,
+            holds=all(e.holds for e in evidence) and all(step.holds for step in finding.steps),
+            evidence=evidence,
+        )
+
+    def _inferred(self, name: str, centered: bool) -> r.InferredRecord:
+        inference = self.judge.inference(INFERRED + name, centered=centered)
+        entry, si = inference.entry, to_si(inference.entry.unit)
+        inner = inference.inner.ends
+        rounded = None if centered else inference.admitted(Convention())
+        return r.InferredRecord(
+            id=name,
+            title=entry.title,
+            unit=entry.unit,
+            scheme="centered" if centered else "published",
+            assumed=float(self.judge.value(INFERRED + name) / si),
+            nominal_source=entry.nominal_source,
+            interval=_inward(*(end / si for end in inner)),
+            interval_exact=(str(inner[0] / si), str(inner[1] / si)),
+            with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
+            attained_with_rounded_inputs=rounded
+            and _inward(*(end / si for end in rounded[0].ends)),
+            possible_with_rounded_inputs=rounded
+            and _outward(*(end / si for end in rounded[1].ends)),
+            evidence=list(inference.agreeing),
+            odd=list(inference.odd),
+            sources=[
+                r.HandbookRecord(
+                    source=self._source(source, None),
+                    verdict=inference.admits(source.value, source.interval),
+                )
+                for source in self.ledger.sources.values()
+                if INFERRED + name in source.claims and not centered
+            ],
+        )
+
+
+_SYMBOLS = {
+    "length_ratio": "L",
+    "particle_density": "rho_p",
+    "target_density": "rho_t",
+    "k_1": "k_1",
+    "k_t": "k_t",
+    "resistance": "R_t",
+    "velocity": "V",
+}
+"""Input of a computation -> the symbol of the equation that it stands for."""
+
+
+def _short(value: Fraction) -> str:
+    """A number as it is put into a formula.
+
+    >>> _short(Fraction(2, 3)), _short(Fraction(8900)), _short(Fraction(76 * 10**8))
+    ('2/3', '8900', '7.6×10⁹')
+    """
+    return str(value) if 1 < value.denominator < 10 else powers_of_ten(number(value))
+
+
+def _with_numbers(notation: Notation) -> Notation:
+    """The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
+    unit = notation.number("1")
+
+    def fraction(over: str, under: str) -> str:
+        return over if under == unit else notation.fraction(over, under)
+
+    return replace(notation, fraction=fraction, times=_TIMES[notation.times])
+
+
+_TIMES = {PLAIN.times: " · ", MATHML.times: "<mo>·</mo>"}
+_NUMBERS, _MATHML_NUMBERS = _with_numbers(PLAIN), _with_numbers(MATHML)
+
+
+def _by_hand(
+    right: Node, put: Mapping[str, str], values: Mapping[str, Fraction], result: str
+) -> str:
+    """The factors of a product, each calculated from the numbers put in, and the product."""
+    at = {name: float(value) for name, value in values.items()}
+    factors = right.parts if right.kind == "product" else (right,)
+    texts = [f"{evaluate(factor, Floats(), at):#.5g}" for factor in factors]
+    steps = [
+        f"{rendered(factor, put, _NUMBERS)} = {text}"
+        for factor, text in zip(factors, texts, strict=True)
+    ]
+    if len(steps) > 1:
+        steps.append(f"{' · '.join(texts)} = {result}")
+    return "; ".join(steps) + "."
+
+
+def _lines(rows: Iterable[tuple[str, str]]) -> str:
+    """Left and right sides of equations below each other, as MathML."""
+    cells = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
+    return _math(f"<mtable>{''.join(cells.format(*row) for row in rows)}</mtable>")
+
+
+def _math(inner: str) -> str:
+    return f'<math display="block">{inner}</math>'
+
+
+def _mathml_symbol(shown: str) -> str:
+    """A symbol or a number as MathML; what follows an underscore is its subscript."""
+    if shown[0].isdigit():
+        return f"<mn>{shown}</mn>"
+    name, _, below = shown.partition("_")
+    return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
+
+
+def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
+    judgement = reading.judgements[0]
+    return r.ReadingRecord(
+        name=reading.name,
+        summary=reading.summary,
+        verdict=reading.verdict,
+        computed=reading.computed,
+        reference=reading.reference,
+        enclosure=_outward(judgement.lower, judgement.upper),
+        enclosure_exact=_exact(judgement.lower, judgement.upper),
+        witness=_doubles(judgement.witness),
+        holds=wording.holds(claim, reading),
+        otherwise=[_judged(j) for j in reading.otherwise],
+    )
+
+
+def _judged(judgement: Judgement) -> r.Judged:
+    convention = judgement.convention
+    return r.Judged(
+        rounding=convention.rounding.value,
+        choices="exact" if convention.choices_exact else "rounded",
+        header="exact" if convention.header_exact else "rounded",
+        scheme="centered" if convention.centered else "published",
+        verdict=judgement.verdict,
+        enclosure=_outward(judgement.lower, judgement.upper),
+        enclosure_exact=_exact(judgement.lower, judgement.upper),
+    )
+
+
+def _error(claim: Claim, reading: Reading | None) -> float | None:
+    """Computed minus printed, in units of the last digit; None where no digit counts."""
+    printed = claim.printed
+    if reading is None or printed is None or claim.bound is not None or printed.quantum == 0:
+        return None
+    quantum = printed.quanta[-1] if claim.entry.kind == "approximation" else printed.quantum
+    return float((Fraction(reading.computed) - printed.value) / quantum)
+
+
+def _doubles(point: Mapping[str, Fraction] | None) -> dict[str, float] | None:
+    return None if point is None else {name: float(value) for name, value in point.items()}
+
+
+def _ends(interval: Interval) -> r.Ends:
+    lower, upper = (None if end is None else float(end) for end in (interval.lower, interval.upper))
+    return lower, upper
+
+
+def _exact(lower: Fraction | None, upper: Fraction | None) -> r.ExactEnds:
+    return None if lower is None else str(lower), None if upper is None else str(upper)
+
+
+def _outward(lower: Fraction, upper: Fraction) -> tuple[float, float]:
+    """Ends as doubles, rounded so that the interval is never narrower."""
+    return _down(lower), -_down(-upper)
+
+
+def _inward(lower: Fraction, upper: Fraction) -> tuple[float, float]:
+    return -_down(-lower), _down(upper)
+
+
+def _down(value: Fraction) -> float:
+    """The greatest double that is not above the value."""
+    double = float(value)
+    return nextafter(double, -inf) if Fraction(double) > value else double
+
+
+_LIBRARIES = ("coldspray", "msgspec", "mpmath", "numpy", "python-flint", "XlsxWriter")
+
+
+def _provenance() -> dict[str, object]:
+    """What the audit was made with, and of."""
+    folder = resources.files("reference.report")
+    names: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
+    return {
+        "command": "coldspray audit",
+        "python": ".".join(map(str, sys.version_info[:3])),
+        "versions": {name: metadata.version(name) for name in _LIBRARIES},
+        "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in names},
+    }

@@ -1,0 +1,226 @@
+"""What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from statistics import NormalDist
+
+from reference.ledger import Convention
+from replication.audit.findings import Known, case, constant_pressure_ratio
+from replication.audit.record import (
+    Approach,
+    Curve,
+    Effect,
+    Level,
+    Scatter,
+    ScatterPoint,
+    Sensitivity,
+    VelocityCurve,
+)
+from replication.models import depth, motion, sheet, stream
+from replication.models.crater import depth_from_volume_ratio
+from replication.models.impact import Impact
+
+__all__ = ["approaches", "curves", "ladders", "scatter", "sensitivity", "velocity_curve"]
+
+BETAS = (3, 5)
+
+
+def approaches(known: Known) -> list[Approach]:
+    """Every approach to X/R [1] of the report, and one that prices the target's inertia."""
+    claims = known.judge.ledger.claims
+
+    def computed(kind: str, name: str, claim: str, reading: str = "") -> Approach:
+        value = known.reading(claim, reading).computed
+        return Approach(
+            kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim
+        )
+
+    def quoted(name: str, claim: str) -> Approach:
+        return Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
+
+    line = depth_from_volume_ratio(known["volume-ratio-line"])
+    drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
+    armor, stainless = "frank-zook-rha", "frank-zook-stainless"
+    forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))
+    models = [(beta, case(known, beta)) for beta in BETAS]
+    return [
+        Approach(kind="observed", name=f"CV/PV = {drawn}, the line in Figure 1", computed=line),
+        computed("observed", f"CV/PV = {taken}, as taken for Eq. 4", "observed-depth-ratio"),
+        *(Approach(kind="sheet", name=f"beta = {beta}", computed=sheet.run(impact).normalized_depth,
+                   printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
+          for beta, impact in models),
+        *(Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
+          for beta, impact in models),
+        *(Approach(kind="constant pressure", name=f"beta = {beta}",
+                   computed=constant_pressure_ratio(impact)) for beta, impact in models),
+        *(computed("Frank-Zook", f"{name}, {form}", claim, reading)
+          for name, claim in (("armor", armor), ("stainless steel", stainless))
+          for form, reading in forms),
+        quoted("CTH", "cth-ratio"),
+        quoted("Autodyne", "autodyne-ratio"),
+    ]  # fmt: skip
+
+
+def _ratio(impact: Impact) -> float:
+    return depth.final_depth(**impact.motion) / impact.radius
+
+
+# What the depth depends on
+
+
+def sensitivity(known: Known, beta: int) -> Sensitivity:
+    """How the exact depth of one of the report's cases depends on each input."""
+    impact = case(known, beta)
+    own = {name: getattr(impact, name) for name in _INPUTS}
+    ten = [_effect(impact, name, 0.9 * x, 1.1 * x, "10 % less and more") for name, x in own.items()]
+    return Sensitivity(
+        beta=float(beta),
+        depth=depth.final_depth(**impact.motion),
+        elasticities=_elasticities(impact),
+        ten_percent=ten,
+        stated=list(_stated(known, impact)),
+    )
+
+
+_INPUTS = ("velocity", "radius", "particle_density", "target_density", "beta", "flow_stress")
+
+
+def _elasticities(impact: Impact) -> dict[str, float]:
+    """d ln X / d ln input: so many percent of depth for one percent of the input.
+
+    With c = (4 rho_p / 3 rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and y^2 - y^3/3 = c (beyond R
+    dy = dc): d ln y = s d ln c, where s = c / (y^2 (2 - y)), c/y beyond R; and
+    d ln ln(1 + p) = q d ln p, where q = p / ((1 + p) ln(1 + p)).
+    """
+    p = impact.target_density * impact.velocity**2 / (2 * impact.target_resistance)
+    c = 4 / 3 * impact.particle_density / impact.target_density * math.log1p(p)
+    y = _ratio(impact)
+    s = c / (y * y * (2 - y)) if y < 1 else c / y
+    q = p / ((1 + p) * math.log1p(p))
+    factors = (2 * q * s, 1.0, s, (q - 1) * s, -q * s, -q * s)
+    return dict(zip(_INPUTS, factors, strict=True))
+
+
+def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
+    """What each input's own uncertainty does, as far as the report or its evidence states one."""
+    density = "inferred:target-density"
+    possible = known.judge.inference(density).admitted(Convention())[1].ends
+    rounding = known.judge.ledger.claims["a1-density"].target().ends
+    spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
+    yield _effect(impact, "velocity", impact.velocity - spread, impact.velocity + spread,
+                  "mean deviation in the stream")  # fmt: skip
+    yield _effect(impact, "radius", impact.radius - size, impact.radius + size,
+                  "standard deviation of the powder")  # fmt: skip
+    low, high = map(float, rounding)
+    yield _effect(impact, "particle_density", low, high, "rounding of the print")
+    low, high = map(float, possible)
+    yield _effect(impact, "target_density", low, high, "all that Table A-1 allows")
+    yield _effect(impact, "beta", known["beta-range-least"], known["beta-range-greatest"],
+                  "the report's range")  # fmt: skip
+    yield _effect(impact, "flow_stress", known["strength-clear"], known["strength-feathery"],
+                  "two hardnesses")  # fmt: skip
+
+
+def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> Effect:
+    ends = [replace(impact, **{name: end}) for end in (low, high)]
+    depths = [depth.final_depth(**end.motion) for end in ends]
+    ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
+    return Effect(input=name, low=low, high=high, ratios=ratios, depths=depths, why=why)
+
+
+# What scatter does
+
+
+def scatter(known: Known) -> list[Scatter]:
+    """Velocity and exact X/R (beta = 5) over the particles of the stream, by three laws.
+
+    By Eq. 1 and by drag on a sphere a particle's velocity follows from its size, which is normally
+    distributed; by the third its deviation is the one that the report states. A "mean deviation" is
+    taken as what it says, the mean absolute one.
+    """
+    impact = case(known, 5)
+    size = NormalDist(known["mean-diameter"], known["diameter-deviation"])
+    mean = NormalDist().pdf(0) * 2  # mean absolute deviation over the standard one
+    stated = NormalDist(impact.velocity, known["velocity-deviation"] / mean)
+
+    def by_eq1(share: float) -> float:
+        diameter = size.inv_cdf(1 - share)
+        return stream.particle_velocity(impact.velocity, diameter**3, size.mean**3)
+
+    def by_drag(share: float) -> float:
+        return impact.velocity * math.sqrt(size.mean / size.inv_cdf(1 - share))
+
+    relative = size.stdev / size.mean
+    laws = (
+        ("Eq. 1: mass alone", by_eq1, 1.5 * relative * impact.velocity),
+        ("drag on a sphere: mass and area", by_drag, 0.5 * relative * impact.velocity),
+        ("as stated: normal", stated.inv_cdf, stated.stdev),
+    )
+    return [
+        Scatter(
+            law=name,
+            standard_deviation=deviation,
+            mean_deviation=deviation * mean,
+            points=[
+                ScatterPoint(share=share, velocity=v, ratio=_ratio(replace(impact, velocity=v)))
+                for share in (0.05, 0.5, 0.95)
+                for v in [law(share)]
+            ],
+        )
+        for name, law, deviation in laws
+    ]
+
+
+# The sheet and the exact motion
+
+
+def curves(known: Known) -> list[Curve]:
+    """Depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
+    found = []
+    for beta in BETAS:
+        impact = case(known, beta)
+        rows = sheet.run(impact).rows
+        stop = motion.stop_time(**impact.motion)
+        times = [stop * k / 100 for k in range(101)]
+        depths, speeds = [0.0] * 101, [0.0] * 101
+        motion.history(times, **impact.motion, depth=depths, speed=speeds)
+        found.append(
+            Curve(
+                beta=float(beta),
+                sheet_time=[row.time for row in rows],
+                sheet_depth=[row.depth for row in rows],
+                exact_time=times,
+                exact_depth=depths,
+                printed=known.judge.ledger.claims[f"depth-beta-{beta}"].shown,
+            )
+        )
+    return found
+
+
+def velocity_curve(known: Known) -> VelocityCurve:
+    """X/R against impact velocity, as in Figure 5: the sheet's and the exact one, for beta = 5."""
+    low, high = known["figure-5-velocity-least"], known["figure-5-velocity-greatest"]
+    velocities = [low + (high - low) * k / 20 for k in range(21)]
+    cases = [replace(case(known, 5), velocity=v) for v in velocities]
+    return VelocityCurve(
+        velocity=velocities,
+        sheet=[sheet.run(impact).normalized_depth for impact in cases],
+        exact=[_ratio(impact) for impact in cases],
+    )
+
+
+def ladders(known: Known) -> list[Level]:
+    """The sheet's error against its time step, in both schemes, each step half of the last."""
+    levels = []
+    for beta in BETAS:
+        exact = depth.final_depth(**case(known, beta).motion)
+        for scheme in sheet.SCHEMES:
+            for k in range(4, -3, -1):
+                impact = case(known, beta, step=known["a-step"] * 2.0**k)
+                run = sheet.run(impact, scheme)
+                levels.append(
+                    Level(beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,
+                          depth=run.final_depth, error=run.final_depth - exact)
+                )  # fmt: skip
+    return levels

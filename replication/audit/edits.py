@@ -1,0 +1,208 @@
+"""Texts that are one slip of a typist away from a printed number or equation."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
+
+from reference.equations import Dimension
+from reference.printed import Printed, parse
+
+__all__ = ["EQUATION_EDITS", "NUMBER_EDITS", "edits", "equation_edits"]
+
+NUMBER_EDITS = (
+    "digit dropped",
+    "digits swapped",
+    "decimal point moved",
+    "exponent changed",
+    "other word",
+    "digit doubled",
+    "digit changed",
+    "digit inserted",
+)
+"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
+
+EQUATION_EDITS = (
+    "number dropped",
+    "symbol changed",
+    "sign changed",
+    "function changed",
+    "fraction turned over",
+)
+"""Kinds of edits of an equation; its numbers are claims, with edits of their own."""
+
+_LEADING_ZERO = re.compile(r"~?\s*0\d")
+_EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
+
+
+def edits(text: str) -> Iterator[tuple[str, str]]:
+    """Every text one edit away that is another number, with the kind of the edit; none twice.
+
+    The base of a power of ten is no digit, and no number begins with a zero before a digit.
+
+    >>> [text for text, kind in edits("0.278") if kind in ("digits swapped", "digit doubled")]
+    ['2.078', '0.728', '0.287', '0.2278', '0.2778', '0.2788']
+    >>> [text for text, kind in edits("3E+08") if kind == "exponent changed"]
+    ['3E+07', '3E+09', '3E-08']
+    """
+    seen = {text}
+    original = _number(text)
+    for kind in NUMBER_EDITS:
+        for edited in _EDITS[kind](text):
+            if edited in seen or _LEADING_ZERO.match(edited):
+                continue
+            seen.add(edited)
+            number = _number(edited)
+            if number is not None and original is not None and not _same(number, original):
+                yield edited, kind
+
+
+def _number(text: str) -> Printed | None:
+    """The text as a number, if it is one."""
+    try:
+        return parse(text)
+    except ValueError:
+        return None
+
+
+def _same(number: Printed, other: Printed) -> bool:
+    return (number.value, number.quanta) == (other.value, other.quanta)
+
+
+def _digits(text: str) -> list[int]:
+    """Where the digits of the mantissa stand; an exponent has edits of its own."""
+    power = _EXPONENT.search(text)
+    return [k for k, c in enumerate(text) if c.isdigit() and (power is None or k < power.start())]
+
+
+def _swapped(text: str) -> Iterator[str]:
+    places = _digits(text)
+    for here, there in pairwise(places):
+        if there - here == 1 or text[here + 1 : there] == ".":
+            yield (
+                text[:here] + text[there] + text[here + 1 : there] + text[here] + text[there + 1 :]
+            )
+
+
+def _doubled(text: str) -> Iterator[str]:
+    return (text[:k] + text[k] + text[k:] for k in _digits(text))
+
+
+def _changed(text: str) -> Iterator[str]:
+    return (text[:k] + d + text[k + 1 :] for k in _digits(text) for d in "0123456789")
+
+
+def _dropped(text: str) -> Iterator[str]:
+    return (text[:k] + text[k + 1 :] for k in _digits(text))
+
+
+def _inserted(text: str) -> Iterator[str]:
+    ends = sorted({end for k in _digits(text) for end in (k, k + 1)})
+    return (text[:k] + d + text[k:] for k in ends for d in "0123456789")
+
+
+def _moved(text: str) -> Iterator[str]:
+    """The decimal point one place to the left or right."""
+    point = text.find(".")
+    if point < 0:
+        return
+    if point > 1 and text[point - 1].isdigit():
+        yield text[: point - 1] + "." + text[point - 1] + text[point + 1 :]
+    if text[point + 1 : point + 2].isdigit():
+        yield text[:point] + text[point + 1] + "." + text[point + 2 :]
+
+
+def _shifted(text: str) -> Iterator[str]:
+    """The exponent one less and one more, written as wide as it was, or its sign turned."""
+    for match in _EXPONENT.finditer(text):
+        number = match["number"]
+        for other in (int(number) - 1, int(number) + 1, -int(number)):
+            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and other >= 0 else ""
+            width = len(number.lstrip("+-")) + len(sign or "-" * (other < 0))
+            shown = f"{sign}{other:0{width - len(sign)}d}"
+            yield text[: match.start("number")] + shown + text[match.end("number") :]
+
+
+_WORDS = (
+    ("one", "two", "three", "four", "five"),
+    ("third", "half"),
+    ("one-sixth", "one-fifth"),
+    ("twice", "thrice"),
+)
+
+
+def _words(text: str) -> Iterator[str]:
+    for words in _WORDS:
+        if text.lower() in words:
+            yield from (
+                word.capitalize() if text[0].isupper() else word
+                for word in words
+                if word != text.lower()
+            )
+
+
+_EDITS = {
+    "digits swapped": _swapped,
+    "digit doubled": _doubled,
+    "digit changed": _changed,
+    "digit dropped": _dropped,
+    "digit inserted": _inserted,
+    "decimal point moved": _moved,
+    "exponent changed": _shifted,
+    "other word": _words,
+}
+
+
+def equation_edits(
+    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
+) -> Iterator[tuple[str, str]]:
+    r"""Every equation one edit away, with the kind of the edit.
+
+    `written` maps what the report writes to a symbol's name; a symbol is mistaken for another of
+    the same dimension.
+
+    >>> from reference.ledger import load
+    >>> ledger = load()
+    >>> [text for text, kind in equation_edits("D = 2R", ledger.written, ledger.dimensions)
+    ...  if kind == "number dropped"]
+    ['D = R']
+    """
+    seen = {text}
+    for edited, kind in _equation_edits(text, written, dimensions):
+        if edited not in seen:
+            seen.add(edited)
+            yield edited, kind
+
+
+def _equation_edits(
+    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
+) -> Iterator[tuple[str, str]]:
+    symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
+    tokens = re.compile(
+        rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
+    )
+    for match in tokens.finditer(text):
+        before, after = text[: match.start()], text[match.end() :]
+        for other, kind in _replacements(match, written, dimensions):
+            yield before + other + after, kind
+    for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
+        yield (
+            text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :],
+            ("fraction turned over"),
+        )
+
+
+def _replacements(
+    match: re.Match[str], written: Mapping[str, str], dimensions: Mapping[str, Dimension]
+) -> Iterable[tuple[str, str]]:
+    text = match[0]
+    if match["number"]:
+        yield "", "number dropped"
+    elif match["sign"]:
+        yield "+" if text == "-" else "-", "sign changed"
+    elif text in (r"\ln", r"\log"):
+        yield r"\log" if text == r"\ln" else r"\ln", "function changed"
+    elif match["symbol"]:
+        own = dimensions[written[text]]
+        for other, name in written.items():
+            if name != written[text] and dimensions[name] == own:
+                yield other, "symbol changed"

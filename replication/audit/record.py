@@ -1,0 +1,426 @@
+"""The record of a finished audit: everything that any report shows, as plain typed data.
+
+`audit.json` is this record, key by key; its JSON Schema comes from these classes. Reports render
+it and compute nothing. Lengths, velocities and the like are in SI units unless a `unit` says
+otherwise.
+"""
+
+from typing import Any
+
+import msgspec
+
+__all__ = [
+    "SCHEMA",
+    "Approach",
+    "BackSolvedRecord",
+    "ClaimRecord",
+    "ConstantRecord",
+    "Curve",
+    "Effect",
+    "EquationRecord",
+    "EvidenceRecord",
+    "Figure",
+    "FindingRecord",
+    "InferredRecord",
+    "Judged",
+    "Level",
+    "Record",
+    "RepairRecord",
+    "Scatter",
+    "ScatterPoint",
+    "Sensitivity",
+    "SlipRecord",
+    "SourceRecord",
+    "VelocityCurve",
+    "schema",
+]
+
+SCHEMA = "coldspray-audit-2"
+"""Name and version of the record's keys."""
+
+Ends = tuple[float | None, float | None]
+"""Lower and upper end as doubles; null where there is none."""
+
+ExactEnds = tuple[str | None, str | None]
+"""The same as exact fractions, such as "1533/200"."""
+
+
+class _Part(msgspec.Struct, kw_only=True, frozen=True):
+    """A part of the record."""
+
+
+class Judged(_Part, frozen=True):
+    """A verdict under one convention.
+
+    `rounding` is how a value became the printed text; `choices` and `header` say whether what the
+    author chose, and the header of Table A-1, are exact or rounded as printed; `scheme` is the
+    velocity at which the sheet takes the drag. `enclosure` is the range proven for the value.
+    """
+
+    rounding: str
+    choices: str
+    header: str
+    scheme: str
+    verdict: str
+    enclosure: Ends
+    enclosure_exact: ExactEnds
+
+
+class ReadingRecord(_Part, frozen=True):
+    """What one reading of the words makes of a claim."""
+
+    name: str
+    summary: str
+    verdict: str
+    computed: float
+    reference: str
+    enclosure: Ends
+    enclosure_exact: ExactEnds
+    witness: dict[str, float] | None
+    holds: str
+    otherwise: list[Judged]
+
+
+class BackSolvedRecord(_Part, frozen=True):
+    """The values of one entry, all others as printed, for which the claim would agree."""
+
+    reading: str
+    entry: str
+    title: str
+    unit: str
+    printed: float
+    intervals: list[tuple[float, float]]
+    search: tuple[float, float]
+    search_reason: str
+    proof: str
+    prints_alike: bool
+
+
+class RepairRecord(_Part, frozen=True):
+    """A text one edit away with which the claim would agree, and what would fail then."""
+
+    entry: str
+    title: str
+    reading: str
+    printed: str
+    text: str
+    kind: str
+    failing: list[str]
+
+
+class SlipRecord(_Part, frozen=True):
+    """What a slip of the author's would make of the claim."""
+
+    name: str
+    reason: str
+    value: float
+    fits: str
+
+
+class SourceRecord(_Part, frozen=True):
+    """A public source beside a claim."""
+
+    id: str
+    title: str
+    address: str
+    quote: str
+    says: str
+    unit: str
+    applies: str
+    agrees: bool | None
+
+
+class Figure(_Part, frozen=True):
+    """A number that helps to judge a remark."""
+
+    means: str
+    value: float
+    unit: str
+
+
+class Shown(_Part, frozen=True):
+    """What the claims that are computed from a chosen number tell of it."""
+
+    claims: list[str]
+    interval: tuple[float, float]
+    unit: str
+
+
+class ClaimRecord(_Part, frozen=True):
+    """One printed number with its verdict and proof; numbers in the claim's unit."""
+
+    id: str
+    title: str
+    where: str
+    line: int
+    section: str
+    equation: str | None
+    cell: str | None
+    quote: str
+    printed: str
+    unit: str
+    kind: str
+    interval: Ends | None
+    interval_exact: ExactEnds | None
+    interval_text: str | None
+    verdict: str
+    restates: str | None
+    computed_by: str | None
+    computed: float | None
+    reference: str | None
+    enclosure: Ends | None
+    enclosure_exact: ExactEnds | None
+    witness: dict[str, float] | None
+    error_in_last_digit: float | None
+    holds: str
+    otherwise: list[Judged]
+    readings: list[ReadingRecord]
+    rests_on: dict[str, list[str]]
+    assumes: list[str]
+    explanation: str
+    formula: str | None
+    mathml: str | None
+    by_hand: str | None
+    shown_by: Shown | None
+    sources: list[SourceRecord]
+    figures: list[Figure]
+    back_solved: list[BackSolvedRecord]
+    repairs: list[RepairRecord]
+    slips: list[SlipRecord]
+    workbook: str | None
+
+
+class CheckRecord(_Part, frozen=True):
+    """One check of an equation."""
+
+    says: str
+    holds: bool
+
+
+class ConstantRecord(_Part, frozen=True):
+    """A constant of an equation: the verdict, and the values that would pass every check."""
+
+    claim: str
+    verdict: str
+    needed: list[str]
+
+
+class EquationRecord(_Part, frozen=True):
+    """One printed equation with its verdict."""
+
+    id: str
+    number: str | None
+    title: str
+    where: str
+    text: str
+    mathml: str
+    kind: str
+    follows_from: str
+    verdict: str
+    factor: str | None
+    checks: list[CheckRecord]
+    constants: list[ConstantRecord]
+    explanation: str
+    repairs: list[RepairRecord]
+
+
+class EvidenceRecord(_Part, frozen=True):
+    """A number in a finding's text: as asserted, and as computed by this audit."""
+
+    name: str
+    means: str
+    unit: str
+    asserted: str
+    computed: float | bool
+    holds: bool
+
+
+class FindingRecord(_Part, frozen=True):
+    """What a failed or surprising claim teaches."""
+
+    id: str
+    title: str
+    kind: str
+    status: str
+    claims: list[str]
+    statement: str
+    by_hand: str
+    settle: str
+    holds: bool
+    evidence: list[EvidenceRecord]
+
+
+class HandbookRecord(_Part, frozen=True):
+    """What the evidence says of a public value of an inferred input."""
+
+    source: SourceRecord
+    verdict: str
+
+
+class InferredRecord(_Part, frozen=True):
+    """An input that the report never prints, and what its evidence admits; in `unit`."""
+
+    id: str
+    title: str
+    unit: str
+    scheme: str
+    assumed: float
+    nominal_source: str
+    interval: tuple[float, float]
+    interval_exact: tuple[str, str]
+    with_printed_mass: tuple[float, float]
+    attained_with_rounded_inputs: tuple[float, float] | None
+    possible_with_rounded_inputs: tuple[float, float] | None
+    evidence: list[str]
+    odd: list[str]
+    sources: list[HandbookRecord]
+
+
+class CulpritRecord(_Part, frozen=True):
+    """One misprint that would explain everything that fails."""
+
+    repair: RepairRecord
+    explains: list[str]
+
+
+class Approach(_Part, frozen=True):
+    """One normalized depth X/R: ours, and the report's."""
+
+    kind: str
+    name: str
+    computed: float | None = None
+    printed: str = ""
+    claim: str | None = None
+
+
+class Effect(_Part, frozen=True):
+    """The exact X/R and depth at both ends of an input's range, and what range it is."""
+
+    input: str
+    low: float
+    high: float
+    ratios: list[float]
+    depths: list[float]
+    why: str
+
+
+class Sensitivity(_Part, frozen=True):
+    """How the exact depth of one case depends on its inputs."""
+
+    beta: float
+    depth: float
+    elasticities: dict[str, float]
+    ten_percent: list[Effect]
+    stated: list[Effect]
+
+
+class ScatterPoint(_Part, frozen=True):
+    """Velocity and X/R that so many of the particles do not exceed."""
+
+    share: float
+    velocity: float
+    ratio: float
+
+
+class Scatter(_Part, frozen=True):
+    """The stream by one law; deviations of the velocity to first order."""
+
+    law: str
+    standard_deviation: float
+    mean_deviation: float
+    points: list[ScatterPoint]
+
+
+class Curve(_Part, frozen=True):
+    """Depth against time, from touch to rest."""
+
+    beta: float
+    printed: str
+    sheet_time: list[float]
+    sheet_depth: list[float]
+    exact_time: list[float]
+    exact_depth: list[float]
+
+
+class VelocityCurve(_Part, frozen=True):
+    """X/R against impact velocity, for beta = 5."""
+
+    velocity: list[float]
+    sheet: list[float]
+    exact: list[float]
+
+
+class Level(_Part, frozen=True):
+    """The sheet at one time step, and its error against the exact depth at rest."""
+
+    beta: float
+    scheme: str
+    step: float
+    steps: int
+    depth: float
+    error: float
+
+
+class Counts(_Part, frozen=True):
+    """How many there are: printed numbers, of them computed anew, equations, blank cells.
+
+    `calculations` counts the distinct ones among the reproduced numbers: a value that the report
+    prints five times is one of them.
+    """
+
+    numbers: int
+    remarks: int
+    reproduced: int
+    calculations: int
+    failing: int
+    equations: int
+    equations_derived: int
+    blank_cells: int
+
+
+class ReportRecord(_Part, frozen=True):
+    """The report that was audited."""
+
+    title: str
+    author: str
+    year: int
+
+
+class Record(_Part, frozen=True):
+    """The finished audit."""
+
+    schema: str
+    headline: str
+    report: ReportRecord
+    summary: dict[str, int]
+    counts: Counts
+    culprit: CulpritRecord | None
+    claims: list[ClaimRecord]
+    equations: list[EquationRecord]
+    findings: list[FindingRecord]
+    inferred: list[InferredRecord]
+    approaches: list[Approach]
+    sensitivity: list[Sensitivity]
+    scatter: list[Scatter]
+    curves: list[Curve]
+    velocity_curve: VelocityCurve
+    ladders: list[Level]
+    blank_cells: list[str]
+    symbols: dict[str, str]
+    provenance: dict[str, Any]
+
+    def claim(self, name: str) -> ClaimRecord:
+        """The claim with this id. Raises KeyError if there is none."""
+        for claim in self.claims:
+            if claim.id == name:
+                return claim
+        raise KeyError(name)
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of `audit.json`.
+
+    >>> sorted(schema())[:2]
+    ['$defs', '$ref']
+    """
+    return msgspec.json.schema(Record)

@@ -1,0 +1,91 @@
+"""A quick look at a ledger in doubles: which claims agree with the inputs as printed.
+
+It proves nothing. It tells which of many possible misprints are worth a proof, and how many claims
+one of them would put wrong.
+"""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+
+from reference.arithmetic import Floats
+from reference.ledger import INFERRED, Claim, Convention, Ledger
+
+__all__ = ["Screen", "dependents", "restates"]
+
+_FLOATS = Floats()
+_CLOSE = Fraction(1, 10**9)
+"""How near to exact text, such as 2/3, a double must come."""
+
+
+class Screen:
+    """Which claims of a ledger agree, its inferred inputs at given values (SI)."""
+
+    def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
+        self.ledger, self.assumed = ledger, assumed
+
+    def agrees(
+        self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
+    ) -> bool:
+        """Whether a claim with a computation agrees, with some entries changed (SI)."""
+        computation = claim.computations[reading]
+        if computation.restates:
+            return restates(self.ledger, claim, changed or {})
+        values = {name: self._value(name, changed or {}) for name in claim.entries}
+        function = self.ledger.function(claim, reading=reading)
+        try:
+            value = Fraction(function(_FLOATS, **{k: float(v) for k, v in values.items()}))
+        except (ArithmeticError, ValueError, TypeError):
+            return False  # no such input has a result, or only a complex one
+        target = claim.target()
+        if target.is_point and target.lower is not None:
+            return abs(value - target.lower) <= _CLOSE * abs(target.lower)
+        return target.contains(value)
+
+    def _value(self, name: str, changed: Mapping[str, Fraction]) -> Fraction:
+        if name in changed:
+            return changed[name]
+        return self.assumed[name] if name in self.assumed else self.ledger.value(name)
+
+    def failing(self, names: Iterable[str]) -> set[str]:
+        """Those of the claims that do not agree."""
+        claims = (self.ledger.claims[name] for name in names)
+        return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
+
+
+def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
+    """Whether a claim that only repeats or counts agrees with what it repeats or counts.
+
+    It does if some value prints like both texts and, of a bound, satisfies it. `changed` gives the
+    repeated number another value (SI).
+    """
+    assert claim.computation is not None
+    if claim.computation.name == "count":
+        return claim.target().contains(Fraction(len(claim.inputs)))
+    (name,) = claim.inputs["value"]
+    # A choice or an exact number has one value; a bound or an "about" has its own interval.
+    loose = claim.bound is not None or claim.entry.kind == "approximation"
+    own = claim.target() if loose else claim.as_input(Convention())
+    if name in changed:
+        return own.contains(changed[name])
+    return own.meets(ledger.claims[name].as_input(Convention()))
+
+
+def dependents(ledger: Ledger, name: str) -> set[str]:
+    """The claims whose verdict may change with an entry or an equation, itself among them.
+
+    Claims that depend on an inferred input depend on its evidence, and on all that this rests on.
+    """
+    within = ledger.claims[name].within if name in ledger.claims else name
+    direct = {
+        claim.id
+        for claim in ledger.claims.values()
+        if claim.id == name
+        or name in claim.entries
+        or claim.entry.against == name
+        or (within and any(within in c.equations for c in claim.computations.values()))
+    }
+    for key, inferred in ledger.inferred.items():
+        if direct & set(inferred.evidence):
+            unknown = INFERRED + key
+            direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+    return direct

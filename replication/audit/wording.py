@@ -1,0 +1,222 @@
+"""The sentences of the record: why a verdict is what it is, and what it takes for granted."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from reference.ledger import Claim, Convention, Ledger
+from reference.printed import Interval, Rounding
+from reference.units import to_si, written
+from replication.audit.equations import Constant, EquationAssessment
+from replication.audit.record import SourceRecord
+from replication.audit.verdict import Judge, Judgement, Reading, Verdict
+from replication.text import inward, number, outward
+
+__all__ = [
+    "assumptions",
+    "constant_explanation",
+    "equation_explanation",
+    "explanation",
+    "holds",
+    "quantity",
+    "sources",
+]
+
+
+def quantity(text: str, unit: str) -> str:
+    """Text with its unit, as a page shows it.
+
+    >>> quantity("7.67", "um"), quantity("0.70", "1")
+    ('7.67 µm', '0.70')
+    """
+    return f"{text} {written(unit)}".strip()
+
+
+def explanation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
+    """Why a claim that a computation gives has its verdict."""
+    first, *others = readings
+    sentences = [_value(claim, first), *_reason(judge, claim, first)]
+    sentences += [_other(claim, reading) for reading in others]
+    return " ".join(sentences)
+
+
+def _value(claim: Claim, reading: Reading) -> str:
+    what = reading.summary[:1].upper() + reading.summary[1:]
+    value = quantity(number(reading.computed), claim.unit)
+    inside = reading.verdict is Verdict.REPRODUCED
+    interval = claim.interval()
+    relation = "as" if interval.is_point else "in"
+    shown = str(interval).replace("E", "e")
+    return f"{what}: {value}, {'' if inside else 'not '}{relation} {shown}."
+
+
+def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
+    judgement = reading.judgements[0]
+    low, high = judgement.lower, judgement.upper
+    match judgement.verdict:
+        case Verdict.REPRODUCED:
+            if claim.inferred:
+                return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
+            return []
+        case Verdict.WITHIN_ROUNDING:
+            found = _inputs(judge, judgement)
+            return [f"Inputs that print like the report's give it, for instance {found}."]
+        case Verdict.NOT_REPRODUCED if low == high:
+            return ["No rounded input enters, so none could change it."]
+        case Verdict.NOT_REPRODUCED:
+            side = _side(claim.interval(), low, high)
+            proven = f"it lies in {outward(low, high)}, {side}"
+            return [f"Proven for all inputs that print like the report's: {proven}."]
+    return [f"The proven range {outward(low, high)} is too wide to tell."]
+
+
+def _inputs(judge: Judge, judgement: Judgement) -> str:
+    ledger = judge.ledger
+    return ", ".join(
+        f"{ledger.title(name)} "
+        + quantity(number(value / to_si(ledger.unit(name)), 8), ledger.unit(name))
+        for name, value in (judgement.witness or {}).items()
+    )
+
+
+def _side(interval: Interval, low: Fraction, high: Fraction) -> str:
+    if interval.lower is not None and high <= interval.lower:
+        return "all of it below"
+    if interval.upper is not None and low >= interval.upper:
+        return "all of it above"
+    return "none of it inside"
+
+
+def _other(claim: Claim, reading: Reading) -> str:
+    judgement = reading.judgements[0]
+    value = quantity(number(reading.computed), claim.unit)
+    text = f"Read as {reading.name}: {value}, {reading.verdict}"
+    if judgement.lower != judgement.upper:
+        text += f"; proven range {outward(judgement.lower, judgement.upper)}"
+    return text + "."
+
+
+# Conventions
+
+
+def holds(claim: Claim, reading: Reading) -> str:
+    """Under which conventions the verdict holds, and which would change it."""
+    scope = "every convention of rounding"
+    tried = [judgement.convention for judgement in reading.judgements]
+    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    varied = ["choices"] if len({c.choices_exact for c in usual}) > 1 else []
+    varied += ["header"] if len({c.header_exact for c in usual}) > 1 else []
+    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
+    scope += ", in both schemes" if claim.by_scheme else ""
+    exceptions: dict[str, list[tuple[str, ...]]] = {}
+    for judgement in reading.otherwise:
+        exceptions.setdefault(judgement.verdict, []).append(_conditions(judgement.convention))
+    if not exceptions:
+        return f"The same under {scope}."
+    parts = [
+        f"{verdict} {'; '.join(_merged(conditions))}" for verdict, conditions in exceptions.items()
+    ]
+    return f"The same under {scope}, except: {', and '.join(parts)}."
+
+
+def _conditions(convention: Convention) -> tuple[str, ...]:
+    """What a convention does otherwise than the usual one."""
+    parts = (
+        _ROUNDINGS[convention.rounding],
+        "" if convention.choices_exact else "what the author chose is rounded, too",
+        "the header of Table A-1 is exact" if convention.header_exact else "",
+        "the drag is taken at the middle velocity" if convention.centered else "",
+    )
+    return tuple(part for part in parts if part)
+
+
+_ROUNDINGS = {
+    Rounding.AWAY: "",
+    Rounding.EVEN: "ties go to even",
+    Rounding.CUT: "digits are cut off",
+}
+
+
+def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
+    """Conditions as clauses; one that contains another is left out."""
+    kept = [c for c in dict.fromkeys(conditions) if not any(set(o) < set(c) for o in conditions)]
+    return [f"if {' and '.join(condition)}" for condition in kept]
+
+
+def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
+    """What the verdict takes for granted beyond the printed text."""
+    assumed = [] if claim.entry.assumes is None else [claim.entry.assumes]
+    for name in claim.inferred:
+        value = quantity(number(judge.value(name)), judge.ledger.unit(name))
+        admitted = inward(*judge.inference(name).inner.ends)
+        assumed.append(
+            f"{judge.ledger.title(name)} {value}, inferred: Table A-1 as printed admits {admitted}"
+        )
+    if claim.by_scheme:
+        assumed.append("the drag at the velocity with which a row begins")
+    return assumed + _digits(claim, computed)
+
+
+def _digits(claim: Claim, computed: float | None) -> list[str]:
+    """Which of an ambiguous number's digits were taken, and whether it matters."""
+    printed = claim.printed
+    if printed is None or computed is None or claim.is_exact or len(printed.quanta) == 1:
+        return []
+    if claim.bound is not None:
+        return []
+    taken = "the fewest digits" if claim.entry.kind == "approximation" else "all digits"
+    inside = {
+        printed.interval(quantum=quantum).contains(Fraction(computed)) for quantum in printed.quanta
+    }
+    depends = "depends" if len(inside) > 1 else "does not depend"
+    return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
+
+
+def sources(records: Sequence[SourceRecord]) -> str:
+    """How a number stands to the public sources for it."""
+    texts: dict[bool | None, list[str]] = {True: [], False: []}
+    for record in records:
+        texts[record.agrees].append(f"{quantity(record.says, record.unit)} ({record.title})")
+    agreeing, others = "; ".join(texts[True]), "; ".join(texts[False])
+    if not agreeing:
+        return f"The report names no source. It agrees with no public one: {others}."
+    but = f", not with {others}" if others else ""
+    return f"The report names no source. It agrees with {agreeing}{but}."
+
+
+# Equations
+
+
+def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
+    """Why an equation has its verdict."""
+    entry = assessed.equation.entry
+    failed = [check.says for check in assessed.checks if not check.holds]
+    if not failed:
+        said = "; ".join(check.says for check in assessed.checks)
+        return f"From {entry.follows_from}. Checked exactly: {said}."
+    text = f"From {entry.follows_from}. This check fails: {failed[0]}."
+    if assessed.factor is not None:
+        text += f" The printed side is {assessed.factor} times the derived one."
+    for constant in assessed.constants.values():
+        if constant.verdict is Verdict.NOT_REPRODUCED:
+            needed = " or ".join(str(value) for value in constant.needed)
+            printed = ledger.claims[constant.claim]
+            text += f" With {needed} for {printed.shown} ({printed.title}) it would follow."
+    return text
+
+
+def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
+    """Why a constant of an equation has its verdict."""
+    entry = ledger.equations[claim.within or ""].entry
+    passes = f"the equation follows from {entry.follows_from}"
+    if entry.kind == "taken over":
+        passes = "the equation has the right dimensions, limits and signs"
+    match constant.verdict:
+        case Verdict.REPRODUCED:
+            return f"With this number, and no other that was tried, {passes}."
+        case Verdict.NOT_REPRODUCED:
+            needed = " or ".join(str(value) for value in constant.needed)
+            return f"With {needed} instead of {claim.shown} {passes}."
+        case Verdict.UNDECIDED:
+            return f"With no number that was tried in its place {passes}."
+    reason = f": {claim.given}" if claim.given else ""
+    return f"Dimensions, limits and signs do not decide it{reason}."

@@ -1,0 +1,141 @@
+"""The command `coldspray`: reads the command line, runs one command, says what went wrong.
+
+The commands are one module each: HELP, `options` for its parser, `run` for its work. Each imports
+what it needs when it runs, so that a light command starts fast.
+"""
+
+import argparse
+import io
+import os
+import re
+import signal
+import sys
+from collections.abc import Sequence
+from types import FrameType, ModuleType
+from typing import Any, NoReturn
+
+from replication.cli import (
+    audit,
+    bench,
+    check,
+    claims,
+    converge,
+    depth,
+    diff,
+    history,
+    power,
+    sheet,
+    stability,
+    sweep,
+    workbook,
+)
+from replication.reading import one_line, quoted
+
+__all__ = ["COMMANDS", "main"]
+
+COMMANDS: tuple[ModuleType, ...] = (
+    audit,
+    claims,
+    workbook,
+    sheet,
+    depth,
+    history,
+    converge,
+    stability,
+    sweep,
+    bench,
+    check,
+    diff,
+    power,
+)
+"""In the order in which `coldspray --help` lists them."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
+            stream.reconfigure(errors="backslashreplace")
+    options = _options(sys.argv[1:] if arguments is None else arguments)
+    if arguments is None:
+        _end_as_interrupted()
+    try:
+        status = options.run(options)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader of a pipe has seen enough; nothing more can be said to it.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt as interrupt:
+        print(f"coldspray {options.command}: interrupted, nothing written", file=sys.stderr)
+        return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
+    except (ValueError, OSError) as error:
+        print(f"coldspray {options.command}: {one_line(_message(error))}", file=sys.stderr)
+        return 2
+    assert isinstance(status, int)
+    return status
+
+
+def _end_as_interrupted() -> None:
+    """Have the program end as by Ctrl-C, drafts removed, when it is told to or loses its terminal.
+
+    A signal that is ignored, as after `nohup`, remains so.
+    """
+    for name in ("SIGTERM", "SIGHUP"):  # Windows has no hangup
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _interrupt)
+
+
+def _interrupt(number: int, _: FrameType | None) -> NoReturn:
+    raise KeyboardInterrupt(number)
+
+
+def _message(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        name = error.filename2 or error.filename
+        return f"{name}: {error.strerror}" if name else error.strerror
+    return str(error)
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
+
+
+_DASHES = re.compile(r"(-\w|--[\w-]+=)--")
+"""Two dashes as an option's value: argparse drops them (CPython issue 59317)."""
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = _Parser(
+        prog="coldspray",
+        description="Re-run and audit W. S. de Rosset's 2006 cold-spray penetration model.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for module in COMMANDS:
+        text: str = module.HELP
+        command = commands.add_parser(
+            module.__name__.rpartition(".")[2],
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}.",
+        )
+        module.options(command)
+        command.set_defaults(run=module.run)
+    for argument in arguments:
+        if _DASHES.fullmatch(argument):
+            parser.error(f"{quoted(argument)}: two dashes are no value")
+    return parser.parse_args(arguments)
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        from importlib.metadata import version
+
+        print(f"coldspray {version('coldspray')}")
+        parser.exit(0)

@@ -1,0 +1,57 @@
+"""`coldspray audit`: every number of the report, and the files that say so."""
+
+import argparse
+import sys
+from pathlib import Path
+from textwrap import fill
+
+from replication.cli import options as shared
+
+HELP = "audit every number the report prints"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    folder = Path("coldspray-audit")
+    command.add_argument(
+        "--out", type=shared.path, default=folder, metavar="DIR", help=f"default: {folder}/"
+    )
+    command.add_argument(
+        "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
+    )
+    command.add_argument("--json", action="store_true", help="print audit.json instead of text")
+    command.add_argument("--schema", action="store_true", help="print the schema of audit.json")
+    command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Audit, write, summarize."""
+    if options.schema:
+        from replication.audit.record import schema
+
+        shared.print_json(schema())
+        return 0
+    from replication.report import files
+
+    files.check(options.out)
+    from replication.audit.audit import audit
+    from replication.error import hard_cases
+    from replication.workbook import to_bytes
+
+    record = audit()
+    outcomes = [hard_cases.outcome(case) for case in hard_cases.HARD_CASES]
+    beside = {
+        "workbook.xlsx": to_bytes(record=record),
+        "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
+    }
+    written = files.write(record, options.out, beside)
+    if options.json:
+        sys.stdout.write(written["audit.json"].decode())
+    elif not options.quiet:
+        from replication.report.terminal import summary
+
+        top = dict.fromkeys(Path(name).parts[0] for name in written)
+        width = shared.width()
+        print(summary(record, width, shared.may_emphasize()), end="\n\n")
+        print(fill(f"Written to {options.out}/: {', '.join(top)}", width, break_long_words=False))
+    return 1 if options.exit_code and record.counts.failing else 0

@@ -1,0 +1,38 @@
+"""`coldspray depth`: final depth of a case, without time steps."""
+
+import argparse
+
+from replication.cases import inputs_of
+from replication.cli import options as shared
+
+HELP = "final depth of a case, without time steps"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    shared.input_options(command)
+    shared.output_options(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compute and print it."""
+    from replication.models.depth import final_depth, normalized_depth
+
+    case = shared.case(options)
+    target = case.target_density, case.target_resistance
+    ratio = normalized_depth(case.velocity, case.particle_density, *target)
+    depth, beyond = final_depth(**case.motion), ratio > 1
+    if options.json:
+        shared.print_json(
+            {
+                "inputs": inputs_of(case),
+                "depth": depth,
+                "normalized_depth": ratio,
+                "beyond_radius": beyond,
+            }
+        )
+        return 0
+    print(f"final depth       {depth * 1e6:.8g} um ({depth!r} m)")
+    print(f"normalized depth  {ratio:.8g}")
+    print(f"beyond radius     {'yes' if beyond else 'no'}")
+    return 0

@@ -1,0 +1,121 @@
+"""What the commands share: options for a case and for output, and how they print."""
+
+import argparse
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from replication.cases import INPUTS, read_case
+from replication.models.impact import Impact
+from replication.reading import one_line, quoted
+
+__all__ = [
+    "case",
+    "given",
+    "input_options",
+    "may_emphasize",
+    "output_options",
+    "path",
+    "print_json",
+    "scheme_option",
+    "warn",
+    "whole",
+    "width",
+]
+
+
+def path(text: str) -> Path:
+    """A path from the command line; an unset variable must not mean this folder."""
+    if not text or "\0" in text:
+        raise argparse.ArgumentTypeError(f"a path is wanted, not {quoted(text)}")
+    return Path(text)
+
+
+def whole(least: int, most: int) -> Callable[[str], int]:
+    """A reader of whole numbers within bounds, for argparse.
+
+    >>> whole(1, 40)("8")
+    8
+    """
+
+    def read(text: str) -> int:
+        digits = text.strip()
+        if digits.isascii() and digits.isdigit() and len(digits) <= 20:
+            number = int(digits)
+            if least <= number <= most:
+                return number
+        raise argparse.ArgumentTypeError(
+            f"a whole number from {least:,} to {most:,} is wanted, not {quoted(text)}"
+        )
+
+    return read
+
+
+def output_options(
+    command: argparse.ArgumentParser, csv: bool = False, quiet: str = "no warnings"
+) -> None:
+    """--json and --quiet; and --csv, of a command that prints a table."""
+    form = command.add_mutually_exclusive_group()
+    if csv:
+        form.add_argument("--csv", action="store_true", help="print CSV")
+    form.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument("--quiet", action="store_true", help=quiet)
+
+
+def input_options(command: argparse.ArgumentParser, default: str = "beta-5") -> None:
+    """--case, --case-file and every input of a case."""
+    command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
+    command.add_argument("--case-file", type=path, metavar="FILE", help="TOML, table [impact]")
+    for name, unit in INPUTS.items():
+        flag = "--" + name.replace("_", "-")
+        shown = "" if unit == "1" else f" in {unit}, or with its unit"
+        help_text = f"{name.replace('_', ' ')}{shown}"
+        command.add_argument(flag, dest=name, metavar="X", help=help_text)
+
+
+def scheme_option(command: argparse.ArgumentParser) -> None:
+    """--scheme."""
+    command.add_argument(
+        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
+    )
+
+
+def given(options: argparse.Namespace) -> dict[str, str]:
+    """The inputs that stand on the command line."""
+    values = {name: getattr(options, name) for name in INPUTS}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def case(options: argparse.Namespace) -> Impact:
+    """The case that the options name."""
+    name = "beta-5" if options.case is None else options.case
+    return read_case(name, options.case_file, given(options))
+
+
+def print_json(record: Any) -> None:
+    """One JSON document on standard output."""
+    from replication.plain import json_text
+
+    sys.stdout.write(json_text(record))
+
+
+def width(piped: int = 80) -> int:
+    """The columns of the terminal; where output goes elsewhere, so many."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
+
+
+def may_emphasize() -> bool:
+    """Whether output may be bold: to a terminal that can, and NO_COLOR is not set."""
+    return (
+        sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    )
+
+
+def warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:
+    """Warnings on standard error, unless quiet."""
+    if not options.quiet:
+        for warning in warnings:
+            print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)

@@ -1,0 +1,80 @@
+"""`coldspray power`: what the audit would notice, measured by planted misprints."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+from replication.cli import options as shared
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from replication.power import Counts, Power
+
+HELP = "plant misprints in memory and measure what the audit notices"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    command.add_argument(
+        "--sample", type=shared.whole(1, 10**6), default=500, metavar="N", help="misprints (500)"
+    )
+    command.add_argument(
+        "--seed", type=shared.whole(0, 2**64 - 1), default=1, metavar="N", help="of the sample (1)"
+    )
+    shared.output_options(command, quiet="no progress")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Plant, audit, count, print."""
+    from tqdm import tqdm
+
+    from reference.ledger import load
+    from replication.power import power
+
+    # Without a terminal (None) there is no bar.
+    quiet = options.quiet or None
+    result = power(
+        load(),
+        options.sample,
+        options.seed,
+        lambda plants: tqdm(plants, unit=" misprints", disable=quiet, leave=False),
+    )
+    if options.json:
+        shared.print_json(result)
+    else:
+        print(_text(result))
+    return 0
+
+
+def _text(result: "Power") -> str:
+    """The rates, whole, by kind of entry and by kind of edit, then what passes."""
+    from replication.text import aligned
+
+    lines = [
+        f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as every",
+        "number still rounds as printed. Of the others, in percent:",
+        "",
+    ]
+    heads = ("", "planted", "visible", "noticed", "text named", "named first", "accused wrongly")
+    rows = [heads, _row("all", result)]
+    for title, counts in (("in", result.by_kind), ("by", result.by_edit)):
+        rows += _rows(title, counts)
+    lines += aligned(rows)
+    if result.unnoticed:
+        lines += ["", "Visible, and not noticed:"]
+        lines += [f"  {x['entry']}: {x['true']!r} as {x['text']!r}" for x in result.unnoticed]
+    return "\n".join(lines)
+
+
+def _rows(title: str, counts: "Mapping[str, Counts]") -> list[tuple[str, ...]]:
+    return [_row(f"{title} {name}", counts[name]) for name in sorted(counts)]
+
+
+def _row(name: str, counts: "Counts") -> tuple[str, ...]:
+    shares = (counts.detected, counts.repaired, counts.repaired_first, counts.accused_wrongly)
+    return (
+        name,
+        str(counts.planted),
+        str(counts.visible),
+        *(f"{100 * share / counts.visible:.1f}" if counts.visible else "-" for share in shares),
+    )

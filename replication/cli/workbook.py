@@ -1,0 +1,165 @@
+"""`coldspray workbook`: the live workbook of the report, or of a case."""
+
+import argparse
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from replication.cli import options as shared
+from replication.text import aligned
+
+if TYPE_CHECKING:
+    from spreadsheets.compare import Difference
+    from spreadsheets.verify import EngineCheck, SheetCheck
+
+HELP = "write the live workbook"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    output = Path("workbook.xlsx")
+    command.add_argument(
+        "-o", "--output", type=shared.path, default=output, metavar="FILE", help=f"{output}"
+    )
+    command.add_argument(
+        "--force", action="store_true", help="write over a file that is not as coldspray wrote it"
+    )
+    command.add_argument(
+        "--rows", type=int, metavar="N", help="time steps to prepare (default: twice those needed)"
+    )
+    command.add_argument("--quiet", action="store_true", help="no warnings and no other words")
+    command.add_argument(
+        "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
+    )
+    command.add_argument("--json", action="store_true", help="with --verify: print JSON")
+    command.add_argument(
+        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
+    )
+    shared.input_options(command, "the report's two cases")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write, and verify if asked to."""
+    from replication import workbook
+    from spreadsheets import emit
+
+    if options.json and not options.verify:
+        raise ValueError("--json is for what --verify finds: give both")
+    emit.check(options.output, force=options.force)
+    own = options.case is not None or options.case_file is not None or shared.given(options)
+    cases = [shared.case(options)] if own else workbook.REPORT
+    book = workbook.build(cases, options.scheme, options.rows)
+    if not options.verify:
+        emit.write(options.output, book.to_bytes(), force=options.force)
+        _say(options, [f"Written: {options.output}"])
+        shared.warn(options, book.warnings)
+        return 0
+    checks = workbook.write_verified(options.output, book, force=options.force)
+    passed = all(check.passed for check in checks)
+    if options.json:
+        record = [_engine_record(check) for check in checks]
+        bound = {"long_double_bound": book.rounding}
+        shared.print_json(
+            {"file": str(options.output), "passed": passed, **bound, "engines": record}
+        )
+    else:
+        _say(options, [f"Written: {options.output}", "", _text(checks, book.rounding)])
+    shared.warn(options, book.warnings)
+    return 0 if passed else 1
+
+
+def _say(options: argparse.Namespace, lines: Sequence[str]) -> None:
+    if not options.quiet:
+        print(*lines, sep="\n")
+
+
+# What the engines make of the workbook
+
+
+def _engine_record(check: "EngineCheck") -> dict[str, Any]:
+    return {
+        "engine": check.engine,
+        "version": check.version or None,
+        "outcome": check.outcome,
+        "reason": check.reason or None,
+        "seconds": check.seconds if check.sheets else None,
+        "sheets": [_sheet_record(sheet) for sheet in check.sheets],
+    }
+
+
+def _sheet_record(sheet: "SheetCheck") -> dict[str, Any]:
+    return {
+        "sheet": sheet.sheet,
+        "cells": sheet.cells,
+        "differ": sheet.differ,
+        "explained": len(sheet.explained),
+        "largest_ulps": sheet.largest_ulps,
+        "tolerated": len(sheet.tolerated),
+        "unexplained": [_difference_record(left) for left in sheet.unexplained],
+    }
+
+
+def _difference_record(left: "Difference") -> dict[str, Any]:
+    return {
+        "cell": left.cell,
+        "expected": left.expected,
+        "found": left.found,
+        "ulps": left.ulps,
+    }
+
+
+_SHOWN = 5
+"""So many unexplained cells of an engine are printed; the JSON has them all."""
+
+_HEADS = ("sheet", "cells", "differ", "explained", "largest", "in tolerance")
+_UNITS = ("", "", "", "", "[ulp]", "")
+
+_LEGEND = """\
+Cells are formulas. Explained are those that an engine computes in long doubles and that lie within
+{bound:.1e} of the largest number of their column, a proven bound on the rounding of doubles. In
+tolerance are those that pass through LN, SIN, ASIN or a cube root, within the rounding of that
+chain; they do not count as different. Largest is the greatest distance of two numbers."""
+
+
+def _text(checks: "Sequence[EngineCheck]", bound: float) -> str:
+    """A table for each engine, then what the columns mean and the outcome."""
+    blocks = ["\n".join(_engine_lines(check)) for check in checks]
+    ran = [check for check in checks if check.outcome != "missing"]
+    good = sum(check.passed for check in ran)
+    outcome = f"{good} of {len(ran)} engines on this machine give the values of the workbook"
+    return "\n\n".join([*blocks, _LEGEND.format(bound=bound), outcome])
+
+
+def _engine_lines(check: "EngineCheck") -> Iterator[str]:
+    head = f"{check.engine} {check.version}".rstrip()
+    if not check.sheets:
+        yield from (f"{head}: {check.outcome}", f"  {check.reason}")
+        return
+    yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
+    rows = [(sheet.sheet, *_counts([sheet])) for sheet in check.sheets]
+    yield from _table([_HEADS, _UNITS, *rows, ("all", *_counts(check.sheets))])
+    wrong = [left for sheet in check.sheets for left in sheet.unexplained]
+    yield from (f"  {left}" for left in wrong[:_SHOWN])
+    if len(wrong) > _SHOWN:
+        yield f"  and {len(wrong) - _SHOWN} more"
+
+
+def _counts(sheets: "Sequence[SheetCheck]") -> tuple[str, ...]:
+    counts = (
+        sum(sheet.cells for sheet in sheets),
+        sum(sheet.differ for sheet in sheets),
+        sum(len(sheet.explained) for sheet in sheets),
+        max(sheet.largest_ulps for sheet in sheets),
+        sum(len(sheet.tolerated) for sheet in sheets),
+    )
+    return tuple(map(str, counts))
+
+
+def _table(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """Names to the left of their column, numbers to the right."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)][1:]
+    right = [
+        (name, *(f"{text:>{width}}" for text, width in zip(texts, widths, strict=True)))
+        for name, *texts in rows
+    ]
+    return [f"  {line}" for line in aligned(right)]

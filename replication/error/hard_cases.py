@@ -1,0 +1,279 @@
+"""The hard cases: sheet, closed form and reference side by side, or the message that refuses them.
+
+And the closed form against the reference over random cases that span all sensible ranges.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, fields
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb, ctx
+
+from replication.cases import BETA_5
+from replication.error.budget import exact_motion
+from replication.error.warnings import warnings
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.sheet import Sheet, run
+from replication.text import aligned
+
+__all__ = [
+    "HARD_CASES",
+    "HardCase",
+    "Outcome",
+    "Worst",
+    "outcome",
+    "random_cases",
+    "record",
+    "text",
+    "worst_of",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class HardCase:
+    """A name, why it is hard, and the inputs by which it differs from the report's beta-5."""
+
+    name: str
+    changes: dict[str, float]
+
+    def impact(self) -> Impact:
+        """The case. Raises ValueError as `Impact` does."""
+        inputs: dict[str, Any] = {f.name: getattr(BETA_5, f.name) for f in fields(Impact)}
+        if "resistance" in self.changes:
+            inputs |= {"beta": None, "flow_stress": None}
+        return Impact(**{**inputs, **self.changes})
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a hard case; depths in m.
+
+    `refused` is the message where the inputs are, `sheet_refused` where only the sheet is.
+    `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units of its last
+    place, `sheet_error` the sheet's relative to the exact depth.
+    """
+
+    name: str
+    changes: dict[str, float]
+    refused: str = ""
+    sheet_refused: str = ""
+    steps: int | None = None
+    sheet: float | None = None
+    sheet_error: float | None = None
+    closed_form: float | None = None
+    reference: str = ""
+    ulps: float | None = None
+    warnings: tuple[str, ...] = ()
+
+
+# With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1 at rest.
+_HALF_BURIED = {
+    "particle_density": 4000.0,
+    "target_density": 8000.0,
+    "resistance": 8000.0 * 500.0 * 500.0 / 2 / math.expm1(1.0),
+}
+
+
+def _buried(factor: float) -> dict[str, float]:
+    return {**_HALF_BURIED, "resistance": _HALF_BURIED["resistance"] * factor}
+
+
+def _shallow(velocity: float) -> dict[str, float]:
+    # An impact lasts about as long at any low velocity; stop at the report's share of it.
+    return {"velocity": velocity, "stop_velocity": velocity / 500}
+
+
+HARD_CASES = (
+    HardCase("the report's beta-5", {}),
+    HardCase("the report's beta-3", {"beta": 3.0}),
+    HardCase("depth just below R", _buried(1 + 1e-9)),
+    HardCase("depth at R", _buried(1.0)),
+    HardCase("depth just above R", _buried(1 - 1e-9)),
+    HardCase("shallow, 1e-9 m/s", _shallow(1e-9)),
+    HardCase("shallow, 1e-3 m/s", _shallow(1e-3)),
+    HardCase("slow, 1 m/s", _shallow(1.0)),
+    HardCase("hypervelocity, 1e4 m/s", {"velocity": 1e4}),
+    HardCase("hypervelocity, 1e5 m/s", {"velocity": 1e5}),
+    HardCase("resistance 1 Pa, step 2 ns", {"resistance": 1.0, "step": 2e-9}),
+    HardCase("resistance 1 Pa, stop at 100 m/s", {"resistance": 1.0, "stop_velocity": 100.0}),
+    HardCase("resistance 1e6 Pa", {"resistance": 1e6}),
+    HardCase("resistance 1e12 Pa", {"resistance": 1e12}),
+    HardCase("resistance 1e15 Pa", {"resistance": 1e15}),
+    HardCase("resistance 1e15 Pa, fine step", {"resistance": 1e15, "step": 2e-13}),
+    HardCase("no resistance", {"resistance": 0.0}),
+    HardCase("density ratio 1e-6", {"particle_density": 8900e-6, "target_density": 8900.0}),
+    HardCase(
+        "density ratio 1e-6, fine step",
+        {"particle_density": 8900e-6, "target_density": 8900.0, "step": 2e-13},
+    ),
+    HardCase("density ratio 1e6", {"particle_density": 8900.0, "target_density": 8900e-6}),
+    HardCase("radius 1e-12 m", {"radius": 1e-12, "step": 2e-17}),
+    HardCase("radius 1e-12 m, report's step", {"radius": 1e-12}),
+    HardCase("radius 1e3 m", {"radius": 1e3, "step": 2e-2}),
+    HardCase("radius 1e3 m, report's step", {"radius": 1e3}),
+    HardCase("mass underflows, radius 1e-110 m", {"radius": 1e-110}),
+    HardCase("mass overflows, radius 1e110 m", {"radius": 1e110}),
+    HardCase("mass subnormal, radius 1e-104 m", {"radius": 1e-104, "step": 2e-109}),
+    HardCase("V^2 overflows, 1e160 m/s", {"velocity": 1e160}),
+    HardCase("V^2 underflows, 1e-170 m/s", _shallow(1e-170)),
+    HardCase("below the stop velocity", {"velocity": 0.5}),
+    HardCase("at the stop velocity", {"velocity": 1.0}),
+    HardCase("stop velocity 0", {"stop_velocity": 0.0}),
+    HardCase("step longer than the impact", {"step": 1e-7}),
+    HardCase("step half the impact", {"step": 1.3e-8}),
+    HardCase("step far too short", {"step": 1e-18}),
+    HardCase("velocity NaN", {"velocity": math.nan}),
+    HardCase("velocity infinite", {"velocity": math.inf}),
+    HardCase("velocity negative", {"velocity": -500.0}),
+    HardCase("radius zero", {"radius": 0.0}),
+    HardCase("particle density zero", {"particle_density": 0.0}),
+    HardCase("target density zero", {"target_density": 0.0}),
+    HardCase("step zero", {"step": 0.0}),
+    *(
+        HardCase(f"{name.replace('_', ' ')} {word}", {name: value})
+        for name in ("radius", "particle_density", "target_density", "resistance", "step")
+        for word, value in (("negative", -1.0), ("NaN", math.nan), ("infinite", math.inf))
+    ),
+    HardCase("radius squared underflows", {"radius": 1e-170, "particle_density": 1e302}),
+    HardCase("dynamic pressure below 1e-250", _shallow(1e-130)),
+)
+
+
+def outcome(case: HardCase) -> Outcome:
+    """Run one hard case in the sheet, the closed form and the reference."""
+    try:
+        impact = case.impact()
+    except ValueError as error:
+        return Outcome(case.name, case.changes, refused=str(error))
+    motion = exact_motion(impact)
+    exact = motion.final_depth
+    depth = final_depth(**impact.motion)
+    common: dict[str, Any] = {
+        "closed_form": depth,
+        "reference": motion.context.nstr(exact, 20),
+        "ulps": float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth)),
+    }
+    try:
+        sheet = run(impact)
+    except ValueError as error:
+        return Outcome(case.name, case.changes, sheet_refused=str(error), **common)
+    return Outcome(case.name, case.changes, **common, **_of_sheet(sheet, float(exact)))
+
+
+def _of_sheet(sheet: Sheet, exact: float) -> dict[str, Any]:
+    return {
+        "steps": sheet.steps,
+        "sheet": sheet.final_depth,
+        "sheet_error": sheet.final_depth / exact - 1,
+        "warnings": tuple(map(str, warnings(sheet))),
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class Worst:
+    """The closed form's greatest error over random cases [ulp], with the inputs that gave it."""
+
+    cases: int
+    skipped: int
+    ulps: float
+    inputs: dict[str, float]
+
+
+_RANGES = {
+    "velocity": (1e-9, 1e5),
+    "radius": (1e-12, 1e3),
+    "particle_density": (1e-1, 1e5),
+    "target_density": (1e-1, 1e5),
+    "resistance": (1.0, 1e15),
+}
+"""Ratios of densities from 1e-6 to 1e6; every input spread evenly over its logarithm."""
+
+
+def random_cases(count: int, seed: int) -> dict[str, Any]:
+    """Inputs of random cases over `_RANGES`, an array of shape (count,) each."""
+    generator = np.random.default_rng(seed)
+    return {
+        name: np.exp(generator.uniform(np.log(low), np.log(high), count))
+        for name, (low, high) in _RANGES.items()
+    }
+
+
+def worst_of(count: int, seed: int) -> Worst:
+    """The worst of so many random cases. Depths that are no normal doubles are skipped, counted."""
+    worst, skipped = Worst(count, 0, 0.0, {}), 0
+    for case in _rows(random_cases(count, seed)):
+        depth = final_depth(**case)
+        if not math.isfinite(depth) or depth < np.finfo(float).tiny:
+            skipped += 1
+            continue
+        error = _ulps(depth, case)
+        if abs(error) > abs(worst.ulps):
+            worst = Worst(count, 0, error, case)
+    return Worst(count, skipped, worst.ulps, worst.inputs)
+
+
+def _rows(inputs: dict[str, Any]) -> Iterator[dict[str, float]]:
+    for values in zip(*(column.tolist() for column in inputs.values()), strict=True):
+        yield dict(zip(inputs, values, strict=True))
+
+
+@ctx.workdps(40)
+def _ulps(depth: float, case: dict[str, float]) -> float:
+    """Error of a depth in ulp, from the residual of the energy integral at it, in Arb.
+
+    The residual's slope turns it into a distance; over a few ulp its curvature is nothing.
+    """
+    velocity, radius, particle, target, resistance = map(arb, case.values())
+    pressure = target * velocity * velocity / (2 * resistance)
+    work = 4 * particle / (3 * target) * pressure.log1p()
+    y = depth / radius
+    if work <= arb(2) / 3:
+        distance = (y * y - y * y * y / 3 - work) / (2 * y - y * y)
+    else:
+        distance = y - (work + arb(1) / 3)
+    return float(distance * radius / math.ulp(depth))
+
+
+def record(outcomes: Sequence[Outcome], worst: Worst) -> dict[str, Any]:
+    """As JSON. Inputs that are no finite numbers are given as text."""
+    return {"cases": [_record(outcome) for outcome in outcomes], "random": asdict(worst)}
+
+
+def _record(outcome: Outcome) -> dict[str, Any]:
+    changes = {k: v if math.isfinite(v) else str(v) for k, v in outcome.changes.items()}
+    return {**asdict(outcome), "changes": changes}
+
+
+def text(outcomes: Sequence[Outcome], worst: Worst) -> str:
+    """The hard cases as a table, notes under it, and the worst of the random cases."""
+    heads = ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
+    inputs = ", ".join(f"{name} {value!r}" for name, value in worst.inputs.items())
+    return "\n".join(
+        [
+            *aligned([heads, *map(_line, outcomes)]),
+            "",
+            *(f"{outcome.name}: {note}" for outcome in outcomes for note in _notes(outcome)),
+            "",
+            f"Closed form over {worst.cases} random cases ({worst.skipped} without a normal double "
+            f"for an answer): at worst {worst.ulps:.2f} ulp, at {inputs}.",
+        ]
+    )
+
+
+def _line(outcome: Outcome) -> tuple[str, ...]:
+    if outcome.refused:
+        return outcome.name, "-", "refused", "", "", "", ""
+    closed = (f"{outcome.closed_form:.9g}", f"{outcome.ulps:+.2f}", outcome.reference)
+    if outcome.sheet is None or outcome.sheet_error is None:
+        return outcome.name, "-", "refused", "", *closed
+    off = f"{100 * outcome.sheet_error:+.3g} %"
+    return outcome.name, str(outcome.steps), f"{outcome.sheet:.9g}", off, *closed
+
+
+def _notes(outcome: Outcome) -> list[str]:
+    refused = [note for note in (outcome.refused, outcome.sheet_refused) if note]
+    return [*(f"refused: {note}" for note in refused), *outcome.warnings]

@@ -1,0 +1,228 @@
+"""The sheet's final depth against its time step: error, observed order, extrapolated limit."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from replication.error.budget import Budget, exact_motion, split
+from replication.error.warnings import warnings
+from replication.models.impact import Impact
+from replication.models.motion import stop_time
+from replication.models.sheet import MAX_STEPS, run
+
+__all__ = ["Convergence", "Level", "StepForDigits", "converge", "ladder", "step_for_digits"]
+
+ORDER = {"published": 1, "centered": 2}
+"""Of the time-step error; why, in `replication.models.sheet`."""
+
+SAFETY, CAUTION = 1.25, 3.0
+"""Factors of the grid convergence index (Roache): for three levels and more whose observed order is
+within a tenth of the scheme's, and for others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """One run of the ladder; lengths in m.
+
+    `order`: of the error against that of the level before (None where the error vanishes or changes
+    sign); `time_step_order`: the same for the time-step part alone; `regime`: what governs the
+    error. `observed_order`, `limit` and `gci` come from the depths of this level and the two before
+    without knowledge of the exact one; None where undefined, with the reason in `undefined`.
+    """
+
+    step: float
+    steps: int
+    depth: float
+    error: float
+    budget: Budget
+    warnings: tuple[str, ...]
+    order: float | None
+    time_step_order: float | None
+    regime: str
+    observed_order: float | None = None
+    limit: float | None = None
+    gci: float | None = None
+    undefined: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Convergence:
+    """A ladder of steps for one case; depths in m.
+
+    `limit` is that of the finest three levels; it estimates the depth at the stop velocity.
+    """
+
+    impact: Impact
+    scheme: str
+    levels: tuple[Level, ...]
+    exact: float
+    exact_at_stop: float
+
+    @property
+    def limit(self) -> float | None:
+        return self.levels[-1].limit
+
+
+def ladder(step: float, levels: int, ratio: float = 2.0) -> list[float]:
+    """Steps from `ratio`^4 times the given one down, coarsest first.
+
+    >>> ladder(2e-10, 6)
+    [3.2e-09, 1.6e-09, 8e-10, 4e-10, 2e-10, 1e-10]
+    """
+    return [step * ratio ** (4 - k) for k in range(levels)]
+
+
+def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> Convergence:
+    """Run the sheet at each step, coarsest first.
+
+    Raises ValueError for less than two steps, for steps that do not fall, and as `midpoint.run`.
+
+    >>> from replication.cases import BETA_5
+    >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10]).levels[-1]
+    >>> f"{finest.time_step_order:.2f}", finest.regime
+    ('1.02', 'asymptotic')
+    """
+    if len(steps) < 2 or any(b >= a for a, b in pairwise(steps)):
+        raise ValueError("convergence needs two steps or more, each shorter than the one before")
+    motion = exact_motion(impact)
+    levels: list[Level] = []
+    for step in steps:
+        levels.append(_level(replace(impact, step=step), scheme, levels))
+    at_stop = motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity))
+    return Convergence(impact, scheme, tuple(levels), float(motion.final_depth), float(at_stop))
+
+
+def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
+    sheet = run(impact, scheme)
+    budget = split(sheet)
+    order = time_step_order = None
+    if before:
+        ratio = before[-1].step / impact.step
+        order = _order(before[-1].error, budget.total, ratio)
+        time_step_order = _order(before[-1].budget.time_step, budget.time_step, ratio)
+    level = Level(
+        step=impact.step,
+        steps=sheet.steps,
+        depth=sheet.final_depth,
+        error=budget.total,
+        budget=budget,
+        warnings=tuple(map(str, warnings(sheet))),
+        order=order,
+        time_step_order=time_step_order,
+        regime=_regime(budget, time_step_order, ORDER[scheme]),
+    )
+    return _extrapolated([*before[-2:], level], ORDER[scheme])
+
+
+def _order(coarse: float | None, fine: float | None, ratio: float) -> float | None:
+    if coarse is None or fine is None or coarse * fine <= 0:
+        return None
+    return math.log(coarse / fine) / math.log(ratio)
+
+
+def _regime(budget: Budget, time_step_order: float | None, order: int) -> str:
+    """What governs the error. A tenth of it is where a part begins to show in the order."""
+    if budget.time_step is None:
+        return "meaningless"
+    assert budget.rounding is not None
+    assert budget.half_step is not None
+    assert budget.stop_rule is not None
+    if abs(budget.rounding) > abs(budget.total) / 10:
+        return "rounding floor"
+    if time_step_order is None:
+        return "order unknown"
+    if abs(time_step_order - order) > 0.1:
+        return "not yet asymptotic"
+    stop = abs(budget.half_step + budget.stop_rule)
+    if stop > abs(budget.time_step):
+        return "stop-rule floor"
+    return "stop rule shows" if stop > abs(budget.time_step) / 10 else "asymptotic"
+
+
+def _extrapolated(levels: Sequence[Level], nominal: int) -> Level:
+    """The last level with what three depths alone tell (Richardson)."""
+    last = levels[-1]
+    if len(levels) < 3:
+        return replace(last, undefined="needs three levels")
+    coarse, middle, fine = (level.depth for level in levels)
+    ratio = levels[-2].step / last.step
+    if not math.isclose(levels[-3].step / levels[-2].step, ratio, rel_tol=1e-9):
+        return replace(last, undefined="the steps have no constant ratio")
+    if coarse == middle or middle == fine:
+        return replace(last, undefined="two depths are equal")
+    shrink = (coarse - middle) / (middle - fine)
+    if shrink < 0:
+        return replace(last, undefined="the depths oscillate")
+    if shrink <= 1:
+        return replace(last, undefined="the depths do not draw together")
+    order = math.log(shrink) / math.log(ratio)
+    # An observed order above the scheme's is chance, and would make the index too small.
+    cautious = min(max(order, 0.5), nominal)
+    factor = SAFETY if abs(order - nominal) <= 0.1 * nominal else CAUTION
+    return replace(
+        last,
+        observed_order=order,
+        limit=fine + (fine - middle) / (shrink - 1),
+        gci=factor * abs((fine - middle) / fine) / (ratio**cautious - 1),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class StepForDigits:
+    """The largest step of a 1 % grid that gives so many correct digits of the depth at rest.
+
+    `fails` is the next longer step of the grid, which does not.
+    """
+
+    digits: int
+    step: float
+    steps: int
+    depth: float
+    error: float
+    fails: float
+
+
+_HALVINGS = 3
+"""So often a step is halved to see that it did not meet the digits by chance."""
+
+
+def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> StepForDigits:
+    """The largest step, of a grid of 1 %, that gives so many correct digits; so do its halvings.
+
+    Correct means: within half a unit of that digit of the exact depth at rest. As the last row
+    falls by chance, single steps between may do better or worse. Raises ValueError where no
+    refinement gives them: the stop rule alone is off by more, or too many rows are needed.
+    """
+    if digits < 1:
+        raise ValueError(f"{digits} digits cannot be met: ask for one or more")
+    motion = exact_motion(impact)
+    rest = float(motion.final_depth)
+    allowed = 0.5 * 10.0 ** (math.floor(math.log10(rest)) + 1 - digits)
+    floor = rest - float(motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity)))
+    if floor > allowed:
+        raise ValueError(
+            f"no refinement gives {digits} digits: stopping at {impact.stop_velocity!r} m/s alone "
+            f"leaves out {floor:.3g} m, more than {allowed:.3g} m; lower the stop velocity"
+        )
+
+    def error(step: float) -> float:
+        return run(replace(impact, step=step), scheme).final_depth - rest
+
+    def keeps(step: float) -> bool:
+        return all(abs(error(step / 2**k)) <= allowed for k in range(_HALVINGS + 1))
+
+    longest = 2 * stop_time(**impact.motion)
+    step = longest
+    while not keeps(step):
+        step /= 2
+        if rest / impact.velocity / step > MAX_STEPS / 2**_HALVINGS:
+            raise ValueError(f"{digits} digits need more than {MAX_STEPS:,} steps")
+    while keeps(4 * step):
+        step *= 4
+    fails = 4 * step
+    while not keeps(fails / 1.01):
+        fails /= 1.01
+    step = fails / 1.01
+    final = run(replace(impact, step=step), scheme)
+    return StepForDigits(digits, step, final.steps, final.final_depth, error(step), fails)

@@ -1,0 +1,65 @@
+"""Geometry of a sphere that is pressed into a flat surface (Eqs. 2-4 and 12)."""
+
+import math
+
+__all__ = ["cap_volume", "contact_diameter", "depth_from_volume_ratio", "volume", "volume_ratio"]
+
+
+def volume(radius: float) -> float:
+    """Particle volume PV = 4/3 pi R^3 [m^3] (Eq. 3); radius R [m].
+
+    >>> f"{volume(11e-6) * 1e18:.0f}"
+    '5575'
+    """
+    return 4 / 3 * math.pi * radius * radius * radius
+
+
+def cap_volume(depth: float, radius: float) -> float:
+    """Crater volume CV = 1/3 pi X^2 (3R - X) [m^3] (Eq. 2); X and R [m], 0 <= X <= R.
+
+    >>> cap_volume(1.0, 1.0) / volume(1.0)
+    0.5
+    """
+    return 1 / 3 * math.pi * depth * depth * (3 * radius - depth)
+
+
+def volume_ratio(normalized_depth: float) -> float:
+    """CV/PV [1] of a crater of normalized depth y = X/R [1]: y^2 (3 - y) / 4 (Eqs. 2-3).
+
+    >>> f"{volume_ratio(0.298):.4f}"
+    '0.0600'
+    """
+    return normalized_depth * normalized_depth * (3 - normalized_depth) / 4
+
+
+def depth_from_volume_ratio(ratio: float) -> float:
+    """Normalized depth y = X/R [1] of a crater of volume ratio CV/PV [1] (inverse of Eqs. 2-3).
+
+    The root of y^2 (3 - y) / 4 = ratio in [0, 1]: y = 2t (t + sqrt 3) / (1 + t^2) with t = tan(h)
+    and tan(3h)^2 = ratio / (1 - ratio), in which nothing cancels for shallow craters; one Newton
+    step on y/2 takes out what rounding left. NaN for ratios outside 0 to 1/2, which no cap of the
+    sphere has.
+
+    >>> f"{depth_from_volume_ratio(0.06):.3f}"
+    '0.298'
+    """
+    if not 0 < ratio <= 0.5:
+        return 0.0 if ratio == 0 else math.nan
+    t = math.tan(math.atan(math.sqrt(ratio / (1 - ratio))) / 3)
+    z = t * (t + SQRT_3) / (1 + t * t)
+    z -= (z * z * (3 - 2 * z) - ratio) / (6 * z * (1 - z))
+    return 2 * z
+
+
+SQRT_3 = math.sqrt(3)
+
+
+def contact_diameter(normalized_depth: float, diameter: float) -> float:
+    """Diameter 2a [m] of the contact circle at normalized depth y [1]: a^2 = Dx - x^2 (Eq. 12).
+
+    diameter D [m].
+
+    >>> f"{contact_diameter(1 / 3, 22e-6) * 1e6:.1f}"
+    '16.4'
+    """
+    return diameter * math.sqrt(normalized_depth * (2 - normalized_depth))

@@ -1,0 +1,97 @@
+"""Depth and velocity without time: Eq. 13 separated and integrated once.
+
+M v dv/dx = -(rho_t v^2 / 2 + R_t) A(x), so 2 b W(y) = ln((v^2 + v_r^2) / v_r^2), of V less that of
+v, with y = x/R, b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t. W(y) = y^2 - y^3/3 up to y = 1, and
+beyond, where the contact area stays pi R^2, y - 1/3.
+"""
+
+import math
+
+from replication.models.crater import depth_from_volume_ratio
+
+__all__ = ["depth_at_velocity", "final_depth", "normalized_depth", "velocity_at_depth"]
+
+
+def normalized_depth(
+    velocity: float, particle_density: float, target_density: float, resistance: float
+) -> float:
+    """Normalized depth at rest, y = X/R [1], exact for the differential equation (Eqs. 12-13).
+
+    It solves W(y) = (4 rho_p / 3 rho_t) ln(1 + rho_t V^2 / 2 R_t) and does not depend on the
+    particle's size. V [m/s], rho_p and rho_t [kg/m^3], R_t [Pa].
+
+    >>> f"{normalized_depth(500.0, 8900.0, 7850.0, 3.5e9):.4f}"
+    '0.6977'
+    """
+    V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
+    return _depth_of_work(rho_p * math.log1p(rho_t * V * V / (2 * R_t)) / rho_t)
+
+
+def _depth_of_work(three_quarters: float) -> float:
+    """y for 3/4 of the work W(y): up to y = 1 that is the crater's volume over the particle's."""
+    if three_quarters > 0.5:
+        return (1 + 4 * three_quarters) / 3
+    return depth_from_volume_ratio(three_quarters)
+
+
+def final_depth(
+    velocity: float,
+    radius: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+) -> float:
+    """Penetration depth at rest [m]: R times `normalized_depth`; radius R [m].
+
+    >>> f"{final_depth(500.0, 11e-6, 8900.0, 7850.0, 2.1e9) * 1e6:.2f}"
+    '10.04'
+    """
+    return radius * normalized_depth(velocity, particle_density, target_density, resistance)
+
+
+def depth_at_velocity(
+    at_velocity: float,
+    velocity: float,
+    radius: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+) -> float:
+    """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s]; NaN above V.
+
+    >>> f"{depth_at_velocity(250.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e6:.4f}"
+    '6.3777'
+    """
+    v, V, rho_p, rho_t, R_t = at_velocity, velocity, particle_density, target_density, resistance
+    if v > V:
+        return math.nan
+    lost = rho_t * (V - v) * (V + v) / (2 * R_t + rho_t * v * v)
+    return radius * _depth_of_work(rho_p * math.log1p(lost) / rho_t)
+
+
+def velocity_at_depth(
+    at_depth: float,
+    velocity: float,
+    radius: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+) -> float:
+    """Velocity [m/s] at a depth [m]; NaN beyond the final one.
+
+    Close to rest the velocity is the root of the depth that is left, whose last digits count.
+
+    >>> f"{velocity_at_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9):.3f}"
+    '353.533'
+    """
+    V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
+    final = normalized_depth(V, rho_p, rho_t, R_t)
+    left = (radius * final - at_depth) / radius
+    if left < 0:
+        return math.nan
+    # The work from y - left to rest, in a form that does not cancel: beyond the radius, and within.
+    beyond = min(left, max(final - 1, 0.0))
+    left, y = left - beyond, min(final, 1.0)
+    work = beyond + left * (y * (2 - y) - left * (1 - y) - left * left / 3)
+    rest_over_impact = 2 * R_t / (rho_t * V * V)
+    return V * math.sqrt(rest_over_impact * math.expm1(0.75 * rho_t / rho_p * work))

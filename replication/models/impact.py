@@ -1,0 +1,155 @@
+"""`Impact`: the inputs of one particle hitting one target, refused where they make no sense."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+__all__ = ["MAY_BE_ZERO", "Impact", "InputError", "check", "check_range", "particle_mass"]
+
+MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
+
+
+class InputError(ValueError):
+    """An input, or what is formed of the inputs, that cannot be: its name, and what is wrong.
+
+    >>> print(InputError("radius", "is -1.0: it must not be"))
+    radius is -1.0: it must not be
+    """
+
+    def __init__(self, name: str, problem: str) -> None:
+        super().__init__(name, problem)
+        self.name, self.problem = name, problem
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.problem}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Impact:
+    """One case of the report's sections 3 and A: what a row of its spreadsheet depends on.
+
+    velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], target_density rho_t [kg/m^3],
+    step dt [s], stop_velocity [m/s]; the target resistance R_t [Pa] either as `resistance` or as
+    the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). The step and the stop velocity
+    default to the appendix's 0.2 ns and 1 m/s.
+
+    Raises ValueError naming the input that is not finite, not positive (the stop velocity may be
+    zero), missing, or given twice; and where mass, resistance or dynamic pressure leave the range
+    of doubles.
+
+    >>> Impact(velocity=500, radius=11e-6, particle_density=8900, target_density=7850,
+    ...        beta=5, flow_stress=700e6).target_resistance
+    3500000000.0
+    """
+
+    velocity: float
+    radius: float
+    particle_density: float
+    target_density: float
+    beta: float | None = None
+    flow_stress: float | None = None
+    resistance: float | None = None
+    step: float = 2e-10
+    stop_velocity: float = 1.0
+
+    def __post_init__(self) -> None:
+        product = (self.beta is not None, self.flow_stress is not None)
+        if self.resistance is not None and any(product):
+            raise ValueError("resistance stands instead of beta and flow_stress: give one or other")
+        if self.resistance is None and not all(product):
+            raise ValueError("give either resistance, or both beta and flow_stress")
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        inputs = {name: float(value) for name, value in given.items() if value is not None}
+        for name, value in inputs.items():
+            object.__setattr__(self, name, value)
+        check(inputs)
+        check_range(**self.motion, step=self.step)
+
+    @property
+    def target_resistance(self) -> float:
+        """R_t = beta Y_t (Eq. 7) [Pa], or the resistance as given."""
+        if self.resistance is not None:
+            return self.resistance
+        assert self.beta is not None
+        assert self.flow_stress is not None
+        return self.beta * self.flow_stress
+
+    @property
+    def motion(self) -> dict[str, float]:
+        """What Eq. 13 depends on: the arguments of `depth.final_depth`, in order."""
+        return {
+            "velocity": self.velocity,
+            "radius": self.radius,
+            "particle_density": self.particle_density,
+            "target_density": self.target_density,
+            "resistance": self.target_resistance,
+        }
+
+    @property
+    def diameter(self) -> float:
+        """D = 2R [m] (below Eq. 12)."""
+        return 2 * self.radius
+
+    @property
+    def mass(self) -> float:
+        """M = (4/3) pi R^3 rho_p [kg], multiplied in the order that the workbook's cell uses."""
+        return particle_mass(self.radius, self.particle_density)
+
+
+def particle_mass(radius: float, particle_density: float) -> float:
+    """M = (4/3) pi R^3 rho_p [kg] (Eq. 3 times the density); R [m], rho_p [kg/m^3].
+
+    >>> f"{particle_mass(11e-6, 8900.0):.2E}"
+    '4.96E-11'
+    """
+    return particle_density * 4 / 3 * math.pi * radius * radius * radius
+
+
+def check(inputs: Mapping[str, float]) -> None:
+    """Raise InputError for the first input that is not finite, or not positive as it must be.
+
+    >>> check({"velocity": 500.0, "radius": -1.0})
+    Traceback (most recent call last):
+    replication.models.impact.InputError: radius is -1.0: it must be a finite number greater than \
+zero
+    """
+    for name, value in inputs.items():
+        if not (0 < value < math.inf or (value == 0 and name in MAY_BE_ZERO)):
+            if value == 0 and name == "resistance":
+                problem = "is 0.0: nothing would bring the particle to rest"
+                raise InputError("target resistance", problem)
+            least = "zero or more" if name in MAY_BE_ZERO else "greater than zero"
+            raise InputError(name, f"is {value!r}: it must be a finite number {least}")
+
+
+def check_range(
+    velocity: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+    radius: float = 1.0,
+    step: float = 1.0,
+) -> None:
+    """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
+
+    Within that range no formula of the models overflows, underflows or divides by zero.
+    """
+    mass = particle_mass(radius, particle_density)
+    if not 0 < mass < math.inf:
+        raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
+    pressure = 0.5 * target_density * velocity * velocity
+    formed = {
+        "target resistance": resistance,
+        "step": step,
+        "radius squared": radius * radius,
+        "velocity squared": velocity * velocity,
+        "particle density": particle_density,
+        "target density": target_density,
+        "dynamic pressure": pressure,
+        "dynamic pressure over target resistance": pressure / resistance,
+        "ratio of the densities": particle_density / target_density,
+        "work": pressure / resistance * particle_density / target_density,
+    }
+    for name, value in formed.items():
+        if not 1e-250 <= value <= 1e250:
+            raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")

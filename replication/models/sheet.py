@@ -1,0 +1,202 @@
+"""The report's Excel sheet, row by row (appendix, Eqs. A-1 to A-3; both branches of Eq. 13).
+
+Two schemes: "published" takes a row's deceleration at the row's middle depth but at its *initial*
+velocity, which makes it first order for all its name; "centered" takes it at the middle velocity
+too, predicted by half a step, and is second order.
+
+The order of every operation is part of the result: the workbook's formulas use the same one, so
+that both give the same double in every cell. Products of three are written out (`x * x`, never a
+power), and a row's time is `k * dt`, not a running sum.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from replication.models.impact import Impact, particle_mass
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    import pandas as pd
+
+__all__ = ["MAX_STEPS", "SCHEMES", "Row", "Sheet", "check_scheme", "deceleration", "last_row",
+           "out_of_range", "run", "too_many_steps"]  # fmt: skip
+
+SCHEMES = ("published", "centered")
+
+MAX_STEPS = 1_000_000
+"""More steps than this do not fit an Excel worksheet (1,048,576 rows) with its head."""
+
+
+class Row(NamedTuple):
+    """One row of the sheet; names as in the JSON that `coldspray sheet` prints.
+
+    time [s], velocity_initial [m/s], depth x [m], deceleration [m/s^2] (printed positive), and
+    velocity_final [m/s], which is None (a blank cell) in row 0, the impact itself.
+    """
+
+    time: float
+    velocity_initial: float
+    depth: float
+    deceleration: float
+    velocity_final: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """The rows of one case and what the report reads off the last of them."""
+
+    impact: Impact
+    rows: tuple[Row, ...]
+    scheme: str = "published"
+
+    @property
+    def steps(self) -> int:
+        """Time steps taken: rows without row 0."""
+        return len(self.rows) - 1
+
+    @property
+    def final_depth(self) -> float:
+        """x of the last row [m]: the report's final penetration depth."""
+        return self.rows[-1].depth
+
+    @property
+    def normalized_depth(self) -> float:
+        """X/R [1]."""
+        return self.final_depth / self.impact.radius
+
+    def arrays(self) -> "dict[str, npt.NDArray[np.float64]]":
+        """The columns, each of shape (steps + 1,), float64; the blank of row 0 is NaN."""
+        import numpy as np
+
+        table = np.array(self.rows, dtype=np.float64)
+        return dict(zip(Row._fields, table.T, strict=True))
+
+    def frame(self) -> "pd.DataFrame":
+        """The sheet as a pandas frame, indexed by row number, columns in SI units."""
+        import pandas as pd
+
+        return pd.DataFrame(self.arrays()).rename_axis("row")
+
+
+def run(impact: Impact, scheme: str = "published") -> Sheet:
+    """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
+
+    `scheme` is one of `SCHEMES`. Raises ValueError when more than `MAX_STEPS` rows are needed, or
+    the last row is beyond the range of doubles.
+
+    >>> from replication.cases import BETA_5
+    >>> sheet = run(BETA_5)
+    >>> sheet.steps, f"{sheet.final_depth * 1e6:.2f}"
+    (131, '7.67')
+    """
+    check_scheme(scheme)
+    dt, v_stop, v, x = impact.step, impact.stop_velocity, impact.velocity, 0.0
+    R, M, rho_t, R_t = impact.radius, impact.mass, impact.target_density, impact.target_resistance
+    rows = [Row(0.0, v, x, 0.0, None)]
+    many = _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS
+    while v >= v_stop:
+        k = len(rows)
+        if many or k > MAX_STEPS:
+            raise ValueError(f"the sheet {too_many_steps(dt, v_stop)}")
+        x, a, v_final = _next_row(k, x, v, dt, scheme == "centered", R, M, rho_t, R_t)
+        rows.append(Row(k * dt, v, x, a, v_final))
+        v = v_final
+    if not math.isfinite(x + rows[-1].deceleration + v):  # it only overflows in a last row
+        raise ValueError(f"the sheet {out_of_range(dt)}")
+    return Sheet(impact, tuple(rows), scheme)
+
+
+def last_row(
+    velocity: float,
+    radius: float,
+    particle_density: float,
+    target_density: float,
+    resistance: float,
+    step: float,
+    stop_velocity: float,
+    centered: bool,
+) -> tuple[float, int]:
+    """Depth x [m] and number of the sheet's last row; SI units.
+
+    `MAX_STEPS` + 1 is the number where more than `MAX_STEPS` rows are needed.
+
+    >>> depth, steps = last_row(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10, 1.0, False)
+    >>> f"{depth * 1e6:.2f}", steps
+    ('7.67', 131)
+    """
+    dt, v_stop, v, x, k = step, stop_velocity, velocity, 0.0, 0
+    R, M, rho_t, R_t = radius, particle_mass(radius, particle_density), target_density, resistance
+    if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
+        return x, MAX_STEPS + 1
+    while v >= v_stop and k <= MAX_STEPS:
+        k += 1
+        x, _, v = _next_row(k, x, v, dt, centered, R, M, rho_t, R_t)
+    return x, k
+
+
+def _next_row(
+    k: int,
+    x: float,
+    v: float,
+    dt: float,
+    centered: bool,
+    R: float,
+    M: float,
+    rho_t: float,
+    R_t: float,
+) -> tuple[float, float, float]:
+    """Depth, deceleration and final velocity of row k, from the depth of the row before and v."""
+    # The half step to start: x is half a step behind the velocity that closes the row.
+    x = v * (dt / 2) if k == 1 else x + v * dt
+    a = deceleration(x, v, R, M, rho_t, R_t)
+    if centered:
+        a = deceleration(x, v - a * (dt / 2), R, M, rho_t, R_t)
+    return x, a, v - a * dt
+
+
+def deceleration(x: float, v: float, R: float, M: float, rho_t: float, R_t: float) -> float:
+    """Deceleration [m/s^2] at depth x [m] and velocity v [m/s], positive (Eqs. 12-13, A-1 to A-3).
+
+    R particle radius [m], M its mass [kg], rho_t target density [kg/m^3], R_t resistance [Pa].
+
+    >>> f"{deceleration(5e-8, 500.0, 11e-6, 4.962e-11, 7850.0, 3.5e9):.2E}"
+    '3.11E+08'
+    """
+    area_over_pi = 2 * R * x - x * x if x < R else R * R
+    stress = 0.5 * rho_t * v * v + R_t
+    return stress * math.pi * area_over_pi / M
+
+
+def _fewest_steps(
+    v: float, v_stop: float, dt: float, R: float, M: float, rho_t: float, R_t: float
+) -> float:
+    """A number of rows that the sheet takes at least, from V = v.
+
+    A row takes off at most a dt, a with the whole area pi R^2 and at V, hence the first bound. The
+    depth in row k is at most V k dt and the area at most 2 pi R V k dt; n rows together take off at
+    most a V (n dt)^2 / R, hence the second.
+    """
+    lost = max(v - v_stop, 0.0)
+    a = deceleration(R, v, R, M, rho_t, R_t)
+    return max(lost / a, math.sqrt(lost / a * (R / v))) / dt
+
+
+def too_many_steps(step: float, stop_velocity: float) -> str:
+    """What a sheet that takes too many steps does, and what to do about it."""
+    return (
+        f"takes more than {MAX_STEPS:,} steps of {step!r} s down to {stop_velocity!r} m/s: "
+        "take a larger step"
+    )
+
+
+def out_of_range(step: float) -> str:
+    """What a sheet with a step that is much too long does, and what to do about it."""
+    return f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
+
+
+def check_scheme(scheme: str) -> None:
+    """Raise ValueError for a scheme that is not one of `SCHEMES`."""
+    if scheme not in SCHEMES:
+        raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")

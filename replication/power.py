@@ -1,0 +1,190 @@
+"""The power of the audit: misprints planted in copies of the ledger, and what it notices of them.
+
+A plant is one edit of one printed number or equation. It is visible if, with everything else as
+printed, some number, restatement or equation no longer agrees; that is found in doubles, by another
+route than the audit's proofs. Then the audit judges what depends on it.
+"""
+
+import random
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+import msgspec
+
+from reference.ledger import INFERRED, Ledger
+from replication.audit.audit import Audit
+from replication.audit.edits import edits, equation_edits
+from replication.audit.equations import assess_equation
+from replication.audit.screen import Screen, dependents
+from replication.audit.verdict import Verdict
+
+__all__ = ["Counts", "Plant", "Power", "Trial", "planted", "plants", "power", "trial"]
+
+
+@dataclass(frozen=True, slots=True)
+class Plant:
+    """One misprint: the entry or equation, its true text, the planted one, the kind of edit."""
+
+    entry: str
+    true: str
+    text: str
+    edit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """What the audit made of a plant.
+
+    `failing`: what fails only because of it; `repaired`: the true text is among the repairs that
+    are named; `first`: it is the first of them; `accused`: the first repair changes another entry.
+    """
+
+    plant: Plant
+    visible: bool
+    failing: frozenset[str]
+    repaired: bool = False
+    first: bool = False
+    accused: bool = False
+
+    @property
+    def detected(self) -> bool:
+        """Whether something fails because of it."""
+        return bool(self.failing)
+
+
+class Counts(msgspec.Struct, kw_only=True):
+    """How many plants there were, how many of them are visible, and what became of these."""
+
+    planted: int = 0
+    invisible: int = 0
+    visible: int = 0
+    detected: int = 0
+    accused_wrongly: int = 0
+    repaired: int = 0
+    repaired_first: int = 0
+
+    def add(self, trial: Trial) -> None:
+        """Count one more."""
+        self.planted += 1
+        self.invisible += not trial.visible
+        self.visible += trial.visible
+        self.detected += trial.visible and trial.detected
+        self.accused_wrongly += trial.accused
+        self.repaired += trial.visible and trial.repaired
+        self.repaired_first += trial.visible and trial.first
+
+
+class Power(Counts, kw_only=True):
+    """The counts of a sample, whole and by kind of entry and of edit; what passed unnoticed."""
+
+    seed: int
+    by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
+    by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
+    unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
+
+
+def plants(ledger: Ledger) -> Iterator[Plant]:
+    """Every plant: all edits of all printed numbers and equations."""
+    for claim in ledger.claims.values():
+        if claim.printed is not None:
+            for text, kind in edits(claim.text):
+                yield Plant(claim.id, claim.text, text, kind)
+    for name in ledger.equations:
+        true = ledger.equation_text(name)
+        for text, kind in equation_edits(true, ledger.written, ledger.dimensions):
+            yield Plant(name, true, text, kind)
+
+
+def planted(ledger: Ledger, plant: Plant) -> Ledger:
+    """A copy of the ledger with the misprint."""
+    if plant.entry in ledger.equations:
+        return ledger.misprint_equation(plant.entry, plant.text)
+    return ledger.misprint(plant.entry, plant.text)
+
+
+def trial(truth: Audit, plant: Plant) -> Trial:
+    """Judge one plant: all that depends on it, beside what the report itself gives there."""
+    ledger = planted(truth.ledger, plant)
+    claims = dependents(truth.ledger, plant.entry)
+    equations = _equations(truth.ledger, plant)
+    audit = Audit(ledger, every_convention=False)
+    failing = {
+        name
+        for name in claims
+        if _worse(audit.assessment(ledger.claims[name]).verdict, truth, name)
+    }
+    for name in equations:
+        assessed = assess_equation(ledger, name, constants=False)
+        # One that fails in the report, too, must fail in another way.
+        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+            failing.add(name)
+    visible = bool(failing) or _visible(truth, ledger, claims)
+    if not failing:
+        return Trial(plant, visible, frozenset())
+    repairs = audit.explainer.ranked(sorted(failing))
+    true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
+    return Trial(
+        plant,
+        visible,
+        frozenset(failing),
+        repaired=any(true),
+        first=bool(true) and true[0],
+        accused=bool(repairs) and repairs[0].entry != plant.entry,
+    )
+
+
+_WORSE = {
+    Verdict.NOT_REPRODUCED,
+    Verdict.INCONSISTENT,
+    Verdict.WITHIN_ROUNDING,
+    Verdict.UNDECIDED,
+    Verdict.DIFFERS,
+}
+"""Verdicts by which a reader is told that something is wrong, or may be."""
+
+
+def _worse(verdict: Verdict, truth: Audit, name: str) -> bool:
+    """Whether a verdict tells that something is wrong where the report's own does not."""
+    return verdict in _WORSE and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
+
+
+def _equations(ledger: Ledger, plant: Plant) -> list[str]:
+    """The equations that a plant may put wrong: its own, and those derived from it."""
+    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
+    return list(ledger.equations) if inside else []
+
+
+def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
+    """Whether some claim no longer agrees, by doubles and with the inferred inputs as they are."""
+    nominal = {INFERRED + name: ledger.value(INFERRED + name) for name in ledger.inferred}
+    planted_failing = Screen(ledger, nominal).failing(claims)
+    return bool(planted_failing - Screen(truth.ledger, nominal).failing(claims))
+
+
+def power(
+    ledger: Ledger, sample: int, seed: int, progress: Callable[[Iterable[Plant]], Iterable[Plant]]
+) -> Power:
+    """Plant a seeded sample of misprints, each in a copy of the ledger, and count what is noticed.
+
+    `progress` wraps the plants as they are worked through.
+    """
+    everything = list(plants(ledger))
+    chosen = random.Random(seed).sample(everything, min(sample, len(everything)))
+    truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
+    for plant in progress(chosen):
+        outcome = trial(truth, plant)
+        for counts in (
+            result,
+            result.by_kind.setdefault(_kind(ledger, plant), Counts()),
+            result.by_edit.setdefault(plant.edit, Counts()),
+        ):
+            counts.add(outcome)
+        if outcome.visible and not outcome.detected:
+            result.unnoticed.append(
+                {"entry": plant.entry, "true": plant.true, "text": plant.text, "edit": plant.edit}
+            )
+    return result
+
+
+def _kind(ledger: Ledger, plant: Plant) -> str:
+    return "equation" if plant.entry in ledger.equations else ledger.claims[plant.entry].entry.kind

@@ -1,0 +1,101 @@
+"""What a user wrote: files, TOML, numbers with units, read within bounds and quoted in one line."""
+
+import math
+import stat
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from reference.units import quantity
+
+__all__ = ["one_line", "parse_toml", "quoted", "read_file", "read_number"]
+
+_SIZE = 2**20
+_DEPTH = 20
+_QUOTED = 60
+
+
+def quoted(text: object, longest: int = _QUOTED) -> str:
+    r"""What a user wrote, as a message may show it: one line, escaped, shortened.
+
+    >>> quoted("\x1b[31m5 m\n")
+    "'\\x1b[31m5 m\\n'"
+    """
+    shown = str(text)
+    whole = repr(shown if len(shown) <= longest else shown[:longest])
+    return whole if len(shown) <= longest else f"{whole}..."
+
+
+def one_line(message: str, longest: int = 500) -> str:
+    r"""A message as one line without control characters, shortened.
+
+    >>> one_line("no file\x07 of\nthis name")
+    'no file\\x07 of this name'
+    """
+    text = " ".join(message.split())
+    safe = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    return safe if len(safe) <= longest else f"{safe[:longest]}..."
+
+
+def read_file(path: Path, largest: int = _SIZE) -> bytes:
+    """The bytes of a file or a pipe, at most so many.
+
+    Raises ValueError for a larger one and for a device, OSError where it cannot be read.
+    """
+    if stat.S_ISCHR(path.stat().st_mode):
+        raise ValueError(f"{quoted(path)} is a device, not a file")
+    with path.open("rb") as file:
+        content = file.read(largest + 1)
+    if len(content) > largest:
+        raise ValueError(f"{quoted(path)} is larger than {largest:,} bytes")
+    return content
+
+
+class _Float(str):
+    """A float as it is written; unlike a text it is shown without quotes."""
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
+def parse_toml(content: bytes) -> dict[str, Any]:
+    r"""A TOML document, its floats as they are written. Raises ValueError if it is none.
+
+    >>> parse_toml(b"[impact]\nvelocity = 450.0")
+    {'impact': {'velocity': 450.0}}
+    """
+    deepest = depth = 0
+    for byte in content:
+        depth += (byte in b"[{") - (byte in b"]}")
+        deepest = max(deepest, depth)
+    if deepest > _DEPTH:
+        raise ValueError(f"is nested more than {_DEPTH} deep")
+    try:
+        # Notepad and others put a byte order mark before it.
+        return tomllib.loads(content.decode("utf-8-sig"), parse_float=_Float)
+    except UnicodeDecodeError as error:
+        raise ValueError("is no TOML file: it is not UTF-8 text") from error
+    except ValueError as error:
+        raise ValueError(f"is no TOML file: {one_line(str(error), 200)}") from error
+
+
+def read_number(text: str, unit: str) -> float:
+    """A number with or without a unit, as SI; `unit` tells what it must measure.
+
+    Raises ValueError for what is no number, is not finite, or has another unit.
+
+    >>> read_number("0.5 ns", "s")
+    5e-10
+    """
+    try:
+        number = float(text) if len(text) <= _QUOTED else math.nan
+    except ValueError:
+        number = math.nan
+    if math.isnan(number) and text.strip().lower() not in ("nan", "+nan", "-nan"):
+        try:
+            number = float(quantity(text, unit))
+        except OverflowError:
+            number = math.inf
+    if not math.isfinite(number):
+        raise ValueError(f"{quoted(text)} is no finite number that a double can hold")
+    return number

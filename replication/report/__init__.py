@@ -1,0 +1,1 @@
+"""The finished record as files: the page, Markdown, JSON, CSV and figures. Nothing is computed."""

@@ -1,0 +1,348 @@
+"""The figures, drawn from the record: SVG that takes ink and paper of the page around it.
+
+Drawn here and not by a plotting library: its import alone takes half as long as the whole audit,
+and its style attributes are what the page's content policy forbids.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from math import log10
+from typing import NamedTuple
+
+from replication.audit.record import Approach, Effect, Level, Record
+from replication.report.facts import shown_range
+
+__all__ = ["Drawing", "draw"]
+
+INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
+"""The color of the text around, and two of Okabe and Ito's, which stand out from white and from
+near-black, and from each other for the color-blind."""
+
+WIDTH = 440
+
+Points = Iterable[tuple[float, float]]
+
+
+class Drawing(NamedTuple):
+    """A figure: the name of its file, its title, what it shows in words, and its SVG."""
+
+    name: str
+    title: str
+    words: str
+    svg: str
+
+
+def draw(record: Record) -> list[Drawing]:
+    """Every figure of the record."""
+    return [
+        _comparison(record),
+        _sensitivity(record),
+        _figure_3(record),
+        _figure_5(record),
+        _convergence(record),
+    ]
+
+
+def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str]) -> Drawing:
+    """Parts as one SVG; in a file of its own it stands on white paper."""
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
+        f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
+        f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" '
+        f'aria-labelledby="{name}-title {name}-words">',
+        f'<title id="{name}-title">{escape(title)}</title>',
+        f'<desc id="{name}-words">{escape(words)}</desc>',
+        f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+    )
+    return Drawing(name, title, words, "\n".join((*head, *parts, "</svg>\n")))
+
+
+# What a plot is made of
+
+
+class _Plot:
+    """A plot in a box of the figure, of given ranges (from left to right, from bottom to top)."""
+
+    def __init__(
+        self,
+        box: tuple[float, float, float, float],
+        x: tuple[float, float],
+        y: tuple[float, float],
+        logarithmic: bool = False,
+    ) -> None:
+        self.left, self.top, self.width, self.height = box
+        self.x, self.y, self.logarithmic = x, y, logarithmic
+        self.parts: list[str] = []
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point lies in the figure."""
+        across, up = self._share(x, self.x), self._share(y, self.y)
+        return self.left + across * self.width, self.top + (1 - up) * self.height
+
+    def _share(self, value: float, ends: tuple[float, float]) -> float:
+        low, high = map(log10, ends) if self.logarithmic else ends
+        return ((log10(value) if self.logarithmic else value) - low) / (high - low)
+
+    def axes(self, x: Iterable[float], y: Iterable[float], x_label: str, y_label: str = "") -> None:
+        """Grid, numbers at both axes, and what they are."""
+        bottom, middle = self.top + self.height, self.left + self.width / 2
+        for value in x:
+            across, _ = self.at(value, self.y[0])
+            self.parts.append(_line([(across, self.top), (across, bottom)], INK, 0.15))
+            self.parts.append(_text(across, bottom + 16, f"{value:g}", "middle"))
+        for value in y:
+            _, down = self.at(self.x[0], value)
+            self.parts.append(_line([(self.left, down), (self.left + self.width, down)], INK, 0.15))
+            self.parts.append(_text(self.left - 6, down + 4, f"{value:g}", "end"))
+        self.parts.append(
+            _line([(self.left, self.top), (self.left, bottom), (self.left + self.width, bottom)])
+        )
+        self.parts.append(_text(middle, bottom + 33, x_label, "middle"))
+        if y_label:
+            turned = f' transform="rotate(-90 12 {_n(self.top + self.height / 2)})"'
+            self.parts.append(_text(12, self.top + self.height / 2, y_label, "middle", turned))
+
+    def rows(self, labels: Sequence[str]) -> None:
+        """Labels of rows 0, 1, ... at the left; a semicolon begins a second line."""
+        for row, label in enumerate(labels):
+            _, down = self.at(self.x[0], row)
+            lines = label.split("; ")
+            for k, line in enumerate(lines):
+                y = down + 4 + 13 * (k - (len(lines) - 1) / 2)
+                self.parts.append(_text(self.left - 8, y, line, "end"))
+
+    def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
+        self.parts.append(_line([self.at(*point) for point in points], color, 1.0, dashes))
+
+    def marks(self, kind: str, color: str, points: Points) -> None:
+        self.parts += [_mark(kind, color, *self.at(*point)) for point in points]
+
+    def bar(self, low: float, high: float, y: float, color: str, height: float) -> None:
+        left, down = self.at(min(low, high), y)
+        right, _ = self.at(max(low, high), y)
+        self.parts.append(
+            f'<rect x="{_n(left)}" y="{_n(down - height / 2)}" width="{_n(right - left)}" '
+            f'height="{_n(height)}" fill="{color}"/>'
+        )
+
+
+def _n(value: float) -> str:
+    return f"{value:.1f}".removesuffix(".0")
+
+
+def _line(
+    points: Sequence[tuple[float, float]], color: str = INK, opacity: float = 1.0, dashes: str = ""
+) -> str:
+    path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
+    faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
+    dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
+    return f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
+
+
+def _text(x: float, y: float, words: str, anchor: str = "start", more: str = "") -> str:
+    return f'<text x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
+
+
+def _mark(kind: str, color: str, x: float, y: float) -> str:
+    """A mark by its name; a hollow one is larger than a filled one, so that both show."""
+    filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
+    r = 3.5 if filled else 5.0
+    looks = f'fill="{color if filled else "none"}" stroke="{color}"'
+    if shape == "circle":
+        return f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{r}" {looks}/>'
+    turned = f' transform="rotate(45 {_n(x)} {_n(y)})"' if shape == "diamond" else ""
+    return (
+        f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}{turned}/>'
+    )
+
+
+def _legend(x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> list[str]:
+    """Words below each other, each with its mark (of a kind and a color) or line."""
+    parts = []
+    for k, (words, (kind, color)) in enumerate(entries.items()):
+        down = y + 17 * k
+        if kind.endswith("line"):
+            dashes = "5 3" if kind == "dashed line" else ""
+            parts.append(_line([(x - 9, down), (x + 9, down)], color, 1.0, dashes))
+        else:
+            parts.append(_mark(kind, color, x, down))
+        parts.append(_text(x + 15, down + 4, words))
+    return parts
+
+
+# Normalized depth by every approach
+
+
+def _comparison(record: Record) -> Drawing:
+    """A row for each approach: what is computed filled, what is printed or quoted hollow."""
+    observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
+    shown = [a for a in record.approaches if a.kind != "observed"]
+    plot = _Plot((190, 8, 240, 30 * len(shown)), (0, 1.1), (len(shown) - 0.5, -0.5))
+    middle = (len(shown) - 1) / 2
+    plot.bar(min(observed), max(observed), middle, "#8c959f", plot.height)
+    plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
+    names = (a.name.replace(", ", ",; ").replace("beta", "β") for a in shown)
+    plot.rows([f"{a.kind}: {name}" for a, name in zip(shown, names, strict=True)])
+    for y, a in enumerate(shown):
+        if a.computed is None:
+            plot.marks("hollow diamond", INK, [(float(a.printed), y)])
+        elif a.printed:
+            plot.marks("hollow square", VERMILION, [(float(a.printed), y)])
+        if a.computed is not None:
+            plot.marks("circle", BLUE, [(a.computed, y)])
+    bottom = plot.top + plot.height
+    legend = {
+        "computed in this audit": ("circle", BLUE),
+        "printed by the report": ("hollow square", VERMILION),
+        "quoted by the report, not recomputable": ("hollow diamond", INK),
+        "observed": ("square", "#8c959f"),
+    }
+    words = "; ".join(f"{a.kind}, {a.name}: {_value(a)}" for a in record.approaches)
+    title = "Normalized depth by every approach of the report"
+    parts = plot.parts + _legend(100, bottom + 52, legend)
+    return _drawing("comparison", title, f"{words}.".replace("beta", "β"), int(bottom + 115), parts)
+
+
+def _value(approach: Approach) -> str:
+    if approach.computed is None:
+        return f"{approach.printed}, quoted by the report and not recomputable"
+    printed = f", printed {approach.printed}" if approach.printed else ""
+    return f"{approach.computed:.3f} computed{printed}"
+
+
+# What each input does
+
+
+def _sensitivity(record: Record) -> Drawing:
+    """Two panels of bars about the depth as printed, the longest on top."""
+    case = max(record.sensitivity, key=lambda s: s.beta)
+    parts, words, top = [], [], 24.0
+    for title, effects in (
+        ("each input ± 10 %", case.ten_percent),
+        ("its own stated range", case.stated),
+    ):
+        effects = sorted(effects, key=_reach, reverse=True)
+        plot = _Plot((140, top, 240, 32 * len(effects)), (5.4, 10.6), (len(effects) - 0.5, -0.5))
+        parts.append(_text(260, top - 8, title, "middle"))
+        plot.axes(range(6, 11), [], "" if effects[0] in case.ten_percent else "Depth X [µm]")
+        stated = effects[0] in case.stated
+        plot.rows([_input(e) + f"; {shown_range(e)}" * stated for e in effects])
+        for y, effect in enumerate(effects):
+            ends = [depth * 1e6 for depth in effect.depths]
+            for end, color in zip(ends, (VERMILION, BLUE), strict=True):
+                plot.bar(case.depth * 1e6, end, y, color, 18)
+            changes = [f"{end - case.depth * 1e6:+.3f}".replace("-", "−") for end in ends]
+            for k, change in enumerate(c for c in changes if float(c.replace("−", "-"))):
+                _, down = plot.at(5.4, y)
+                parts.append(_text(434, down - 2 + 13 * k, change, "end"))
+        plot.line([(case.depth * 1e6, -0.5), (case.depth * 1e6, len(effects) - 0.5)])
+        told = (
+            f"{_input(e)} {' to '.join(f'{x * 1e6:.2f}' for x in e.depths)} µm" for e in effects
+        )
+        words.append(f"{title.capitalize()}: {'; '.join(told)}.")
+        parts += plot.parts
+        top += plot.height + 52
+    legend = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
+    parts += [*_legend(150, top + 4, legend), _text(434, 16, "change [µm]", "end")]
+    title = f"What each input does to the exact penetration depth, β = {case.beta:g}"
+    return _drawing("sensitivity", title, " ".join(words), int(top + 32), parts)
+
+
+def _reach(effect: Effect) -> float:
+    return abs(effect.depths[1] - effect.depths[0])
+
+
+def _input(effect: Effect) -> str:
+    return effect.input.replace("_", " ").replace("beta", "β")
+
+
+# Depth against time, and against velocity
+
+
+def _figure_3(record: Record) -> Drawing:
+    """Every eighth row of each sheet as a point, the exact motion as a line."""
+    plot = _Plot((44, 8, 386, 260), (0, 46), (0, 11.5))
+    plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
+    legend, words = {"exact": ("line", INK)}, []
+    for curve, color, kind in zip(
+        record.curves, (VERMILION, BLUE), ("circle", "square"), strict=True
+    ):
+        exact = _scaled(curve.exact_time, curve.exact_depth)
+        sheet = _scaled(curve.sheet_time, curve.sheet_depth)
+        plot.line(exact)
+        plot.marks(kind, color, sheet[::8])
+        legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = (kind, color)
+        x, y = plot.at(*exact[-1])
+        end = sheet[-1]
+        plot.parts.append(_text(x + 8, y, f"{end[1]:.4f} µm,"))
+        plot.parts.append(_text(x + 8, y + 14, f"printed {curve.printed}"))
+        words.append(
+            f"for β = {curve.beta:g} the sheet stops at {end[1]:.4f} µm after {end[0]:.1f} ns "
+            f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
+        )
+    told = f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
+    title = "Penetration depth against time, as in Figure 3 of the report"
+    return _drawing("figure-3", title, told, 310, plot.parts + _legend(205, 205, legend))
+
+
+def _scaled(times: Sequence[float], depths: Sequence[float]) -> list[tuple[float, float]]:
+    return [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
+
+
+def _figure_5(record: Record) -> Drawing:
+    """The exact line, the sheet's points, and the observed level."""
+    curve = record.velocity_curve
+    low, high = curve.velocity[0], curve.velocity[-1]
+    plot = _Plot((44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
+    plot.axes(range(400, 501, 20), [k / 10 for k in range(9)], "Impact velocity [m/s]",
+              "Normalized depth X/R")  # fmt: skip
+    observed = next(
+        float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed
+    )
+    plot.line(zip(curve.velocity, curve.exact, strict=True))
+    plot.line([(low - 5, observed), (high + 5, observed)], INK, "5 3")
+    plot.marks("square", BLUE, list(zip(curve.velocity, curve.sheet, strict=True))[::2])
+    legend = {
+        "exact": ("line", INK),
+        "the sheet, β = 5": ("square", BLUE),
+        f"observed, {observed}": ("dashed line", INK),
+    }
+    words = (
+        f"For β = 5, X/R rises almost in proportion to the velocity, from {curve.exact[0]:.3f} at "
+        f"{low:g} m/s to {curve.exact[-1]:.3f} at {high:g} m/s; the sheet's points lie on the "
+        f"exact line. All of it is above the observed {observed:.3f}."
+    )
+    title = "Normalized depth against impact velocity, as in Figure 5 of the report"
+    return _drawing("figure-5", title, words, 280, plot.parts + _legend(290, 180, legend))
+
+
+# The sheet's error against its time step
+
+_SCHEMES = {
+    "published": ("initial", VERMILION, "circle"),
+    "centered": ("middle", BLUE, "square"),
+}
+
+
+def _convergence(record: Record) -> Drawing:
+    """The error of the final depth over the time step, both axes logarithmic."""
+    ladders: dict[tuple[str, float], list[Level]] = {}
+    for level in record.ladders:
+        ladders.setdefault((level.scheme, level.beta), []).append(level)
+    plot = _Plot((44, 8, 386, 260), (0.04, 4), (0.01, 300), logarithmic=True)
+    steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
+    plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
+    legend, words = {}, []
+    for (scheme, beta), levels in ladders.items():
+        velocity, color, shape = _SCHEMES[scheme]
+        kind = shape if beta == max(level.beta for level in record.ladders) else f"hollow {shape}"
+        points = [(level.step * 1e9, abs(level.error) * 1e9) for level in levels]
+        plot.line(points, color)
+        plot.marks(kind, color, points)
+        name = f"drag at the {velocity} velocity, β = {beta:g}"
+        legend[name] = (kind, color)
+        errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
+        words.append(f"{name}: {errors}")
+    parts = plot.parts + _legend(140, 322, legend)
+    title = "Error of the sheet's final depth against its time step"
+    return _drawing("convergence", title, "; ".join(words), 388, parts)

@@ -1,0 +1,202 @@
+"""The record as a page and as Markdown: one arrangement, two templates."""
+
+import re
+from base64 import b64encode
+from collections.abc import Callable, Sequence
+from hashlib import sha256
+from importlib import resources
+from string import ascii_lowercase
+from typing import TYPE_CHECKING, Any
+
+from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
+from replication.audit.verdict import Verdict
+from replication.report import facts as told
+from replication.report import tables
+from replication.report.figures import Drawing
+from replication.report.prose import Prose, quoted
+from replication.text import number
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+__all__ = ["counted", "environment", "markdown", "page"]
+
+SECTIONS = {
+    "summary": "Summary",
+    "open": "What does not follow",
+    "findings": "Findings, the heaviest first",
+    "approaches": "All approaches side by side",
+    "sheet": "The sheet and the exact motion",
+    "sensitivity": "What the depth depends on",
+    "scatter": "What scatter does",
+    "inferred": "The target density, inferred",
+    "equations": "The equations",
+    "table-a-1": "Table A-1",
+    "computed": "Numbers computed anew",
+    "remarks": "Remarks, with figures",
+    "sources": "Numbers compared with public sources",
+    "repeated": "Numbers that repeat or are chosen",
+    "undecided": "Numbers that nothing in the report decides",
+    "symbols": "Symbols",
+    "provenance": "Provenance",
+}
+
+
+def page(record: Record, drawings: Sequence[Drawing]) -> str:
+    """The page: no script, nothing from outside, its style named in its content policy by hash."""
+    style = (resources.files("replication.report") / "page.css").read_text("utf-8")
+    prose = Prose(record.symbols, told.names_of(record))
+    template = environment(prose.html, escaping=True).get_template("page.html.j2")
+    return template.render(
+        _context(record),
+        drawings={drawing.name: drawing for drawing in drawings},
+        style=style,
+        style_hash=b64encode(sha256(style.encode()).digest()).decode(),
+    ).lstrip()
+
+
+def markdown(record: Record) -> str:
+    """The same as Markdown, without the figures."""
+    prose = Prose(record.symbols, told.names_of(record))
+    template = environment(prose.markdown, escaping=False).get_template("page.md.j2")
+    return re.sub(r"\n{3,}", "\n\n", template.render(_context(record)).lstrip())
+
+
+def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
+    """Where the templates are found, and their filters."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    found = Environment(
+        loader=PackageLoader("replication.report", ""),
+        autoescape=escaping,  # noqa: S701  (the page is escaped; the others are no HTML)
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    found.filters |= {
+        "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
+        "number": number,
+        "printed": told.printed,
+        "prose": prose,
+        "quoted": quoted,
+        "slug": lambda text: text.replace(",", "").replace(" ", "-"),
+    }
+    return found
+
+
+def _context(record: Record) -> dict[str, Any]:
+    """What both templates show: the record, and its parts in the order in which they stand."""
+    groups, names = _groups(record), told.names_of(record)
+    return {
+        "record": record,
+        "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
+        "groups": groups,
+        "names": names,
+        "counted": counted(record),
+        "verdicts": told.VERDICTS,
+        "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
+        "inferred": _inferred(record),
+        "quantity": told.quantity,
+        "facts": lambda claim: told.facts(claim, names),
+        "tables": tables,
+        "equation_of": {c.claim: e for e in record.equations for c in e.constants},
+        "touching": _touching(record),
+        "sources": _sources(record),
+        "table": _table_a_1(groups["table-a-1"]),
+    }
+
+
+def counted(record: Record) -> str:
+    """The counts in words, the independent checks first."""
+    counts = record.counts
+    failing = sum(equation.verdict == Verdict.NOT_REPRODUCED for equation in record.equations)
+    return (
+        f"{counts.calculations} independent checks come out as printed; they cover "
+        f"{counts.reproduced} of the {counts.numbers} numbers that the report prints. "
+        f"{counts.failing} numbers do not follow from what it says. Of its {counts.equations} "
+        f"equations {counts.equations_derived} follow from those before them or from mechanics, "
+        f"{failing} does not, and the others are definitions or taken from the literature."
+    )
+
+
+def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
+    """The claims by the section that shows them; each stands in one section only."""
+    constants = {c.claim for equation in record.equations for c in equation.constants}
+    by_verdict = {
+        Verdict.REPRODUCED: "computed", Verdict.CONSISTENT: "repeated", Verdict.AGREES: "sources",
+        Verdict.DIFFERS: "sources", Verdict.REMARK: "remarks", Verdict.NOT_CHECKABLE: "undecided",
+    }  # fmt: skip
+    names = ("open", "equations", "table-a-1", *dict.fromkeys(by_verdict.values()))
+    groups: dict[str, dict[str, ClaimRecord]] = {name: {} for name in names}
+    for claim in record.claims:
+        name = by_verdict.get(Verdict(claim.verdict), "open")
+        if name != "open" and claim.id in constants:
+            name = "equations"
+        elif name != "open" and claim.cell:
+            name = "table-a-1"
+        groups[name][claim.id] = claim
+    return groups
+
+
+def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
+    """Table A-1 as it stands in the report, and a letter for each verdict and its conventions."""
+    cells = {str(claim.cell): claim for claim in claims.values()}
+    said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
+    letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
+    below = [cell for cell in cells if not cell.startswith("B")]
+    columns = sorted({cell[0] for cell in below})
+    rows = sorted({int(cell[1:]) for cell in below})
+    return {
+        "header": [claim for cell, claim in cells.items() if cell.startswith("B")],
+        "rows": [[cells.get(f"{column}{row}") for column in columns] for row in rows],
+        "letters": letters,
+        "marks": {name: letters[text] for name, text in said.items()},
+        "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
+        "proven": tables.proven(cells),
+    }
+
+
+def _touching(record: Record) -> dict[str, list[FindingRecord]]:
+    """The findings that name a claim, by its id; those with a check by hand first."""
+    touching: dict[str, list[FindingRecord]] = {}
+    for finding in sorted(record.findings, key=lambda finding: not finding.by_hand):
+        for claim in finding.claims:
+            touching.setdefault(claim, []).append(finding)
+    return touching
+
+
+def _inferred(record: Record) -> dict[str, str]:
+    """By id, what is known of an input that the report never prints."""
+    velocities = {"published": "velocity with which a row begins", "centered": "middle velocity"}
+    texts = {
+        one.id: f"The {one.title} is printed nowhere. The audit computes with "
+        f"{told.quantity(number(one.assumed), one.unit)}: {one.nominal_source}."
+        for one in record.inferred
+    }
+    for one in record.inferred:
+        ends = told.quantity(told.between(one.interval, 7, inward=True), one.unit)
+        texts[one.id] += (
+            f" With the drag at the {velocities[one.scheme]} the header of Table A-1 exactly as "
+            f"printed admits {ends}"
+        )
+        if one.possible_with_rounded_inputs:
+            ends = told.quantity(told.between(one.possible_with_rounded_inputs, 7), one.unit)
+            texts[one.id] += f"; if its numbers are themselves rounded, none outside {ends} does"
+        texts[one.id] += "."
+    return texts
+
+
+def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
+    """What public sources print for a claim or an inferred input, and what comes of comparing."""
+    outcomes = {True: "agrees", False: "differs", None: ""}
+    claims = {
+        claim.id: [(source, outcomes[source.agrees]) for source in claim.sources]
+        for claim in record.claims
+        if claim.sources
+    }
+    inferred = {
+        f"inferred:{one.id}": [(each.source, f"is {each.verdict}") for each in one.sources]
+        for one in record.inferred
+        if one.sources
+    }
+    return claims | inferred

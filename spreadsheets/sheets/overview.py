@@ -1,0 +1,151 @@
+"""The sheet `Overview`: results, whether they can be trusted, what the audit found, the sheets."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from textwrap import wrap
+
+from reference.ledger import Ledger
+from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
+from spreadsheets.sheets.audit import KINDS, Findings
+from spreadsheets.sheets.lines import HOME, formula, heads, printed, row_of, text
+from spreadsheets.sheets.steps import SCHEMES, CaseSheet
+
+__all__ = ["sheet"]
+
+_HOW = (
+    ("input", "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows."),
+    ("inferred", "Blue on orange: an input that the report never prints, inferred from others."),
+    ("number", "Black: a formula, stored with the value that coldspray computed for it."),
+    ("printed", "Gray: what the report prints, or what was computed once. It follows no change."),
+)
+_WIDTH = 165
+"""Characters of a line of running text."""
+
+
+@dataclass
+class _Page:
+    """The cells so far, and the row where the next go."""
+
+    cells: dict[str, Cell]
+    row: int = 1
+
+    def put(self, **cells: Cell) -> None:
+        """One row, by column."""
+        self.cells |= row_of(self.row, cells)
+        self.row += 1
+
+    def say(self, words: str, style: str = "body", width: int = _WIDTH, column: str = "A") -> None:
+        """Running text, broken into lines."""
+        for line in wrap(words, width):
+            self.put(**{column: text(line, style)})
+
+    def block(self, *words: str, right: str = "") -> None:
+        """The heads of a table, after a blank row."""
+        padded = [*words, *[""] * (6 - len(words))]
+        self.cells |= heads(self.row + 1, "ABCDEF", padded, right)
+        self.row += 2
+
+
+def sheet(
+    ledger: Ledger,
+    cases: Sequence[CaseSheet],
+    sheets: Mapping[str, str],
+    version: str,
+    findings: Findings | None,
+) -> SheetPlan:
+    """The first sheet; `sheets` says what each of the others shows."""
+    report, scheme = ledger.report, cases[0].scheme
+    page = _Page({})
+    page.put(A=text(f"{report.title}: the model as a workbook", "title"))
+    page.say(
+        f"After the report by {report.author} ({report.year}). Written by coldspray {version}; "
+        f"{scheme} scheme: {SCHEMES[scheme]}."
+    )
+    if findings is not None:
+        page.say(findings.headline, "headline", 140)
+    rules = _results(page, ledger, cases)
+    if findings is not None:
+        _audit(page, ledger, findings)
+    page.block("Sheets")
+    for name, what in sheets.items():
+        page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
+    page.block("How to read it")
+    for style, what in _HOW:
+        page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
+    widths = dict(zip("ABCDEF", (34.0, 17.0, 17.0, 17.0, 17.0, 46.0), strict=True))
+    return SheetPlan(
+        name=HOME,
+        cells=page.cells,
+        widths=widths,
+        rules=rules,
+        print_area=f"A1:F{page.row - 1}",
+    )
+
+
+def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> tuple[Rule, ...]:
+    """Final depths with the state of each run, and the inputs in use."""
+    page.block(
+        "Results with the inputs in use", "Final depth [µm]", "The report prints",
+        "Depth over radius", "The report prints", "State of the run", right="BCDE",
+    )  # fmt: skip
+    rules: list[Rule] = []
+    for case in cases:
+        part, like = f"overview.{case.slug}", f"{case.part}.depth_um"
+        depth, ratio = f"={case.result('depth_um')}", f"={case.result('normalized_depth')}"
+        more = {"number_format": "0.0000"}
+        cells = {
+            "A": text(case.name, "link", link=(case.name, "A1")),
+            "B": formula(f"{part}.depth_um", depth, "result", unit="um", column=like, **more),
+            "D": formula(f"{part}.normalized_depth", ratio, "result", **more),
+            "F": formula(f"{part}.message", f"={case.result('message')}", "state"),
+        }
+        if case.depth_claim:
+            cells["C"] = printed(ledger, case.depth_claim, "um")
+            cells["E"] = printed(ledger, case.ratio_claim)
+        rules += case.rules(f"F{page.row}")
+        page.put(**cells)
+    for words, name in (
+        ("Inputs that are not the report’s", "inputs_changed"),
+        ("Inputs that cannot be used", "inputs_unusable"),
+    ):
+        rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
+        count = formula(f"overview.{name}", f"={name}", "result")
+        page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
+    return tuple(rules)
+
+
+def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
+    """What fails, and how many numbers have which verdict."""
+    for head, names in (
+        ("What does not follow from the report", findings.failing),
+        ("What public sources give otherwise", findings.differing),
+    ):
+        page.block(head, "The report prints", "Computed", "Why", right="BC")
+        for name in names:
+            claim = ledger.claims[name]
+            first, *more = wrap(findings.explanations[name], 92)
+            cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
+            if claim.entry.workbook:
+                there = "='{}'!{}".format(*place_of(claim.entry.workbook))
+                shown = "0.0" if ledger.value(name) > 100 else "0.0000"
+                cells["C"] = formula(
+                    f"overview.{name}", there, "result", number_format=shown, transcendental=True
+                )
+            page.put(**cells)
+            for line in more:
+                page.put(D=text(line, "text"))
+    page.block("Verdicts of the audit", "Numbers", "", "Live verdicts", "Cells", right="BDE")
+    given = [(verdict, count) for verdict, count in findings.counts.items() if count]
+    for at, (verdict, count) in enumerate(given):
+        number = Cell(number=float(count), style="recorded")
+        cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": number}
+        if at < len(KINDS):
+            words, what = KINDS[at]
+            cells["D"] = text(words, "number")
+            cells["E"] = formula(f"overview.audit_{what}", f"=audit_{what}", "result")
+        page.put(**cells)
+    page.say(
+        "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "
+        "as the report does with the inputs in use.",
+        "note",
+    )

@@ -1,0 +1,275 @@
+"""Every arithmetic does what the formulas ask: derivatives, proven ranges, exact quotients."""
+
+from collections.abc import Callable
+from fractions import Fraction as F
+from typing import Any
+
+import flint
+import mpmath
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reference.arithmetic import (
+    DiscontinuityError,
+    Duals,
+    Floats,
+    InexactError,
+    Rationals,
+    Ratios,
+    Reals,
+)
+from reference.intervals import Intervals, Span
+
+OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {
+    "sum": lambda ar, x, y: x + y + 1,
+    "difference": lambda ar, x, y: (x - y - 2) * (3 - x),
+    "product": lambda ar, x, y: -x * y * 3,
+    "quotient": lambda ar, x, y: x / y + 2 / x + y / 7,
+    "powers": lambda ar, x, y: (x - y) ** 3 + x**2 - y**1 + x**0,
+    "root": lambda ar, x, y: ar.power(x, F(3, 2)) + ar.power(y, F(-1, 3)) + ar.power(x, F(-2)),
+    "logarithm": lambda ar, x, y: ar.log(x * y) + ar.pi * x,
+    "least": lambda ar, x, y: ar.least(x, y) * 2,
+    "greatest": lambda ar, x, y: ar.greatest(x, y) - x,
+    "contact share": lambda ar, x, y: ar.contact_share(x / 3) * y,
+    "cap root": lambda ar, x, y: ar.cap_root(x / 5) + y,
+}
+NUMBERS = st.fractions(F(1, 4), F(5, 2), max_denominator=999)
+SHARES = st.fractions(0, 1, max_denominator=64)
+REALS = Reals(50)
+
+
+def exact(real: Any) -> F:
+    return F(*real.as_integer_ratio())
+
+
+@settings(max_examples=40)
+@given(x=NUMBERS, y=NUMBERS)
+def test_derivatives_are_those_of_finite_differences(x: F, y: F) -> None:
+    if abs(x - y) < F(1, 10**6):  # a kink has no derivative
+        return
+    step, duals = F(1, 10**15), Duals(REALS, 2)
+    variables = [duals.variable(REALS.number(value), k) for k, value in enumerate((x, y))]
+    for name, function in OPERATIONS.items():
+        dual = function(duals, *variables)
+        assert dual.value == function(REALS, REALS.number(x), REALS.number(y)), name
+        for slope, (dx, dy) in zip(dual.slopes, ((step, 0), (0, step)), strict=True):
+            below, above = (
+                function(REALS, REALS.number(x + s * dx), REALS.number(y + s * dy)) for s in (-1, 1)
+            )
+            # The third derivative is below 1e4 here; the step's square is 1e-30.
+            assert abs((above - below) / (2 * REALS.number(step)) - slope) < 1e-25, name
+
+
+@settings(max_examples=60)
+@given(xs=st.tuples(NUMBERS, NUMBERS), ys=st.tuples(NUMBERS, NUMBERS), s=SHARES, t=SHARES)
+def test_spans_contain_what_points_give(xs: tuple[F, F], ys: tuple[F, F], s: F, t: F) -> None:
+    ar = Intervals(20)
+    (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    point = REALS.number(x0 + s * (x1 - x0)), REALS.number(y0 + t * (y1 - y0))
+    for name, function in OPERATIONS.items():
+        with ar.working():
+            low, high = ar.ends(function(ar, ar.interval(x0, x1), ar.interval(y0, y1)))
+        value = exact(function(REALS, *point))
+        slack = abs(value) * F(1, 10**45)  # of 50 digits; the span has 20
+        assert low - slack <= value <= high + slack, name
+
+
+SIGNED = st.fractions(-9, 9, max_denominator=99)
+SIGNED_OPERATIONS: list[Callable[[Any, Any], Any]] = [
+    lambda x, y: x * y - 2 * x + y,
+    lambda x, y: x**2 - y**4 + (1 - y) ** 0,
+    lambda x, y: (x - y) ** 3 / 7 - x,
+    lambda x, y: x / (1 + y**2) + 3 / (x - 20) + y / (y - 20),
+    lambda x, y: -(x**2) * -y,
+]
+
+
+@given(xs=st.tuples(SIGNED, SIGNED), ys=st.tuples(SIGNED, SIGNED), s=SHARES, t=SHARES)
+def test_spans_of_any_sign_contain_exact_rationals(
+    xs: tuple[F, F], ys: tuple[F, F], s: F, t: F
+) -> None:
+    (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    ar = Intervals(15)
+    x, y = ar.interval(x0, x1), ar.interval(y0, y1)
+    for number, operation in enumerate(SIGNED_OPERATIONS):
+        with ar.working():
+            low, high = ar.ends(operation(x, y))
+        assert low <= operation(x0 + s * (x1 - x0), y0 + t * (y1 - y0)) <= high, number
+
+
+@given(st.tuples(SIGNED, SIGNED), st.tuples(SIGNED, SIGNED))
+def test_spans_are_no_wider_than_their_ends(xs: tuple[F, F], ys: tuple[F, F]) -> None:
+    """Arb's own product of two balls about [0, 2] reaches down to -4."""
+    ar = Intervals(20)
+    (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    x, y = ar.interval(x0, x1), ar.interval(y0, y1)
+    corners = [a * b for a in (x0, x1) for b in (y0, y1)]
+    squares = [0] * (x0 < 0 < x1) + [x0 * x0, x1 * x1]
+    with ar.working():
+        for span, exactly in (
+            (x * y, (min(corners), max(corners))),
+            (x + y, (x0 + y0, x1 + y1)),
+            (x - y, (x0 - y1, x1 - y0)),
+            (x**2, (min(squares), max(squares))),
+            (ar.least(x, y), (min(x0, y0), min(x1, y1))),
+            (ar.greatest(x, y), (max(x0, y0), max(x1, y1))),
+            (ar.hull([x, y]), (min(x0, y0), max(x1, y1))),
+        ):
+            for end, expected in zip(ar.ends(span), exactly, strict=True):
+                assert abs(end - expected) <= F(1, 10**16)
+    assert ar.is_below(x, y) <= (x1 < y0) <= (not ar.may_be_below(y, x))
+    assert ar.may_be_below(x, y) >= (x0 < y1)
+
+
+@pytest.mark.parametrize("value", [F(1, 3), F(-7, 2), 10**60 + 1, -(10**60) - 1, F(10**60, 3**99)])
+def test_a_number_lies_in_its_ball_and_rounds_outwards(value: Any) -> None:
+    low, high = Intervals(10).ends(Intervals(10).number(value))
+    assert low <= value <= high
+    assert high - low <= abs(value) / 10**9
+
+
+@settings(max_examples=40)
+@given(st.tuples(*[st.fractions(0, F(2, 3), max_denominator=10**6)] * 2))
+def test_cap_roots_are_verified_and_tight(ends: tuple[F, F]) -> None:
+    low, high = sorted(ends)
+    ar = Intervals(30)
+    least, greatest = ar.ends(ar.cap_root(ar.interval(low, high)))
+
+    def left(y: F) -> F:  # rises on [0, 2]
+        return y**2 - y**3 / 3
+
+    assert left(least) <= low <= high <= left(greatest)
+    if low > F(1, 10**5):
+        assert left(least * (1 + F(1, 10**20))) >= low
+        assert left(greatest * (1 - F(1, 10**20))) <= high
+
+
+def test_a_root_that_is_off_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from reference import intervals
+
+    root = intervals._cap_root
+    ar = Intervals(30)
+    for off in (1 + 2.0**-20, 1 - 2.0**-20):
+        monkeypatch.setattr(intervals, "_cap_root", lambda c, off=off: root(c) * off)
+        with pytest.raises(ArithmeticError, match="could not be verified"):
+            ar.cap_root(ar.number(F(1, 3)))
+
+
+def test_what_has_no_value_is_an_error_wherever_it_is_used() -> None:
+    ar = Intervals(20)
+    below, about_zero = ar.interval(F(-2), F(-1)), ar.interval(F(-1), F(1))
+    with pytest.raises(ZeroDivisionError, match="may be zero"):
+        _ = 1 / about_zero
+    with pytest.raises(ZeroDivisionError):
+        _ = below / ar.number(0)
+    with pytest.raises(ValueError, match="negative"):
+        _ = below**-1
+    undefined = ar.log(below)
+    for use in (
+        lambda: ar.ends(undefined),
+        lambda: ar.ends(ar.log(ar.interval(F(0), F(1)))),
+        lambda: ar.ends(ar.power(about_zero, F(1, 2))),
+        lambda: ar.least(undefined, below),
+        lambda: ar.greatest(below, undefined),
+        lambda: ar.hull([below, undefined]),
+        lambda: ar.is_below(undefined, below),
+        lambda: ar.may_be_below(undefined, below),
+        lambda: ar.cap_root(below),
+    ):
+        with pytest.raises(ArithmeticError):
+            use()
+
+
+def test_duals_of_spans_hold_every_slope_and_no_jump() -> None:
+    ar = Intervals(20)
+    duals = Duals(ar, 1)
+    x = duals.variable(ar.interval(F(-1), F(2)), 0)
+    zero = duals.number(0)
+    with ar.working():
+        kinked = duals.greatest(x, zero) * 2
+        assert ar.ends(kinked.slopes[0]) == (0, 2)
+        assert ar.ends(duals.least(x, duals.number(-3)).slopes[0]) == (0, 0)
+        assert ar.ends(duals.least(x, duals.number(3)).slopes[0]) == (1, 1)
+        with pytest.raises(DiscontinuityError):
+            duals.may_be_below(x, zero)
+        assert duals.may_be_below(x, duals.number(3))
+        assert not duals.is_below(x, duals.number(-1))
+
+
+# Quotients of polynomials
+
+
+def test_forms_of_a_quotient_are_equal_exactly_or_not_at_all() -> None:
+    ar = Ratios(["x", "y"])
+    x, y = ar.symbols["x"], ar.symbols["y"]
+    assert (x**2 - y**2) / (x - y) == x + y
+    assert (x**2 - y**2) / (x - y) != x + 2 * y
+    assert 1 / (1 / x + 1 / y) == x * y / (x + y)
+    assert x**-2 == 1 / (x * x)
+    assert x - 2 == -(2 - x)
+    assert ((2 * x + 2 * y) / (3 * y + 3 * x)).constant == F(2, 3)
+    assert (x / y).constant is None
+    assert ((x - x) / y).constant == 0
+    with pytest.raises(ZeroDivisionError):
+        _ = x / (y - y)
+
+
+def test_what_is_no_polynomial_has_a_symbol_of_its_own() -> None:
+    ar = Ratios(["x", "y"])
+    x, y = ar.symbols["x"], ar.symbols["y"]
+    assert ar.log((x * y) / y) == ar.log(x)
+    assert ar.log(x) != ar.log(y)
+    assert ar.power(x, F(1, 2)) != ar.power(x, F(1, 3))
+    assert ar.power(x, F(1, 2)) != ar.log(x)
+    assert ar.power(x, F(-2)) == 1 / x**2
+    assert ar.power(ar.number(1), F(1, 2)) == 1
+    assert ar.pi * x / x == ar.pi
+
+
+# Points
+
+
+def test_rationals_are_exact_or_say_that_they_are_not() -> None:
+    ar = Rationals()
+    assert ar.number(F(1, 3)) * 3 == 1
+    assert ar.power(F(2, 3), F(-2)) == F(9, 4)
+    assert ar.contact_share(F(1, 3)) == F(5, 9)
+    assert (ar.least(F(1), F(2)), ar.greatest(F(1), F(2)), ar.hull([F(1)])) == (1, 2, 1)
+    for inexact in (
+        lambda: ar.pi,
+        lambda: ar.log(F(2)),
+        lambda: ar.power(F(2), F(1, 2)),
+        lambda: ar.cap_root(F(1, 2)),
+    ):
+        with pytest.raises(InexactError):
+            inexact()
+
+
+@settings(max_examples=40)
+@given(x=NUMBERS, y=NUMBERS)
+def test_floats_agree_with_reals(x: F, y: F) -> None:
+    for name, function in OPERATIONS.items():
+        real = function(REALS, REALS.number(x), REALS.number(y))
+        # A dozen roundings of 1e-16, of terms below a hundred that may cancel.
+        assert abs(function(Floats(), float(x), float(y)) - real) < 1e-12, name
+
+
+@pytest.mark.parametrize("ar", [Reals(20), Rationals(), Floats()], ids=lambda ar: type(ar).__name__)
+def test_points_are_below_or_not(ar: Any) -> None:
+    one, two = ar.number(1), ar.number(2)
+    for below in (ar.may_be_below, ar.is_below):
+        assert (below(one, two), below(two, one), below(one, one)) == (True, False, False)
+    with pytest.raises(ValueError, match="too many"):
+        ar.hull([one, two])
+
+
+def test_global_precision_is_left_alone() -> None:
+    before = mpmath.mp.dps, flint.ctx.prec
+    assert abs(exact(Reals(60).pi) - exact(Reals(40).pi)) < F(1, 10**39)
+    with Intervals(33).working():
+        assert flint.ctx.dps == 33
+        Intervals(40).cap_root(Intervals(40).interval(F(1, 3), F(1, 2)))
+        assert flint.ctx.dps == 33
+    assert (mpmath.mp.dps, flint.ctx.prec) == before
+    assert isinstance(Intervals(20).pi, Span)

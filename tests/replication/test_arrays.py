@@ -1,0 +1,454 @@
+"""The same functions compiled: the same doubles; what is refused, by element; containers."""
+
+import functools
+import inspect
+import os
+import pickle
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from multiprocessing import get_all_start_methods
+from pathlib import Path
+from typing import Any
+
+import dask
+import dask.array
+import numpy as np
+import pandas as pd
+import pint
+import pytest
+import xarray
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import replication
+from replication.models import (
+    arrays,
+    crater,
+    depth,
+    frank_zook,
+    impact,
+    motion,
+    resistance,
+    sheet,
+    stream,
+)
+from replication.models.arrays import ElementError, history, run_many, ufunc
+from replication.models.impact import Impact
+
+CASE = (500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
+FUNCTIONS: dict[str, tuple[float, ...]] = {
+    "final_depth": CASE,
+    "normalized_depth": (CASE[0], *CASE[2:]),
+    "depth_at_velocity": (100.0, *CASE),
+    "velocity_at_depth": (4e-6, *CASE),
+    "time_to_depth": (4e-6, *CASE),
+    "stop_time": (*CASE, 1.0),
+    "history": (5e-9, *CASE),
+    "run_many": (*CASE, 2e-9, 1.0),
+}
+CASES = 100_000
+
+
+def as_tuple(results: Any) -> tuple[Any, ...]:
+    return results if isinstance(results, tuple) else (results,)
+
+
+# Plain and compiled
+
+
+def drawn(count: int, *ranges: tuple[float, float]) -> list[np.ndarray]:
+    """Columns of random numbers, evenly spread over the logarithm."""
+    generator = np.random.default_rng(2006)
+    return [np.exp(generator.uniform(np.log(low), np.log(high), count)) for low, high in ranges]
+
+
+MOTION = ((1e-6, 1e5), (1e-9, 1), (1, 1e5), (1, 1e5), (1e3, 1e13))
+SHARE, DENSITY, POSITIVE = (1e-9, 1.0), (1e2, 1e5), (1e-6, 1e6)
+MODELS: dict[Callable[..., Any], tuple[tuple[float, float], ...]] = {
+    depth.final_depth: MOTION,
+    depth.normalized_depth: (MOTION[0], *MOTION[2:]),
+    depth.depth_at_velocity: ((1e-9, 1e2), (1e2, 1e5), *MOTION[1:]),
+    depth.velocity_at_depth: ((1e-18, 1e-12), (1, 1e5), (1e-6, 1), *MOTION[2:]),
+    motion.stop_time: (*MOTION, (1e-9, 1e-6)),
+    crater.volume: (POSITIVE,),
+    crater.cap_volume: (SHARE, (1, 10)),
+    crater.volume_ratio: (SHARE,),
+    crater.depth_from_volume_ratio: ((1e-9, 0.5),),
+    crater.contact_diameter: (SHARE, POSITIVE),
+    frank_zook.depth_as_printed: (SHARE, DENSITY, DENSITY, SHARE, SHARE, POSITIVE, POSITIVE),
+    frank_zook.depth_derived: (SHARE, DENSITY, DENSITY, SHARE, SHARE, POSITIVE, POSITIVE),
+    impact.particle_mass: (POSITIVE, DENSITY),
+    resistance.target_resistance: (POSITIVE, POSITIVE),
+    resistance.goodier_beta: (POSITIVE,),
+    resistance.walker_anderson_beta: (POSITIVE,),
+    resistance.brinell_beta: (POSITIVE,),
+    resistance.centerline_stress: (DENSITY, POSITIVE, POSITIVE),
+    sheet.deceleration: (SHARE, POSITIVE, SHARE, POSITIVE, DENSITY, POSITIVE),
+    stream.particle_velocity: (POSITIVE, POSITIVE, POSITIVE),
+    stream.strain_rate: (POSITIVE, POSITIVE),
+}
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_compiled_is_plain_to_the_last_bit(model: Callable[..., Any]) -> None:
+    # The stop time walks through whole series in plain Python, a third of a millisecond each.
+    count = CASES // 10 if model is motion.stop_time else CASES
+    columns = drawn(count, *MODELS[model])
+    plain = [model(*values) for values in zip(*(c.tolist() for c in columns), strict=True)]
+    assert ufunc(model)(*columns).tolist() == plain
+
+
+def test_compiled_series_are_plain_to_the_last_bit() -> None:
+    y, w, b, c = drawn(CASES, (1e-12, 1.0), (1e-6, 0.5), (1e-6, 1e4), (1e-9, 1.0))
+    beyond = np.arange(CASES) % 2 == 0
+    found = _expanded(np.array(y), np.array(w), b, c, beyond)
+    series = [motion.series() for _ in range(4)]
+    for k, values in enumerate(zip(*(x.tolist() for x in (y, w, b, c, beyond)), strict=True)):
+        series[0][0], series[1][0], *others = values
+        assert found[k, 0] == motion._expand(*series, *others)
+        assert found[k, 1:].tolist() == series[1]
+
+
+def _expanded(y: Any, w: Any, b: Any, c: Any, beyond: Any) -> Any:
+    """Length of the step and series of w, compiled."""
+    import numba
+
+    arrays._make_known()
+    expand, length = motion._expand, motion.ORDER + 1
+
+    def all_of_them(y: Any, w: Any, b: Any, c: Any, beyond: Any) -> Any:
+        found, series = np.zeros((y.size, length + 1)), np.zeros((4, length))
+        for k in range(y.size):
+            series[0, 0], series[1, 0] = y[k], w[k]
+            of_series = series[0], series[1], series[2], series[3]
+            found[k, 0] = expand(*of_series, b[k], c[k], beyond[k])
+            found[k, 1:] = series[1]
+        return found
+
+    return numba.njit(all_of_them)(y, w, b, c, beyond)
+
+
+def test_compiled_histories_are_plain_to_the_last_bit() -> None:
+    columns = drawn(2000, *MOTION)
+    times = arrays.stop_time(*columns)[:, None] * np.array([0.1, 0.5, 0.9, 1.1])
+    found = history(times, *(column[:, None] for column in columns))
+    for k, case in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
+        depths, speeds = [0.0] * 4, [0.0] * 4
+        motion.history(times[k].tolist(), *case, depths, speeds)
+        assert (found[0][k].tolist(), found[1][k].tolist()) == (depths, speeds)
+
+
+@pytest.mark.parametrize("centered", [False, True])
+def test_compiled_sheets_are_plain_to_the_last_bit(centered: bool) -> None:
+    columns = drawn(CASES, (1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
+    columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
+    found = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    plain = [sheet.last_row(*row, 0.9, centered) for row in rows]
+    assert list(zip(*(result.tolist() for result in found), strict=True)) == plain
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_many_are_what_each_is_alone(name: str) -> None:
+    function = getattr(arrays, name)
+    columns = [value * np.linspace(1.0, 1.05, 60_000) for value in FUNCTIONS[name]]
+    whole = as_tuple(function(*columns))  # shared out over the cores
+    some = [0, 1, 31_000, 59_999]
+    for part in as_tuple(function(*(column[some] for column in columns))):
+        assert part.shape == (4,)
+    for k in some:
+        alone = as_tuple(function(*(float(column[k]) for column in columns)))
+        assert all(isinstance(value, float | int) for value in alone)
+        assert [result[k] for result in whole] == list(alone)
+
+
+def test_histories_broadcast_in_any_order() -> None:
+    velocities, times = np.geomspace(1, 5000, 150), np.linspace(0, 3e-8, 300)
+    rows = history(times, velocities[:, None], *CASE[1:])
+    columns = history(times[:, None], velocities, *CASE[1:])
+    pairs = history(times[:150], velocities, *CASE[1:])
+    for row, column, pair in zip(rows, columns, pairs, strict=True):
+        assert row.shape == (150, 300)
+        np.testing.assert_array_equal(row, column.T)
+        np.testing.assert_array_equal(pair, np.diag(row))
+    alone = history(times.reshape(3, 100), velocities[64], *CASE[1:])
+    np.testing.assert_array_equal(alone[0].ravel(), rows[0][64])
+
+
+def test_nothing_in_nothing_out() -> None:
+    assert arrays.final_depth([], *CASE[1:]).shape == (0,)
+    assert arrays.stop_time(np.zeros((0, 3)), *CASE[1:]).shape == (0, 3)
+    assert history([], *CASE)[0].shape == history(np.zeros((0, 1)), [1.0], *CASE[1:])[0].shape[:1]
+    assert run_many([], *CASE[1:])[1].shape == (0,)
+
+
+# What is refused
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_bad_elements_are_named_by_index(name: str) -> None:
+    function = getattr(arrays, name)
+    for place, argument in enumerate(list(inspect.signature(function).parameters)[:7]):
+        for bad in (np.nan, np.inf, -1.0):
+            values: list[Any] = list(FUNCTIONS[name])
+            values[place] = [[values[place], bad]]
+            with pytest.raises(ValueError, match=rf"^{argument}\[0, 1\] is {bad}: it must be a"):
+                function(*values)
+            values[place] = bad
+            with pytest.raises(ValueError, match=rf"^{argument} is {bad}: it must be a finite"):
+                function(*values)
+
+
+@pytest.mark.parametrize(
+    ("function", "first", "message"),
+    [
+        ("depth_at_velocity", [1.0, 501.0], r"^at_velocity\[1\] is 501.*exceed the impact velocit"),
+        ("velocity_at_depth", [1e-6, 8e-6], r"^at_depth\[1\] is 8e-06.*not exceed the final depth"),
+        ("time_to_depth", [1e-6, 8e-6], r"^at_depth\[1\] is 8e-06: it must not exceed the final"),
+        ("time_to_depth", 8e-6, "^at_depth is 8e-06: it must not exceed the final depth"),
+    ],
+)
+def test_what_never_happens_is_refused(function: str, first: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        getattr(arrays, function)(first, *CASE)
+    with pytest.raises(ValueError, match=r"^stop_velocity is 501\.0: it must not exceed "):
+        arrays.stop_time(*CASE, stop_velocity=501)
+
+
+@pytest.mark.parametrize(
+    ("place", "bad", "formed"),
+    [
+        (0, 1e200, r"velocity squared\[1\] is inf: doubles carry"),
+        (0, 1e-170, r"velocity squared\[1\] is 0.0: doubles carry"),
+        (1, 1e130, r"particle mass\[1\] is inf: it must be"),
+        (1, 1e-126, r"particle mass\[1\] is 0.0: it must be"),
+        (2, 1e251, r"particle density\[1\] is 1e\+251: doubles carry"),
+        (4, 1e-260, r"target resistance\[1\] is 1e-260: doubles carry"),
+        (4, 1e260, r"target resistance\[1\] is 1e\+260: doubles carry"),
+        (4, 0.0, r"target resistance\[1\] is 0.0: nothing would bring the particle to rest"),
+    ],
+)
+def test_what_would_leave_the_range_of_doubles_is_refused(
+    place: int, bad: float, formed: str
+) -> None:
+    values: list[Any] = list(CASE)
+    values[place] = [CASE[place], bad]
+    names = list(impact.Impact.__dataclass_fields__)
+    for function in (arrays.final_depth, functools.partial(history, 1e-9), run_many):
+        with pytest.raises(ValueError, match=rf"^{formed} .*\(with .*{names[0]} "):
+            function(*values)
+
+
+INPUT = st.one_of(*(st.floats(-p, p).map(lambda power: 10.0**power) for p in (40, 300)))
+
+
+@given(st.tuples(INPUT, INPUT, INPUT, INPUT, INPUT))
+@settings(max_examples=500, deadline=None)
+def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
+    def refused(function: Callable[[], Any]) -> bool:
+        try:
+            function()
+        except ValueError:
+            return True
+        return False
+
+    names = ("velocity", "radius", "particle_density", "target_density", "resistance")
+    one = refused(lambda: Impact(**dict(zip(names, case, strict=True)), step=1.0))
+    assert one == refused(lambda: arrays.final_depth(*case))
+    assert one == refused(lambda: arrays._check(dict(zip(names, case, strict=True))))
+    if all(1e-40 <= value <= 1e40 for value in case):
+        assert not one
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (np.ma.masked_greater([400.0, 500.0], 450.0), "^velocity is a masked array: give the"),
+        (np.array([400.0 + 1j]), "^velocity is complex: real numbers are wanted"),
+        (500 + 0j, "^velocity is complex: real numbers are wanted"),
+        (pint.UnitRegistry().Quantity([400.0], "m/s"), "^velocity has units: give its magnitude"),
+    ],
+)
+def test_what_is_no_real_number_is_refused(value: Any, message: str) -> None:
+    for function in (arrays.final_depth, run_many):
+        with pytest.raises(TypeError, match=message):
+            function(value, *CASE[1:])
+
+
+def test_a_refusal_can_be_sent_to_another_process() -> None:
+    error = pickle.loads(pickle.dumps(ElementError("radius", "is 0", (3,))))
+    assert (str(error), error.index) == ("radius[3] is 0", (3,))
+
+
+# Containers
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_series_and_labeled_and_lazy_arrays(name: str) -> None:
+    function: Callable[..., Any] = getattr(arrays, name)
+    values = [value * np.linspace(1.0, 1.05, 500) for value in FUNCTIONS[name]]
+    index = np.arange(500)[::-1]
+    kinds: dict[type, Callable[[Any], Any]] = {
+        pd.Series: lambda v: pd.Series(v, index),
+        xarray.DataArray: lambda v: xarray.DataArray(v, dims="case"),
+        dask.array.Array: lambda v: dask.array.from_array(v, 130),
+        xarray.Dataset: lambda v: xarray.DataArray(v, dims="case").chunk(case=130),
+    }
+    for kind, made in kinds.items():
+        results = as_tuple(function(*(made(v) for v in values[:-1]), values[-1][0]))
+        expected = as_tuple(function(*values[:-1], values[-1][0]))
+        for result, numbers in zip(results, expected, strict=True):
+            if kind is xarray.Dataset:
+                assert isinstance(result.data, dask.array.Array)
+            else:
+                assert isinstance(result, kind)
+            assert result.dtype == numbers.dtype
+            np.testing.assert_array_equal(np.asarray(result), numbers)
+
+
+def test_labels_units_and_names_of_the_inputs_are_not_the_results() -> None:
+    velocity = xarray.DataArray([400.0, 500.0], {"case": ["a", "b"]}, name="velocity")
+    velocity.attrs["units"] = "m/s"
+    with xarray.set_options(keep_attrs=True):
+        found = (arrays.final_depth(velocity, *CASE[1:]), *history(1e-9, velocity, *CASE[1:]))
+    for result in found:
+        assert (result.name, result.attrs) == (None, {})
+        assert result.case.values.tolist() == ["a", "b"]
+    grid = history(xarray.DataArray([1e-9] * 3, dims="time"), velocity, *CASE[1:])
+    assert grid[0].dims == ("time", "case")
+
+
+def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
+    velocity = pd.Series([400.0, 500.0], ["a", "b"])
+    radius = pd.Series([2e-5, 1e-5], ["b", "a"])
+    matched = arrays.final_depth(velocity, radius, *CASE[2:])
+    assert matched["b"] == arrays.final_depth(500.0, 2e-5, *CASE[2:])
+    minus = pd.Series([1.0, -1.0], ["a", "b"])
+    other = pd.Series([1.0, 1.0], ["a", "c"])
+    refusals: list[tuple[Any, Any, type[Exception], str]] = [
+        (minus, radius, ValueError, r"^velocity\[b\] is -1\.0: it must"),
+        (other, radius, ValueError, "^radius must have the labels of the first Series, so [bc] "),
+        (velocity, radius.iloc[:1], ValueError, "^radius must have the labels .*, so a too"),
+        (velocity, [1e-5], TypeError, r"^radius is a list of shape \(1,\): beside a Series give"),
+        (velocity, radius.to_frame(), TypeError, r"^radius is a DataFrame of shape \(2, 1\): be"),
+        (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
+        (velocity.to_frame(), 1e-5, TypeError, "a Series is wanted for each input: take columns"),
+    ]
+    for first, second, kind, message in refusals:
+        with pytest.raises(kind, match=message):
+            arrays.final_depth(first, second, *CASE[2:])
+    with pytest.raises(ValueError, match=r"^the sheet\[b\] takes more than 1,000,000 steps"):
+        run_many(*CASE, step=pd.Series([2e-9, 1e-18], ["a", "b"]))
+
+
+def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
+    velocity, radius = np.linspace(300, 900, 30), np.linspace(1e-6, 1e-4, 30)
+    expected = arrays.final_depth(velocity, radius, *CASE[2:])
+    lazy = dask.array.from_array(velocity, 7)
+    for other in (radius, dask.array.from_array(radius, 11), radius.tolist()):
+        np.testing.assert_array_equal(arrays.final_depth(lazy, other, *CASE[2:]), expected)
+    table = arrays.final_depth(lazy[:, None], dask.array.from_array(radius, 4), *CASE[2:])
+    assert table.shape == (30, 30)
+    np.testing.assert_array_equal(np.diag(table.compute()), expected)
+    bad = arrays.final_depth(dask.array.from_array(-velocity, 7), 1e-6, *CASE[2:])
+    with pytest.raises(ValueError, match=r"^velocity\[0\] is -.*: it must be"):
+        bad.compute()
+
+
+# Threads, processes, and where nothing can be kept
+
+
+def test_threads_and_dask_share_out_nothing_twice() -> None:
+    velocities = np.linspace(300, 900, 200_000)
+    expected = arrays.final_depth(velocities, *CASE[1:])
+    found: list[Any] = []
+    threads = [
+        threading.Thread(target=lambda: found.append(arrays.final_depth(velocities, *CASE[1:])))
+        for _ in range(8)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for result in found:
+        np.testing.assert_array_equal(result, expected)
+    lazy = arrays.final_depth(dask.array.from_array(velocities, 50_000), *CASE[1:])
+    with dask.config.set(scheduler="threads", num_workers=8):
+        np.testing.assert_array_equal(lazy.compute(), expected)
+
+
+FORKED = """
+import os, sys
+import numpy as np
+from replication.models import arrays
+velocities = np.linspace(300, 900, 200_000)
+rest = (11e-6, 8900.0, 7850.0, 3.5e9)
+whole = arrays.final_depth(velocities, *rest)
+child = os.fork()
+if child == 0:
+    os._exit(0 if (arrays.final_depth(velocities, *rest) == whole).all() else 1)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+@pytest.mark.skipif("fork" not in get_all_start_methods(), reason="no fork here")
+def test_a_fork_goes_on_computing() -> None:
+    subprocess.run([sys.executable, "-c", FORKED], check=True, timeout=300)
+
+
+def in_a_copy(folder: Path, **environment: str) -> tuple[str, str]:
+    """What a depth of an array is in a copy of the models, and what is said on the way."""
+    copy = folder / "replication" / "models"
+    if not copy.exists():
+        copy.mkdir(parents=True)
+        (copy.parent / "__init__.py").touch()
+        for source in Path(arrays.__file__).parent.glob("*.py"):
+            (copy / source.name).write_bytes(source.read_bytes())
+    program = f"from replication.models.arrays import final_depth as f; print(*f([{CASE[0]}], "
+    program += f"*{CASE[1:]}))"
+    variables = {**os.environ, "PYTHONPATH": str(folder), "PYTHONWARNINGS": "error", **environment}
+    variables.pop("NUMBA_CACHE_DIR", None)
+    command = [sys.executable, "-B", "-c", program]
+    done = subprocess.run(command, capture_output=True, env=variables, text=True, cwd=folder)
+    return done.stdout, done.stderr
+
+
+def test_without_a_place_to_keep_it_only_the_compilation_is_done_again(tmp_path: Path) -> None:
+    in_a_copy(tmp_path)
+    shutil.rmtree(tmp_path / "replication" / "models" / "__pycache__")
+    (tmp_path / "replication" / "models" / "__pycache__").touch()  # not even root can write there
+    (tmp_path / "home").touch()
+    nowhere = str(tmp_path / "home" / "cache")
+    found = in_a_copy(tmp_path, HOME=nowhere, XDG_CACHE_HOME=nowhere)
+    assert found == (f"{depth.final_depth(*CASE)}\n", "")
+
+
+def test_what_is_kept_goes_by_the_source_of_all_models(tmp_path: Path) -> None:
+    first = in_a_copy(tmp_path)
+    copy = tmp_path / "replication" / "models"
+    assert list((copy / "__pycache__").glob("depth.final_depth*.nbc"))
+    source = (copy / "crater.py").read_text("utf-8")
+    (copy / "crater.py").write_text(source.replace("return 2 * z", "return 4 * z"), "utf-8")
+    twice = f"{2 * float(first[0])}\n"
+    assert in_a_copy(tmp_path) == (twice, "")
+
+
+def test_public_names_are_there_and_loaded_when_used() -> None:
+    program = (
+        "import sys, replication\n"
+        "assert not [name for name in sys.modules if name.startswith('replication.')]\n"
+        "from replication import BETA_5, Impact, final_depth, run\n"
+        f"assert final_depth(*{CASE}) == final_depth(**BETA_5.motion)\n"
+        "assert run(BETA_5).steps == 131\n"
+        "assert not {'numba', 'numpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
+        "from replication import *\n"
+        "from replication.audit import verdict\n"
+        "assert callable(audit) and replication.audit is audit\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
+    assert all(hasattr(replication, name) for name in replication.__all__)
+    with pytest.raises(AttributeError, match="no attribute 'final_dept'"):
+        replication.final_dept  # noqa: B018

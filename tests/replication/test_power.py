@@ -1,0 +1,97 @@
+"""What the audit notices of planted misprints, and that a quick judgement is that of the whole."""
+
+import random
+
+import pytest
+
+from reference.ledger import load
+from replication.audit.audit import Audit
+from replication.power import Plant, planted, plants, power, trial
+
+LEDGER = load()
+EVERYTHING = list(plants(LEDGER))
+TRUTH = Audit(LEDGER, every_convention=False)
+
+
+def plant(entry: str, text: str) -> Plant:
+    return next(p for p in EVERYTHING if (p.entry, p.text) == (entry, text))
+
+
+def test_every_number_and_every_equation_gets_misprints() -> None:
+    numbers = {claim.id for claim in LEDGER.claims.values() if claim.printed is not None}
+    without = {"strength-multiple"}  # "several times" has no other word in its place
+    assert {p.entry for p in EVERYTHING} == (numbers | set(LEDGER.equations)) - without
+
+
+@pytest.mark.parametrize(
+    ("entry", "text"),
+    [
+        ("depth-beta-5", "7.76"),
+        ("a1-resistance", "3.60E+09"),
+        ("a1-deceleration-2", "9.03E+08"),
+        ("eq11-numerator", "3"),
+        ("velocity-521", "512"),
+        ("minimum-velocity-least", "430"),
+        ("flow-stress", "070"[1:]),
+        ("eq2", r"CV = 1/3 \pi X^2 (3R + X)"),
+        ("eq16", r"X/R = ((L/D \rho_t/\rho_p + k_1)/2kt)\ln(1+k_t\rho_t V^2/R_t)"),
+        ("eq5", r"\Sigma = \frac{1}{2} \rho_p (v + u)^2 + Y_p = \frac{1}{2} \rho_t u^2 + R_t"),
+        ("eq1", "V_p = V(m/m_o)^{1/2}"),
+    ],
+)
+def test_a_misprint_is_noticed_and_put_right(entry: str, text: str) -> None:
+    known = LEDGER.equations[entry] if entry in LEDGER.equations else LEDGER.claims[entry]
+    true = LEDGER.equation_text(entry) if entry in LEDGER.equations else known.text
+    outcome = trial(TRUTH, Plant(entry, true, text, "digit changed"))
+    assert outcome.visible
+    assert outcome.detected
+    assert outcome.repaired or entry == "eq16", "Eq. 16 fails as it is printed, too"
+
+
+def test_a_misprint_that_no_digit_tells_is_invisible() -> None:
+    outcome = trial(TRUTH, plant("autodyne-time", "41"))
+    assert not outcome.visible
+    assert not outcome.detected
+
+
+def test_one_wrong_cell_of_the_table_does_not_end_the_audit() -> None:
+    ledger = planted(LEDGER, plant("a1-deceleration-2", "9.40E+08"))
+    audit = Audit(ledger)
+    inference = audit.judge.inference("inferred:target-density")
+    assert inference.odd == ("a1-deceleration-2",)
+    assert audit.assessment(ledger.claims["a1-deceleration-2"]).verdict == "not reproduced"
+    assert audit.assessment(ledger.claims["depth-beta-5"]).verdict == "reproduced"
+
+
+@pytest.mark.slow
+def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
+    """On 50 plants: no claim or equation elsewhere fails because of one."""
+    for one in random.Random(3).sample(EVERYTHING, 50):
+        outcome = trial(TRUTH, one)
+        audit = Audit(planted(LEDGER, one), every_convention=False)
+        worse = {"not reproduced", "inconsistent", "reproduced within input rounding", "undecided",
+                 "differs from public sources"}  # fmt: skip
+        everything = {
+            name
+            for name, claim in audit.ledger.claims.items()
+            if audit.assessment(claim).verdict in worse
+            and TRUTH.assessment(LEDGER.claims[name]).verdict not in worse
+        }
+        everything |= {
+            name
+            for name in audit.ledger.equations
+            if audit.equation(name).verdict.is_failure
+            and audit.equation(name).checks != TRUTH.equation(name).checks
+        }
+        assert everything == outcome.failing, one
+
+
+def test_the_rates_of_a_small_sample_hold() -> None:
+    result = power(LEDGER, sample=60, seed=1, progress=lambda plants: plants)
+    assert result.planted == 60 == result.visible + result.invisible
+    assert result.detected == result.visible
+    assert result.repaired >= 0.95 * result.visible
+    assert result.repaired_first >= 0.8 * result.visible
+    assert result.unnoticed == []
+    assert sum(counts.planted for counts in result.by_kind.values()) == 60
+    assert sum(counts.planted for counts in result.by_edit.values()) == 60

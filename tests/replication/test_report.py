@@ -1,0 +1,329 @@
+"""The audit's files: complete, exact, the same on every run, and readable by everybody."""
+
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from base64 import b64encode
+from collections import Counter
+from collections.abc import Sequence
+from hashlib import sha256
+from itertools import pairwise
+from math import inf, nextafter
+from pathlib import Path
+from types import ModuleType
+from xml.etree import ElementTree as ET
+
+import html5lib
+import jsonschema
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reference.ledger import load
+from replication.audit.audit import audit
+from replication.audit.record import Record, schema
+from replication.cli import main
+from replication.report import terminal
+from replication.report.facts import OPEN, between
+from replication.report.figures import draw
+from replication.report.files import check_folder, contents, write
+from replication.report.prose import Named, Prose
+from replication.report.render import page
+
+HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
+MATH = "{http://www.w3.org/1998/Math/MathML}math"
+BESIDE = {"workbook.xlsx": b"PK"}
+
+
+@pytest.fixture(scope="module")
+def record() -> Record:
+    return audit()
+
+
+@pytest.fixture(scope="module")
+def files(record: Record) -> dict[str, bytes]:
+    return contents(record, BESIDE)
+
+
+@pytest.fixture(scope="module")
+def root(files: dict[str, bytes]) -> ET.Element:
+    return html5lib.HTMLParser(strict=True).parse(files["audit.html"].decode())
+
+
+def by_id(root: ET.Element, name: str) -> ET.Element:
+    (element,) = (e for e in root.iter() if e.get("id") == name)
+    return element
+
+
+def words(element: ET.Element) -> str:
+    return " ".join("".join(element.itertext()).split())
+
+
+# The page
+
+
+def test_nothing_runs_and_nothing_is_loaded(root: ET.Element, files: dict[str, bytes]) -> None:
+    assert not list(root.iter(f"{HTML}script"))
+    attributes = {name for element in root.iter() for name in element.attrib}
+    assert not {name for name in attributes if name in ("style", "src") or name.startswith("on")}
+    (style,) = root.iter(f"{HTML}style")
+    (policy,) = (m.get("content", "") for m in root.iter(f"{HTML}meta") if m.get("http-equiv"))
+    digest = b64encode(sha256((style.text or "").encode()).digest()).decode()
+    assert policy.split("; ")[:2] == ["default-src 'none'", f"style-src 'sha256-{digest}'"]
+    assert not re.search(rb"@import|url\((?!#)", files["audit.html"])
+    for element in root.iter():
+        target = element.get("href", "#")
+        if not target.startswith("#"):  # the address of a public source: followed, not loaded
+            assert element.tag == f"{HTML}a"
+            assert element.get("rel") == "noreferrer"
+
+
+def test_every_reference_leads_to_one_place(root: ET.Element, files: dict[str, bytes]) -> None:
+    ids = Counter(e.get("id") for e in root.iter() if e.get("id"))
+    assert not [name for name, count in ids.items() if count > 1]
+    wanted = {h[1:] for e in root.iter() if (h := e.get("href", "")).startswith("#")}
+    wanted |= {name for e in root.iter() for name in e.get("aria-labelledby", "").split()}
+    wanted |= set(re.findall(r"url\(#([^)]+)\)", files["audit.html"].decode()))
+    assert wanted <= set(ids)
+
+
+def test_headings_landmarks_tables_and_pictures_are_named(root: ET.Element) -> None:
+    assert next(root.iter(f"{HTML}html")).get("lang") == "en"
+    heads = [e.tag for e in root.iter() if re.fullmatch(rf"{re.escape(HTML)}h[1-6]", e.tag)]
+    levels = [int(tag[-1]) for tag in heads]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+    assert all(len(list(root.iter(f"{HTML}{tag}"))) == 1 for tag in ("header", "nav", "main"))
+    for table in root.iter(f"{HTML}table"):
+        assert table.find(f"{HTML}caption") is not None
+        assert all(head.get("scope") for head in table.iter(f"{HTML}th"))
+    for picture in root.iter(f"{SVG}svg"):
+        assert picture.get("role") == "img"
+        assert all(picture.findtext(f"{SVG}{part}") for part in ("title", "desc"))
+
+
+def test_everything_stands_on_the_page_once(root: ET.Element, record: Record) -> None:
+    ids = {e.get("id") for e in root.iter()}
+    assert {f"claim-{claim.id}" for claim in record.claims} <= ids
+    assert {f"finding-{finding.id}" for finding in record.findings} <= ids
+    assert {f"equation-{equation.id}" for equation in record.equations} <= ids
+    for claim in record.claims:
+        if claim.computed is not None and not claim.cell:
+            text = words(by_id(root, f"claim-{claim.id}"))
+            assert claim.reference is not None
+            assert claim.reference in text
+            assert claim.holds.split(".")[0].replace("'", "’") in text.replace("\xa0", " ")
+    targets = {a.get("href") for a in by_id(root, "sources").iter(f"{HTML}a")}
+    assert {source.address for claim in record.claims for source in claim.sources} <= targets
+
+
+def test_what_fails_can_be_checked_by_hand(root: ET.Element, record: Record) -> None:
+    failing = [claim for claim in record.claims if claim.verdict in OPEN]
+    assert {"frank-zook-rha", "frank-zook-stainless", "eq16-denominator"} <= {c.id for c in failing}
+    summary = words(by_id(root, "summary"))
+    for claim in failing:
+        card = by_id(root, f"claim-{claim.id}")
+        assert list(card.iter(MATH))
+        assert "By hand." in words(card)
+        for solved in claim.back_solved:
+            assert f"{solved.title} " in words(card).replace("’", "'") or "_" in solved.title
+    assert all(text in summary for text in ("0.127", "0.255", "0.150", "0.300"))
+
+
+def test_the_answer_comes_first_everywhere(
+    root: ET.Element, files: dict[str, bytes], record: Record
+) -> None:
+    start = words(next(root.iter(f"{HTML}header"))).replace("’", "'").replace("\xa0", " ")
+    for text in (start, files["audit.md"].decode(), terminal.summary(record, 1000)):
+        assert record.headline in text[:400]
+        assert text.index(record.headline) < text.index(f"{record.counts.calculations} ")
+
+
+def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: Record) -> None:
+    for element in root.iter():
+        if element.tag in (f"{HTML}q", f"{HTML}code"):  # sources as they print; names of cells
+            element.clear()
+    (body,) = root.iter(f"{HTML}body")
+    for text in (words(body), files["audit.md"].decode(), terminal.summary(record, 80)):
+        assert "\\" not in text
+        plain = re.sub(r"`[^`]*`", "", text)
+        assert not re.search(r"\b(?:rho|beta|alpha|Sigma)\b|[A-Za-z]_[a-z1]\b|\^\d| \* ", plain)
+
+
+def test_a_text_of_the_ledger_cannot_become_markup(record: Record) -> None:
+    hostile = "<script>alert(1)</script>"
+    claims = [msgspec.structs.replace(claim, title=hostile) for claim in record.claims]
+    assert hostile not in page(msgspec.structs.replace(record, claims=claims), draw(record))
+
+
+def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None:
+    figures = {name: text.decode() for name, text in files.items() if name.startswith("figures/")}
+    assert len(figures) == 5
+    shown = Path(__file__).parents[2] / "docs" / "comparison.svg"  # by the README
+    assert shown.read_text("utf-8") == figures["figures/comparison.svg"]
+    for text in figures.values():
+        assert text.strip() in files["audit.html"].decode()
+        root = ET.fromstring(text)
+        assert root.get("fill") == "currentColor"
+        assert "#000000" not in text
+        assert not [e for e in root.iter() if "style" in e.attrib or e.tag == f"{SVG}style"]
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="needs the browser chromium")
+def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None:
+    source, target = tmp_path / "audit.html", tmp_path / "audit.pdf"
+    source.write_bytes(files["audit.html"])
+    command = ["chromium", "--headless", "--no-sandbox", f"--print-to-pdf={target}", str(source)]
+    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    assert 10 < len(re.findall(rb"/Type /Page\b", target.read_bytes())) <= 25
+
+
+# The other files
+
+
+def test_json_is_the_record_and_fits_its_schema(files: dict[str, bytes], record: Record) -> None:
+    document = json.loads(files["audit.json"])
+    jsonschema.validate(document, schema())
+    digest = document["provenance"]["sha256"].pop("workbook.xlsx")
+    assert digest == sha256(BESIDE["workbook.xlsx"]).hexdigest()
+    assert document == json.loads(msgspec.json.encode(record))
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(document | {"counts": None}, schema())
+
+
+def test_every_claim_is_a_line_of_the_csv_with_all_digits(
+    files: dict[str, bytes], record: Record
+) -> None:
+    rows = list(csv.DictReader(io.StringIO(files["audit.csv"].decode())))
+    for row, claim in zip(rows, record.claims, strict=True):
+        assert row["id"] == claim.id
+        assert row["computed"] == ("" if claim.computed is None else repr(claim.computed))
+        if claim.enclosure:
+            ends = row["enclosure_lower"], row["enclosure_upper"]
+            assert ends == tuple(map(repr, claim.enclosure))
+
+
+def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record: Record) -> None:
+    text = files["audit.md"].decode()
+    assert all(f"`{part.id}`" in text for part in (*record.claims, *record.findings))
+    assert len({line.count("|") for line in text.splitlines() if line.startswith("| L/D = 1")}) == 1
+
+
+def test_another_process_writes_the_same_bytes(files: dict[str, bytes], tmp_path: Path) -> None:
+    program = (
+        "import sys; from pathlib import Path; from replication.audit.audit import audit\n"
+        "from replication.report.files import write\n"
+        f"write(audit(), Path(sys.argv[1]), {BESIDE!r})"
+    )
+    environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}
+    subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=True, env=environment)
+    found = {p.relative_to(tmp_path).as_posix(): p for p in tmp_path.rglob("*") if p.is_file()}
+    assert {name: path.read_bytes() for name, path in found.items()} == files
+
+
+def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -> None:
+    (tmp_path / "figures").write_text("in the way")
+    with pytest.raises(OSError, match="figures"):
+        write(record, tmp_path, BESIDE)
+    assert [path.name for path in tmp_path.iterdir()] == ["figures"]
+    with pytest.raises(NotADirectoryError, match="a folder is wanted"):
+        check_folder(tmp_path / "figures" / "deeper")
+
+
+# The terminal
+
+
+@pytest.mark.parametrize("width", [50, 80, 120])
+def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: int) -> None:
+    text = terminal.summary(record, width)
+    assert max(map(len, text.splitlines())) <= width
+    flat = " ".join(text.split())
+    prose = Prose(record.symbols, {})
+    assert all(prose.text(f.title) in flat for f in record.findings[: terminal.FINDINGS])
+    if width >= 80:
+        assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
+        assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    "name", ["frank-zook-rha", "coarse-step-remark", "eq2-power", "a1-depth-1"]
+)
+def test_a_proof_fits_the_terminal(record: Record, name: str) -> None:
+    text = terminal.proof(record.claim(name), load(), 80)
+    assert max(map(len, text.splitlines())) <= 80
+    claim = record.claim(name)
+    assert claim.verdict in text
+    assert all(terminal.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
+    assert ("One input changed" in text) == bool(claim.back_solved)
+
+
+cells = st.text("ab c", max_size=12)
+
+
+@given(st.lists(st.tuples(cells, cells, cells), min_size=1, max_size=5), st.integers(12, 40))
+def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], width: int) -> None:
+    text = terminal.columns(rows, width)
+    assert max(map(len, text.split("\n"))) <= width
+    assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
+
+
+def test_commands_print_what_they_promise(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    workbook = ModuleType("replication.workbook")
+    workbook.to_bytes = lambda: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "replication.workbook", workbook)
+    assert main(["audit", "--out", str(tmp_path / "new" / "one"), "--exit-code"]) == 1
+    printed = capsys.readouterr().out
+    assert "audit.html" in printed
+    assert "\x1b" not in printed
+    assert main(["audit", "--schema"]) == 0
+    assert json.loads(capsys.readouterr().out) == schema()
+    assert main(["audit", "--out", str(tmp_path / "new" / "one" / "audit.md")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert main(["claims"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == len(load().claims)
+    assert main(["claims", "depth-beta-5", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["verdict"] == "reproduced"
+    assert main(["claims", "depth-beta"]) == 2
+    assert "depth-beta-5" in capsys.readouterr().err
+
+
+# Numbers and sentences
+
+
+doubles = st.floats(-1e12, 1e12)
+
+
+def ends_of(text: str) -> Sequence[float]:
+    parts = [float(part) for part in text.split(" to ")]
+    return parts * 2 if len(parts) == 1 else parts
+
+
+@given(doubles, doubles, st.integers(3, 12))
+def test_shortened_ranges_stay_true(one: float, other: float, digits: int) -> None:
+    low, high = sorted((one, other))
+    slack = 1e-14 * max(abs(low), abs(high))
+    outer = ends_of(between((low, high), digits))
+    if low < high:
+        assert outer[0] <= low + slack
+        assert outer[1] >= high - slack
+        inner = ends_of(between((low, high), digits, inward=True))
+        assert inner[0] >= low - slack
+        assert inner[1] <= high + slack
+    assert between((low, nextafter(low, inf)), 12).count(" to ") <= 1
+
+
+@given(st.text())
+def test_prose_in_html_is_always_closed(text: str) -> None:
+    prose = Prose(["ρ_t", "V"], {"a": Named("<title>", "claim-a")})
+    assert not re.sub(
+        r"</?(?:sub|sup|code)>|<a href=\"#claim-a\">|</a>", "", prose.html(text)
+    ).count("<")

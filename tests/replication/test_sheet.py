@@ -1,0 +1,199 @@
+"""The sheet: rows, arrays and frame, what stops it, what to doubt; many at once the same."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reference import exact
+from replication.cases import BETA_3, BETA_5
+from replication.error.warnings import warnings
+from replication.models.arrays import run_many
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.sheet import SCHEMES, Row, _fewest_steps, run
+
+IMPACTS = st.builds(
+    Impact,
+    velocity=st.floats(50, 2000),
+    radius=st.floats(1e-6, 1e-4),
+    particle_density=st.floats(1000, 20000),
+    target_density=st.floats(1000, 20000),
+    resistance=st.floats(1e8, 1e10),
+    step=st.just(1.0),
+    stop_velocity=st.just(1.0),
+).map(lambda impact: replace(impact, step=impact.radius / impact.velocity / 50))
+
+
+def test_the_report_needs_131_and_178_steps() -> None:
+    assert run(BETA_5).steps == 131
+    assert run(BETA_3).steps == 178
+
+
+def test_row_0_is_the_impact_itself() -> None:
+    assert run(BETA_5).rows[0] == (0.0, 500.0, 0.0, 0.0, None)
+
+
+def test_the_first_depth_is_half_a_step_and_later_ones_a_whole() -> None:
+    rows = run(BETA_5).rows
+    assert rows[1].depth == 500.0 * 1e-10
+    assert rows[2].depth == rows[1].depth + rows[2].velocity_initial * 2e-10
+
+
+@given(IMPACTS)
+@settings(max_examples=50, deadline=None)
+def test_every_row_follows_from_the_one_before(impact: Impact) -> None:
+    rows = run(impact).rows
+    for k, (before, row) in enumerate(pairwise(rows), start=1):
+        assert row.time == k * impact.step
+        expected = before.velocity_final if k > 1 else impact.velocity
+        assert row.velocity_initial == expected
+        slowed = row.velocity_initial - row.deceleration * impact.step
+        assert row.velocity_final == slowed
+    assert rows[-1].velocity_final < impact.stop_velocity
+    assert all(row.velocity_final >= impact.stop_velocity for row in rows[1:-1])
+
+
+@given(IMPACTS)
+@settings(max_examples=25, deadline=None)
+def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impact) -> None:
+    reals = exact.Reals(50)
+    inputs = (*impact.motion.values(), impact.step)
+    rows = exact.midpoint(reals, *(reals.number(Fraction(value)) for value in inputs))
+    sheet = run(impact)
+    # A row has about a dozen roundings of 2^-53, each relative to a value of at most the impact's;
+    # later rows amplify them by less than ten (cosh of the deceleration's growth over an impact).
+    bound = 12 * 10 * sheet.steps * 2.0**-53
+    for row, expected in zip(sheet.rows[1:], rows, strict=False):
+        assert abs(row.depth - float(expected.depth)) <= bound * impact.radius
+        assert row.velocity_final is not None
+        assert abs(row.velocity_final - float(expected.velocity_final)) <= bound * impact.velocity
+
+
+def test_beyond_the_radius_the_contact_area_stays_that_of_the_sphere() -> None:
+    deep = replace(BETA_3, velocity=1500.0)
+    beyond = [row for row in run(deep).rows if row.depth >= deep.radius]
+    assert beyond, "the case must cross the radius to test it"
+    for row in beyond:
+        stress = 0.5 * deep.target_density * row.velocity_initial**2 + deep.target_resistance
+        area = math.pi * deep.radius**2
+        assert row.deceleration == pytest.approx(stress * area / deep.mass, rel=1e-15)
+
+
+def test_below_the_stop_velocity_there_is_no_step_and_at_it_one() -> None:
+    slow = run(replace(BETA_5, velocity=0.5))
+    assert (slow.steps, slow.final_depth) == (0, 0.0)
+    assert run(replace(BETA_5, velocity=1.0, stop_velocity=1.0)).steps == 1
+
+
+@given(IMPACTS, st.floats(0, 1), st.sampled_from(SCHEMES))
+def test_the_fewest_steps_are_no_more_than_are_taken(
+    impact: Impact, stop: float, scheme: str
+) -> None:
+    impact = replace(impact, stop_velocity=stop * impact.velocity)
+    inputs = (impact.step, impact.radius, impact.mass)
+    target = (impact.target_density, impact.target_resistance)
+    fewest = _fewest_steps(impact.velocity, impact.stop_velocity, *inputs, *target)
+    assert fewest <= run(impact, scheme).steps
+
+
+@pytest.mark.parametrize(
+    "impact",
+    [
+        replace(BETA_5, step=1e-15, radius=1e-3),  # by the bound
+        replace(BETA_5, beta=None, flow_stress=None, resistance=1.0, stop_velocity=0.01),  # counted
+    ],
+    ids=["bound", "counted"],
+)
+def test_too_many_rows_are_refused(impact: Impact) -> None:
+    message = f"takes more than 1,000,000 steps of {impact.step} s down to .*: take a larger step"
+    with pytest.raises(ValueError, match=f"^the sheet {message}"):
+        run(impact)
+    inputs = impact.motion | {"step": [1e-7, impact.step], "stop_velocity": impact.stop_velocity}
+    with pytest.raises(ValueError, match=rf"^the sheet\[1\] {message}"):
+        run_many(**inputs)
+
+
+def test_a_scheme_that_is_none_is_refused() -> None:
+    calls: list[Callable[[], object]] = [
+        lambda: run(BETA_5, "upwind"),
+        lambda: run_many(**BETA_5.motion, scheme="upwind"),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match="no scheme 'upwind': choose one of published, cente"):
+            call()
+
+
+def test_arrays_and_frame_hold_the_rows() -> None:
+    sheet = run(BETA_5)
+    arrays = sheet.arrays()
+    assert {array.shape for array in arrays.values()} == {(132,)}
+    assert {array.dtype for array in arrays.values()} == {np.dtype("float64")}
+    frame = sheet.frame()
+    assert list(frame.columns) == list(Row._fields)
+    assert frame.index.name == "row"
+    for row, (_, line) in zip(sheet.rows[1:], frame.iloc[1:].iterrows(), strict=True):
+        assert tuple(line) == tuple(row)
+    assert math.isnan(frame.velocity_final.iloc[0])
+
+
+@pytest.mark.parametrize(
+    ("changes", "kinds"),
+    [
+        ({}, ["reversed"]),
+        ({"step": 2e-12}, []),
+        ({"step": 4e-9}, ["reversed", "coarse"]),
+        ({"step": 1e-7}, ["reversed", "coarse", "deep"]),
+        ({"step": 2.21e-9, "stop_velocity": 499.0}, ["coarse"]),
+        ({"step": 2.19e-9, "stop_velocity": 480.0}, []),
+    ],
+)
+def test_what_speaks_for_too_long_a_step(changes: dict[str, float], kinds: list[str]) -> None:
+    impact = replace(BETA_5, **changes)
+    sheet = run(impact)
+    found = warnings(sheet)
+    assert [warning.kind for warning in found] == kinds
+    assert ("deep" in kinds) == (sheet.final_depth > final_depth(**impact.motion) * 1.0005)
+    assert all(str(warning) == warning.text for warning in found)
+
+
+# Many at once
+
+
+@st.composite
+def impacts(draw: st.DrawFn) -> Impact:
+    """From a few steps to hundreds, some far too coarse, some crossing R or never starting."""
+    case = Impact(
+        velocity=draw(st.floats(0.5, 5000)),
+        radius=draw(st.floats(1e-6, 1e-4)),
+        particle_density=draw(st.floats(100, 20000)),
+        target_density=draw(st.floats(100, 20000)),
+        resistance=draw(st.floats(1e7, 1e11)),
+        stop_velocity=draw(st.sampled_from([0.0, 1.0, 100.0])),
+    )
+    share = draw(st.floats(0.5, 100))
+    return replace(case, step=case.radius / case.velocity / share)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@given(cases=st.lists(impacts(), min_size=1, max_size=12))
+@settings(max_examples=60, deadline=None)
+def test_each_case_is_the_same_double_as_alone(scheme: str, cases: list[Impact]) -> None:
+    columns = zip(*([*c.motion.values(), c.step, c.stop_velocity] for c in cases), strict=True)
+    depth, steps = run_many(*map(list, columns), scheme=scheme)
+    sheets = [run(case, scheme) for case in cases]
+    assert depth.tolist() == [sheet.final_depth for sheet in sheets]
+    assert steps.tolist() == [sheet.steps for sheet in sheets]
+
+
+def test_cases_broadcast_and_a_single_one_is_a_number() -> None:
+    depth, steps = run_many([[500.0], [400.0]], 11e-6, 8900.0, 7850.0, [2.1e9, 3.5e9])
+    assert depth.shape == steps.shape == (2, 2)
+    assert steps[0].tolist() == [run(BETA_3).steps, run(BETA_5).steps]
+    assert run_many(**BETA_5.motion) == (run(BETA_5).final_depth, 131)

@@ -1,0 +1,199 @@
+"""`coldspray workbook`: what it writes, refuses and says, and a status that can be trusted."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from replication import workbook
+from spreadsheets.engines import Engine, engine
+from spreadsheets.engines.base import Cell, Value
+from spreadsheets.readback import read
+
+Run = Callable[..., tuple[int, str, str]]
+OWN = ("--step", "1 ns")
+"""A case of one's own takes no audit and few rows."""
+
+
+@pytest.fixture
+def run(coldspray: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: coldspray("workbook", *arguments)
+
+
+# Files
+
+
+def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "workbook.xlsx"
+    assert run(*OWN)[:2] == (0, "Written: workbook.xlsx\n")
+    first = path.read_bytes()
+    assert run("--step", "2 ns")[0] == 0  # its own, though of another case
+    assert path.read_bytes() != first
+    for content in (path.read_bytes() + b"\0", b"notes"):
+        path.write_bytes(content)
+        for more in ((), ("--verify",)):
+            status, out, err = run(*OWN, *more)
+            assert (status, out) == (2, "")
+            assert "workbook.xlsx: this file is not as coldspray wrote it" in err
+            assert err.count("\n") == 1
+            assert path.read_bytes() == content
+    assert run(*OWN, "--force")[0] == 0
+    assert path.read_bytes() == first
+
+
+def test_rows_and_the_command_that_the_sheet_advises(run: Run, tmp_path: Path) -> None:
+    """A case of one's own is named in full; the command that is named writes a longer sheet."""
+    run(*OWN, "--beta", "4")
+    cells = read(tmp_path / "workbook.xlsx").values["Sheet beta 4"]
+    note = " ".join(str(cells[f"A{row}"]) for row in range(4, 8))
+    (command,) = re.findall(r"for more: coldspray workbook (.*)$", note)
+    assert command == "--case beta-5 --beta 4.0 --step 1e-09 --rows 2000"
+    status, _, _ = run(*command.split(), "-o", "longer.xlsx")
+    assert status == 0
+    longer = read(tmp_path / "longer.xlsx")
+    assert len(longer.formulas["Sheet beta 4"]) > 2000 * 7
+    depth = workbook.build([workbook.BETA_5]).plan.where["case.depth_um"][1]
+    assert longer.values["Sheet beta 4"][depth] == cells[depth]
+
+
+def test_the_reports_workbook_advises_its_own_command(run: Run, tmp_path: Path) -> None:
+    assert run("--scheme", "centered", "-o", "r.xlsx")[0] == 0
+    values = read(tmp_path / "r.xlsx").values
+    for sheet in ("Sheet beta 3", "Sheet beta 5", "Sheet beta 5 coarse"):
+        note = " ".join(str(values[sheet][f"A{row}"]) for row in range(4, 8))
+        assert note.endswith("for more: coldspray workbook --scheme centered --rows 4000")
+    assert run("--scheme", "centered", "--rows", "400", "-o", "s.xlsx")[0] == 0
+    assert (tmp_path / "r.xlsx").read_bytes() == (tmp_path / "s.xlsx").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--rows", "20"), "20 rows do not do: the case needs 26 to 20,000"),
+        (("--rows", "30000"), "to 20,000"),
+        (("--scheme", "best"), "no scheme 'best'"),
+        (("--resistance", "1"), "takes 100,000 to 1e+15 Pa for the target resistance, given"),
+        (("--json",), "--json is for what --verify finds: give both"),
+    ],
+)
+def test_what_it_cannot_do_is_status_2(
+    run: Run, tmp_path: Path, arguments: tuple[str, ...], message: str
+) -> None:
+    status, out, err = run(*OWN, *arguments)
+    assert (status, out) == (2, "")
+    assert message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:
+    err = run("--step", "40 ns")[2]
+    warnings = err.splitlines()
+    assert len(warnings) == 3
+    assert all(w.startswith("coldspray workbook: warning: Sheet beta 5: ") for w in warnings)
+    assert "reverses the velocity to -861.9 m/s" in err
+    assert run("--step", "40 ns", "--quiet") == (0, "", "")
+
+
+# Verification
+
+
+@dataclass
+class Fake(Engine):
+    """IronCalc, but that it adds to the depths (column D of the sheet), or cannot be used."""
+
+    added: float = 0.0
+    echoes: bool = False
+    reason: str | None = None
+    name = "fake"
+
+    def missing(self) -> str | None:
+        return self.reason
+
+    def _version(self) -> str:
+        return "1.0"
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        for sheet, cells in engine("ironcalc").recalculate(path).items():
+            for address, value in cells.items():
+                yield sheet, address, self._told(sheet, address, value)
+
+    def _told(self, sheet: str, address: str, value: Value) -> Value:
+        if sheet == "planted" and self.echoes:
+            return 41.0
+        depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
+        return value + self.added if depth else value
+
+
+@pytest.fixture
+def check(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Return a function that verifies in other engines than those of this machine."""
+
+    def command(engines: list[Engine], *options: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(workbook, "ENGINES", tuple(engines))
+        return run("--verify", *OWN, *options)
+
+    return command
+
+
+def test_report_verifies_in_every_engine(run: Run, tmp_path: Path) -> None:
+    status, out, _ = run("--verify", "--json", "-o", "report.xlsx")
+    record = json.loads(out)
+    assert (status, record["file"], record["passed"]) == (0, "report.xlsx", True)
+    assert 1e-14 < record["long_double_bound"] < 1e-12
+    outcomes = {found["engine"]: found["outcome"] for found in record["engines"]}
+    assert list(outcomes) == ["ironcalc", "formualizer", "libreoffice", "gnumeric"]
+    assert outcomes["ironcalc"] == outcomes["formualizer"] == "verified"
+    for found in record["engines"]:
+        for sheet in found["sheets"]:
+            assert sheet["unexplained"] == []
+            assert sheet["differ"] == sheet["explained"]
+            assert found["engine"] == "gnumeric" or sheet["differ"] == 0
+    cells = {sheet["sheet"]: sheet["cells"] for sheet in record["engines"][0]["sheets"]}
+    assert cells["Sheet beta 5"] > 2500
+
+
+def test_a_table_for_each_engine(check: Run) -> None:
+    status, out, err = check([Fake(), Fake(reason="It is not installed: install it.")])
+    assert (status, err) == (0, "")
+    assert out.startswith("Written: workbook.xlsx\n\nfake 1.0: verified, ")
+    assert re.search(r"^  Sheet beta 5 +\d{4} +0 +0 +\d +\d$", out, re.MULTILINE)
+    assert "\nfake: missing\n  It is not installed: install it.\n" in out
+    assert out.endswith("1 of 1 engines on this machine give the values of the workbook\n")
+
+
+def test_differences_are_shown_and_status_1(check: Run) -> None:
+    status, out, _ = check([Fake(added=1e-12), Fake()])
+    assert status == 1
+    assert "fake 1.0: differs" in out
+    assert re.search(r"^  Sheet beta 5!D\d+: expected \S+, found \S+ \(\d+ ulp\)$", out, re.M)
+    assert re.search(r"^  and \d+ more$", out, re.MULTILINE)
+    assert "1 of 2 engines on this machine" in out
+    record = json.loads(check([Fake(added=1e-12)], "--json")[1])
+    sheets = record["engines"][0]["sheets"]
+    (sheet,) = (s for s in sheets if s["sheet"] == "Sheet beta 5")
+    assert len(sheet["unexplained"]) == sheet["differ"] > 20
+    assert set(sheet["unexplained"][0]) == {"cell", "expected", "found", "ulps"}
+
+
+def test_an_echo_is_status_1(check: Run) -> None:
+    status, out, _ = check([Fake(echoes=True)])
+    assert status == 1
+    assert "fake 1.0: echoes\n  It verifies nothing" in out
+
+
+def test_quiet_leaves_the_status(check: Run) -> None:
+    assert check([Fake()], "--quiet") == (0, "", "")
+    assert check([Fake(added=1.0)], "--quiet") == (1, "", "")
+
+
+def test_without_any_engine_nothing_is_written(check: Run, tmp_path: Path) -> None:
+    status, out, err = check([Fake(reason="Absent.")])
+    assert (status, out) == (2, "")
+    assert "no spreadsheet engine here: run pip install ironcalc formualizer" in err
+    assert list(tmp_path.iterdir()) == []
