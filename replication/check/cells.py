@@ -180,15 +180,21 @@ def as_rounded(f: Findings, digits: int) -> None:
     parts = {"brake": BRAKES, "start": STARTS, "advance": ADVANCES, "end": ENDINGS}
     others = [replace(REPORT, **{part: rule}) for part in parts for rule in parts[part][1:]]
     schemes = [REPORT, *others]
-    f.rules = min(schemes, key=lambda rules: len(list(_misprints(f, rules, digits))))
+    # Some rules need another brake to go with them: by themselves they give no rows.
+    able = [rules for rules in schemes if _run(f, rules)["depth"].keys() >= {f.table.steps}]
+    f.rules = min(able, key=lambda rules: len(list(_misprints(f, rules, digits))))
     named(f)
     for place, expected, text in _misprints(f, f.rules, digits):
         f.add("typed number", [place], expected, f.held(place), text)
 
 
+def _run(f: Findings, rules: Rules) -> dict[str, dict[int, float]]:
+    return march(f.case, rules, until=f.table.steps, limit=f.table.steps)
+
+
 def _misprints(f: Findings, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
     """Numbers that do not round as a scheme's do."""
-    run = march(f.case, rules, until=f.table.steps, limit=f.table.steps)
+    run = _run(f, rules)
     for role in set(run) & set(f.table.lines):
         for k, value in run[role].items():
             found, wanted = f.table.number(role, k), f.shown(role, value)

@@ -21,7 +21,7 @@ from replication.check.words import INPUTS, input_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Input", "Setting", "agreement", "braked", "find", "solve"]
+__all__ = ["Input", "Setting", "agreement", "braked", "find", "numbers_beside", "solve"]
 
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
@@ -89,28 +89,29 @@ class Setting:
 def find(
     table: Table,
     calculation: Calculation,
-    tables: Sequence[Table],
+    candidates: Sequence[Input],
     mapped: Mapping[str, Position],
     report: Report,
 ) -> Setting:
-    """The setting of a table, one of the `tables` of its workbook.
+    """The setting of a table.
 
-    `mapped` are the cells that the user named. Raises ValueError, saying what to give, when two
-    cells could be the same input and the rows do not decide.
+    `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
+    ValueError, saying what to give, when two cells could be the same input and the rows do not
+    decide.
     """
     inside = table.places
     from_table = _read((place for place in inside if place in calculation.formulas), calculation)
     read = {place: far for place, far in from_table.items() if place not in inside}
-    candidates = list(_candidates(calculation, tables))
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, _hinted(report, table), bool(read)).items()
     }
     choices = {
-        role: typed
+        role: typed or cells
         for role, cells in nearest.items()
         if (typed := [cell for cell in cells if cell.place not in calculation.formulas])
+        or role not in _FOLLOWS
     }
     for role, place in mapped.items():
         choices[role] = [_mapped(role, place, candidates, calculation, report)]
@@ -121,6 +122,8 @@ def find(
         # Whoever ends the rows by hand reads the stop velocity with his eyes.
         choices["stop_velocity"] = unread.pop("stop_velocity")
     setting = _settled(table, choices, calculation, report)
+    rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
+    setting = setting.with_case(replace(setting.case, pi=next(rounded, math.pi)))
     taken = {own.place for own in setting.inputs.values()}
     left = [cell for cell in reads if cell.place not in taken]
     again = {
@@ -172,7 +175,7 @@ def _source(place: Position, calculation: Calculation) -> Position:
 # ---- cells by label, name and value
 
 
-def _candidates(calculation: Calculation, tables: Sequence[Table]) -> Iterator[Input]:
+def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterator[Input]:
     """Every number beside the tables, with its label or name; and names that are numbers."""
     inside = [line for table in tables for line in (*table.lines.values(), *table.helpers)]
     names = calculation.named

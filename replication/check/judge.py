@@ -83,7 +83,10 @@ def _stop(f: Findings) -> None:
         text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
         f.add("other scheme", cells, None, f.held(cells[0]), text)
         return
-    whole = max(march(f.case, f.rules, limit=_LIMIT)["depth"])
+    run = march(f.case, f.rules, limit=_LIMIT)["velocity_final"]
+    whole = max(run, default=0)
+    if whole <= steps or (run[whole] >= stop and whole < _LIMIT):
+        return  # the rules that the rows follow do not lead to the stop by themselves
     text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
     of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
     place = f.table.place(role, steps)
@@ -145,4 +148,8 @@ def _with_effect(f: Findings, difference: Difference) -> Difference:
     if rules == REPORT and until is None and not fixed:
         return difference
     run = march(f.case, rules, fixed, limit=2 * f.table.steps + 100, until=until)
+    finals = run["velocity_final"]
+    last = max(finals, default=0)
+    if not last or (finals[last] >= f.case.stop_velocity and last != until):
+        return difference
     return replace(difference, effect=run["depth"][max(run["depth"])])

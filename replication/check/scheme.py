@@ -20,7 +20,10 @@ ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
 
 @dataclass(frozen=True)
 class Case:
-    """The inputs of a run in SI units; mass and diameter as the workbook has them, or computed."""
+    """The inputs of a run in SI units; mass and diameter as the workbook has them, or computed.
+
+    `pi` is that of the workbook, which LibreOffice saves with 15 digits where a cell holds it.
+    """
 
     velocity: float
     radius: float
@@ -31,6 +34,7 @@ class Case:
     stop_velocity: float = 1.0
     own_mass: float | None = None
     own_diameter: float | None = None
+    pi: float = math.pi
 
     @property
     def mass(self) -> float:
@@ -38,7 +42,7 @@ class Case:
         if self.own_mass is not None:
             return self.own_mass
         r = self.radius
-        return self.particle_density * 4 / 3 * math.pi * r * r * r
+        return self.particle_density * 4 / 3 * self.pi * r * r * r
 
     @property
     def diameter(self) -> float:
@@ -137,7 +141,7 @@ def deceleration(
     """
     area = contact(case, x) if area is None else area
     stress = factor * case.target_density * v * v + case.resistance
-    return stress * math.pi * area / case.mass
+    return stress * case.pi * area / case.mass
 
 
 def contact(case: Case, x: float) -> float:
@@ -150,7 +154,7 @@ def orders(case: Case, x: float, v: float) -> set[float]:
 
     A square is a product or a power, which differ in the last digit now and then.
     """
-    rho, pi, m = case.target_density, math.pi, case.mass
+    rho, pi, m = case.target_density, case.pi, case.mass
     areas = {contact(case, x)}
     if 0 < x < case.radius:
         areas.add(case.diameter * x - x**2)

@@ -5,9 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from reference.units import same_dimension
 from replication.check.difference import NO_FAULT, Difference, count
 from replication.check.findings import rank
-from replication.check.inputs import find
+from replication.check.inputs import find, numbers_beside
 from replication.check.judge import Verdict, judge
 from replication.check.lines import LEAST, Line, address, headed
 from replication.check.printed import Held, held, report_inputs
@@ -68,7 +69,8 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         found = tables(calculation, given)
         if not found:
             raise ValueError(_nothing(calculation))
-        settings = [find(table, calculation, found, cells, report) for table in found]
+        beside = list(numbers_beside(calculation, found))
+        settings = [find(table, calculation, beside, cells, report) for table in found]
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
     verdicts = [judge(setting, calculation, report) for setting in settings]
@@ -109,11 +111,22 @@ def _mapped(
                 raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
             number = area.top if across else area.left
             line = Line(area.sheet, number, first, values, across, given=given)
-            columns.append(headed(line, calculation))
+            columns.append(_measuring(headed(line, calculation)))
         else:
             wanted = "one cell" if given in INPUTS else "one column or one row"
             raise ValueError(f"--map {given}={where}: {wanted} is wanted")
     return columns, cells
+
+
+def _measuring(line: Line) -> Line:
+    """The line. Raises ValueError if the unit in its head is that of something else."""
+    wanted = COLUMNS["velocity_initial" if line.given == "velocity" else str(line.given)]
+    if line.unit and not same_dimension(line.unit, wanted):
+        raise ValueError(
+            f"--map {line.given}: the head of these cells gives {line.unit}, a unit of something "
+            f"else; {wanted} or a multiple of it is wanted"
+        )
+    return line
 
 
 def _area(given: str, where: str, calculation: Calculation) -> Area:

@@ -11,6 +11,7 @@ import pytest
 from foreign import layouts, writers
 from foreign.drawn import drawn
 from foreign.layouts import BRAKE, DEPTH, END, START, Foreign
+from foreign.writers import require_libreoffice
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -158,13 +159,24 @@ def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
     assert len(found.held) == 30
 
 
-def test_our_own_workbook_is_clean(tmp_path: Path) -> None:
+@pytest.mark.parametrize("saved_by", ["us", "LibreOffice"])
+def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
     from replication import workbook
 
-    (tmp_path / "own.xlsx").write_bytes(workbook.to_bytes())
-    found = check(tmp_path / "own.xlsx")
-    assert found.first is None, found.first
-    assert len(found.verdicts) == 2
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(workbook.to_bytes())
+    if saved_by == "LibreOffice":
+        require_libreoffice()
+        (path,) = writers.with_libreoffice([path], tmp_path)
+    found = check(path)
+    assert found.first is None
+    sheets = {verdict.setting.table.sheet: verdict for verdict in found.verdicts}
+    assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
+    for sheet in ("Sheet beta 3", "Sheet beta 5"):
+        inputs = sheets[sheet].setting.inputs
+        cells = {name: own.place and own.place[0] for name, own in inputs.items()}
+        assert set(cells.values()) <= {"Inputs", None}
+        assert [name for name, where in cells.items() if where is None] == ["resistance"]
 
 
 @pytest.mark.parametrize(
@@ -235,7 +247,8 @@ def test_a_wrong_map_is_believed_and_found_wanting(coldspray: Run, tmp_path: Pat
         ("radius=A1:A9", "one cell is wanted"),
         ("depth=E1:E3", "fewer than 4 numbers"),
         ("radius='Données'!B3", "holds no number"),
-        ("depth=E21:E152", "name both"),
+        ("depth=E21:E152", "a unit of something else"),
+        ("depth=C3:C9", "name both"),
         ("depth=" + "(" * 99, "a range such as"),
     ],
 )
@@ -367,7 +380,8 @@ CONTENTS = st.one_of(
     ),
 )  # fmt: skip
 BASES = [layouts.french(BETA_5), layouts.table_a1(BETA_5), layouts.side_by_side(BETA_5),
-         layouts.one_velocity(BETA_5), layouts.printed_digits(BETA_5), drawn(3, BETA_5)]  # fmt: skip
+         layouts.one_velocity(BETA_5), layouts.printed_digits(BETA_5),
+         drawn(3, BETA_5)]  # fmt: skip
 
 
 @given(

@@ -1,22 +1,20 @@
 """How well `check` does on foreign workbooks, against the tables that docs/check.md prints."""
 
-import os
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from foreign import rates
 from foreign.faults import FAULTS, Planted
+from foreign.writers import require_libreoffice
 
 DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
 
 
 @pytest.mark.parametrize("made_by", rates.WRITERS)
 def test_right_workbooks_are_clean(made_by: str, tmp_path: Path) -> None:
-    if made_by.startswith("LibreOffice") and shutil.which("soffice") is None:
-        assert os.environ.get("COLDSPRAY_REQUIRE_ENGINES") != "1"
-        pytest.skip("LibreOffice is not installed")
+    if made_by.startswith("LibreOffice"):
+        require_libreoffice()
     row, missed = rates.right_row(made_by, tmp_path)
     assert not missed
     assert row in DOCUMENT
