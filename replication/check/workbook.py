@@ -192,23 +192,31 @@ def _rank(
 def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Difference]:
     """Stored values that their formulas do not give.
 
-    In a column the largest number counts: what is left of 500 m/s at the end has its rounding.
+    In a column the largest number counts: what is left of 500 m/s at the end has its rounding, and
+    so has a cell that reads it.
     """
-    sizes: dict[Position, float] = {}
-    for verdict in verdicts:
-        for line in (*verdict.setting.table.lines.values(), *verdict.setting.table.helpers):
-            size = max(abs(value) for value in line.values if value is not None)
-            sizes |= {line.place(i): size for i in range(line.first, line.last + 1)}
-    wrong = []
-    for place in calculation.formulas:
+    tables = [verdict.setting.table for verdict in verdicts]
+    lines = [line for table in tables for line in (*table.lines.values(), *table.helpers)]
+
+    def is_stale(place: Position) -> bool:
         stored, value = calculation.book[place].value, calculation.values.get(place)
         if place in calculation.uncomputed or stored is None or stored == value:
-            continue
-        numbers = isinstance(stored, float) and isinstance(value, float)
-        near = _STALE * max(sizes.get(place, 0.0), abs(value)) if isinstance(value, float) else 0.0
-        if not (numbers and abs(float(stored) - float(value or 0.0)) <= near):
-            wrong.append(place)
-    for run in _runs(wrong, calculation):
+            return False
+        if not (isinstance(stored, float) and isinstance(value, float)):
+            return True
+        off = abs(stored - value)
+        return off > _STALE * abs(value) and not any(
+            off <= _STALE * max(abs(number) for number in line.values if number is not None)
+            for line in lines
+            if line.covers(place)
+            or any(
+                area.covers(line.place(at))
+                for area in calculation.formulas[place].areas
+                for at in (line.first + 1, line.last)
+            )
+        )
+
+    for run in _runs([place for place in calculation.formulas if is_stale(place)], calculation):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         yield Difference(
             run[0], "stale value", _text(calculation.values.get(run[0])),
