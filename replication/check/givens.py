@@ -45,7 +45,9 @@ def other_inputs(f: Findings) -> None:
         if own.how == "rows":
             text += "; no cell holds it, it is solved back from the rows"
         place = own.place or f.table.place("depth", 1)
-        kind = "unit" if len(off) == 1 and power_of_ten(own.si / nearest) else "other input"
+        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
+        kind = "unit" if power else "other input"
+        text += f": a factor of 1e{abs(power)}" if power else ""
         found = own.si if own.place is None else f.calculation.number(own.place)
         f.add(kind, [place], scaled(nearest, 1 / own.factor), found, text)
 

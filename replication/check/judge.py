@@ -134,22 +134,17 @@ def _verdict(f: Findings) -> Verdict:
 def _with_effect(f: Findings, difference: Difference) -> Difference:
     """The difference with the final depth that it alone would give."""
     fixed: dict[tuple[str, int], float] = {}
-    rules, until = REPORT, None
+    rules = REPORT
     if difference.kind == "other scheme":
         named = [part for part, rule in f.rules.others() if rule.says in difference.explanation]
         rules = replace(rules, **{part: f.rules.part(part) for part in named})
-        until = None if named else f.table.steps
     elif difference.kind in ("typed number", "odd formula", "typed constant"):
         for place in difference.cells:
             role, k = f.table.places.get(place, ("", 0))
             value = f.setting.rows.columns.get(role, {}).get(k)
             if value is not None:
                 fixed[role, k] = value
-    if rules == REPORT and until is None and not fixed:
+    else:
         return difference
-    run = march(f.case, rules, fixed, limit=2 * f.table.steps + 100, until=until)
-    finals = run["velocity_final"]
-    last = max(finals, default=0)
-    if not last or (finals[last] >= f.case.stop_velocity and last != until):
-        return difference
-    return replace(difference, effect=run["depth"][max(run["depth"])])
+    depths = march(f.case, rules, fixed, limit=f.table.steps, until=f.table.steps)["depth"]
+    return replace(difference, effect=depths.get(f.table.steps))

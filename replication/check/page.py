@@ -7,6 +7,7 @@ from importlib import resources
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
+from reference.units import written
 from replication.check.difference import NO_FAULT, Difference
 from replication.check.lines import address
 from replication.check.record import safe
@@ -36,12 +37,13 @@ def html(
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
-    style = (resources.files("replication.check") / "page.css").read_text("utf-8")
+    rooms = ("replication.report", "replication.check")
+    style = "".join((resources.files(room) / "page.css").read_text("utf-8") for room in rooms)
     environment = Environment(
         loader=PackageLoader("replication.check", "."), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters |= {"safe": safe, "shown": _shown}
+    environment.filters |= {"safe": safe, "shown": _shown, "unit": written}
     sheets = list(calculation.book.sheets)
     return environment.get_template("page.html.j2").render(
         record,

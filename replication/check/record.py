@@ -96,9 +96,8 @@ def _verdict(check: Check) -> str:
             return f"Clean: the report's sheet{inputs}, cell by cell."
         return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
     if not causes:
-        return (
-            f"The sheet is right, but {count(len(faults), 'number')} beside it is not as printed."
-        )
+        are = "is" if len(faults) == 1 else "are"
+        return f"The sheet is right; {count(len(faults), 'number')} beside it {are} not as printed."
     if all(d.kind == "operation order" for d in causes):
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"

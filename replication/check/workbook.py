@@ -260,8 +260,8 @@ def _unmet(
             unit = "" if claim.unit == "1" else f" {claim.unit}"
             yield Difference(
                 number.place, "printed number", claim.text, number.found,
-                f"the report prints {claim.shown}{unit}, {claim.title} ({claim.place}), as values "
-                f"from {claim.interval()} do",
+                f"the report prints {claim.shown}{unit}, {claim.title} ({claim.place}), which "
+                f"stands for values in {claim.interval()}",
                 (number.place,), (3, *rank(number.place, verdict.setting, calculation)),
             )  # fmt: skip
 
