@@ -110,7 +110,10 @@ def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Inp
     power = power_of_ten(wanted / number) if number and cell.unit is None else None
     factor = cell.factor if power is None else Fraction(10) ** power
     held = scaled(number, factor)
-    right = math.isclose(held, wanted, rel_tol=NEAR)
+    exact = math.isclose(held, wanted, rel_tol=NEAR)
+    # Whoever converts ksi types its factor with some ten digits.
+    typed = any(power_of_ten(float(source.factor)) is None for source in sources)
+    right = exact or (typed and math.isclose(held, wanted, rel_tol=1e-8))
     rests = titles(source.role for source in sources)
     expected = scaled(wanted, 1 / factor)
     if place in f.calculation.formulas:
@@ -127,7 +130,7 @@ def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Inp
         f.add(
             "typed constant", [place], expected, number, f"{text}: a change there changes nothing"
         )
-    if not right or (role == "mass" and factor == 1):
+    if not exact or (role == "mass" and factor == 1):
         case = {"mass": {"own_mass": held}, "diameter": {"own_diameter": held},
                 "resistance": {"resistance": held}}[role]  # fmt: skip
         f.setting = f.setting.with_case(replace(f.case, **case))

@@ -209,7 +209,11 @@ def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
 
     beside = (text(row, column + 1), text(row - 1, column), text(row + 1, column))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
-    left = [text(row, column - i) for i in range(1, 6)]
+    left: list[str] = []
+    for i in range(1, 6):
+        if any(left) and isinstance(calculation.values.get((sheet, row, column - i)), float):
+            break  # what stands beyond another number is that number's label
+        left.append(text(row, column - i))
     above = [text(row - i, column) for i in range(1, 3)]
     right = [text(row, column + i) for i in range(1, 3)]
     for cells in (left, above, right):

@@ -84,7 +84,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
             continue
         if any(_copied(table, depth, calculation) for table in found):
             continue
-        table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
+        left = [line for line in (*known, *given) if line not in used]
+        table = _table(depth, speed, left, calculation)
         # Other quantities grow like this, too: it takes a third one, or names for both.
         if table and (
             len(table.lines) > 2 or all(role in table.lines[role].roles for role in table.lines)
@@ -178,7 +179,9 @@ def _viewed(table: Table, others: Sequence[Table], calculation: Calculation) -> 
     return all(f is not None and any(area.corner in shown for area in f.areas) for f in formulas)
 
 
-def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
+def _table(
+    depth: Line, speed: Line, known: Sequence[Line], calculation: Calculation
+) -> Table | None:
     """The table around a depth and a velocity: its other columns and its rows."""
     first, last = max(depth.first, speed.first), min(depth.last, speed.last)
     if last - first + 1 < LEAST:
@@ -195,9 +198,9 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
     for role in ("velocity_final" if initial else "velocity_initial", "deceleration", "time"):
         left = [line for line in beside if line not in roles.values()]
         if left:
-            best = max(left, key=lambda line: (
-                _fits(role, line, speed, initial), -abs(line.number - depth.number)))  # fmt: skip
-            if _fits(role, best, speed, initial) >= 0.9:
+            fits = {line: _fits(role, line, speed, initial, calculation) for line in left}
+            best = max(left, key=lambda line: (fits[line], -abs(line.number - depth.number)))
+            if fits[best] >= 0.9:
                 roles[role] = best
     zeros = [at for at in range(depth.first, min(depth.first + 4, last)) if depth.at(at) == 0]
     zero = zeros[-1] if zeros else first - 1
@@ -233,7 +236,7 @@ def _braking(brake: Line, speed: Line, later: int, close: float = _CLOSE) -> flo
     return _constant([change / a for change, a in pairs if change is not None and a], close)
 
 
-def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
+def _fits(role: str, line: Line, speed: Line, initial: bool, calculation: Calculation) -> float:
     """How well a line would do in a role: 1 for its head, 1 for its values; more for --map."""
     named = (role in line.roles) * (3.0 if line.given else 1.0)
     if line.roles and not any(own[:4] == role[:4] for own in line.roles):
@@ -244,6 +247,10 @@ def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
         pairs = ((line.at(at), speed.at(at + later)) for at in rows)
         both = [(a, b) for a, b in pairs if a is not None and b is not None]
         same = sum(math.isclose(a, b, rel_tol=1e-9) for a, b in both) / max(len(both), 1)
+        before, after = (line, speed) if initial else (speed, line)
+        typed = after.place(after.last) not in calculation.formulas
+        if same < 0.5 and not (typed or line.given or _reads(after, before, 1, calculation)):
+            return 0.0  # a velocity that no other row takes on is one in the middle of its row
         return named + same * line.falls
     if role == "deceleration":
         fit = _braking(line, speed, initial) + 0.5 * _braking(line, speed, initial, 1e-9)

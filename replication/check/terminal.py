@@ -27,8 +27,8 @@ def _lines(record: Record) -> Iterator[str]:
     yield from (f"  {safe(note, 200)}" for note in record["notes"])
     if record["taken"]:
         yield from ("", "What was taken for what")
-    for taken in record["taken"]:
-        yield from _table(taken)
+    for before, taken in zip([None, *record["taken"]], record["taken"], strict=False):
+        yield from _table(taken, before["inputs"] if before else {})
     yield from ("", record["verdict"])
     first = record["first"]
     if first:
@@ -59,7 +59,8 @@ def _list(title: str, lines: Sequence[str], of: int) -> Iterator[str]:
         yield f"  and {of - _MOST} more, which --json lists"
 
 
-def _table(taken: Record) -> Iterator[str]:
+def _table(taken: Record, before: Record) -> Iterator[str]:
+    """One table; of its inputs those that are not those of the table before."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
     sheet = repr(safe(taken["sheet"], 40))
@@ -81,8 +82,11 @@ def _table(taken: Record) -> Iterator[str]:
             _by(own, "label"),
         )
         for name, own in taken["inputs"].items()
+        if own != before.get(name)
     ]
     yield from aligned([*columns, *inputs])
+    if len(inputs) < len(taken["inputs"]):
+        yield "    the other inputs are those above"
 
 
 _WAYS = {

@@ -44,7 +44,8 @@ _MAX_LABEL = 80
 def _plain(text: str) -> str:
     """A text without case, accents of typing (sub- and superscripts), marks and double blanks."""
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).casefold().replace("−", "-")
-    return re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
+    bare = re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
+    return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)
 
 
 _ATOM = r"(?:micron|sec|[numck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N|dyn)"
@@ -117,7 +118,7 @@ def _symbol(text: str) -> str:
 _NO_COLUMN = (
     r"energ|énerg|\be_?kin|force|kraft|area|fläche|flaeche|surface|\baire\b|stress|spannung|contrainte"
     r"|pressure|druck|pression|\bx/[rd]\b|\bratio\b|normal|momentum|impuls|erreur|error|fehler"
-    r"|resist|widerstand|densit|dichte|squared|quadrat|carré|\(x\)|^[δ∆]"
+    r"|\bmid|_mid|mean|averag|mittl|mittel|moyen|milieu|resist|widerstand|densit|dichte|squared|quadrat|carré|\(x\)|^[δ∆]"
 )
 _COLUMN_WORDS = {
     "deceleration": r"d[eé]c[eé]l|acc[eé]l|verz[öo]e?ger|beschleun|brems|d2x/dt2|dv/dt|ẍ|freinage"
