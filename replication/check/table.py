@@ -134,8 +134,9 @@ def _score(depth: Line, speed: Line, calculation: Calculation) -> float:
     fit = _constant([a / b for a, b in changes if a is not None and b])
     grows = _reads(depth, depth, 1, calculation)
     given = (depth.given is not None) + (speed.given is not None)
-    # A velocity that only rises brakes nothing: it is the axis of a curve.
-    if not grows and not given and (fit < 0.5 or not speed.falls):
+    # A velocity that ends higher than it began is the axis of a curve.
+    held = [value for value in speed.values if value is not None]
+    if not grows and not given and (fit < 0.5 or held[-1] > held[0]):
         return 0.0
     named = ("depth" in depth.roles) + _is_speed(speed)
     final = speed.roles == {"velocity_final"}

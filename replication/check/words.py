@@ -212,8 +212,8 @@ _INPUT_SYMBOLS = {
     "target_density": r"(?:rho|ρ)_?(?:t|z|c|ss|fe|targ)",
     "velocity": r"v(?:_?0|_?i|_?imp(?:act)?|_?p)?|u_?0",
     "stop_velocity": r"v_?(?:stop|min|end|lim)",
-    "step": r"(?:d|δ|∆|delta)_?t_?",
-    "beta": r"bet(?:a)?|β",
+    "step": r"(?:d|δ|∆|delta)_?t(?:_\w*)?",
+    "beta": r"(?:beta?|β)(?:_\w*)?",
     "flow_stress": r"y(?:_?t|_?c)?|(?:σ|sigma)_?[yf]",
     "resistance": r"r_?t(?:arget)?",
 }
