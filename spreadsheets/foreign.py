@@ -22,6 +22,9 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
+from openpyxl.formula.translate import Translator, TranslatorError
+from openpyxl.utils.cell import column_index_from_string, get_column_letter
+
 __all__ = ["Book", "Cell", "Position", "WorkbookError", "read"]
 
 Position = tuple[str, int, int]
@@ -58,8 +61,8 @@ class WorkbookError(ValueError):
 class Cell(NamedTuple):
     """What a cell holds: a formula with its "=", and the value stored, None if there is none.
 
-    `error` tells an error from a text that spells one. `shared` marks a cell that belongs to an
-    array formula, whose text stands for the whole range.
+    `error` tells an error from a text that spells one; `array` marks a cell of an array formula,
+    whose text stands for the whole range.
     """
 
     formula: str | None
@@ -149,20 +152,11 @@ def _converted(path: Path, folder: Path) -> Path:
     if zipfile.is_zipfile(path):
         _check_unpacked(path)
     source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
-    options = [
-        "--headless",
-        "--norestore",
-        f"-env:UserInstallation={(folder / 'profile').as_uri()}",
-    ]
     command = [
-        soffice,
-        *options,
-        "--convert-to",
-        "xlsx",
-        "--outdir",
-        str(folder / "out"),
-        str(source),
-    ]
+        soffice, "--headless", "--norestore",
+        f"-env:UserInstallation={(folder / 'profile').as_uri()}",
+        "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source),
+    ]  # fmt: skip
     for _ in range(2):  # a first run in a new profile may end with a wish to start again
         _run(command, path)
         if (folder / "out" / "workbook.xlsx").is_file():
@@ -417,8 +411,6 @@ class _Sheet(_Refusing):
             if text:
                 self.masters[index] = text, here
             elif index in self.masters:
-                from openpyxl.formula.translate import Translator, TranslatorError
-
                 master, origin = self.masters[index]
                 try:
                     moved = Translator(f"={master}", _address(origin)).translate_formula(
@@ -498,7 +490,7 @@ def _without_tables(
             head = re.sub(r"'(.)", r"\1", match["long"] or match["short"])
             if head not in table.heads or table.sheet != sheet:
                 return match[0]
-            return f"$%s{place[0]}" % _letters(table.column + table.heads.index(head))
+            return f"$%s{place[0]}" % get_column_letter(table.column + table.heads.index(head))
 
         return _THIS_ROW.sub(address, formula)
 
@@ -528,10 +520,7 @@ def _corner(address: str) -> tuple[int, int]:
     match = _ADDRESS.fullmatch(address)
     if match is None:
         raise WorkbookError(f"is damaged: {address[:20]!r} is no cell")
-    column = 0
-    for letter in match[1].upper():
-        column = column * 26 + ord(letter) - ord("A") + 1
-    return int(match[2]), column
+    return int(match[2]), column_index_from_string(match[1])
 
 
 def _corners(area: str) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -539,13 +528,5 @@ def _corners(area: str) -> tuple[tuple[int, int], tuple[int, int]]:
     return _corner(first), _corner(last or first)
 
 
-def _letters(column: int) -> str:
-    letters = ""
-    while column:
-        column, letter = divmod(column - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return letters
-
-
 def _address(place: tuple[int, int]) -> str:
-    return f"{_letters(place[1])}{place[0]}"
+    return f"{get_column_letter(place[1])}{place[0]}"

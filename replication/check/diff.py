@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 from difflib import SequenceMatcher
 from pathlib import Path
 
-from replication.check.difference import Difference
+from replication.check.findings import Difference
 from replication.check.lines import address, area_of
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Formula, Piece
 
-__all__ = ["KINDS", "Comparison", "Tolerance", "diff", "tolerance"]
+__all__ = ["KINDS", "Comparison", "Tolerance", "diff"]
 
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
@@ -49,29 +49,6 @@ class Tolerance:
             return True
         places = self.digits
         return places is not None and f"{a:.{places - 1}e}" == f"{b:.{places - 1}e}"
-
-
-def tolerance(ulp: str | None, relative: str | None, digits: str | None) -> Tolerance:
-    """The tolerance that the command line gives. Raises ValueError, naming the option."""
-    return Tolerance(
-        int(_number("--ulp", ulp or "0", "a whole number from 0 to 1e9", 0, 1e9, whole=True)),
-        _number("--relative", relative or "0", "a number from 0 to 1", 0, 1),
-        int(_number("--digits", digits, "a whole number from 1 to 17", 1, 17, whole=True))
-        if digits is not None
-        else None,
-    )
-
-
-def _number(
-    option: str, text: str, wanted: str, least: float, most: float, whole: bool = False
-) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not least <= number <= most or (whole and not number.is_integer()):
-        raise ValueError(f"{option} {text[:40]!r}: {wanted} is wanted")
-    return number
 
 
 @dataclass

@@ -3,17 +3,42 @@
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from replication.check.difference import NO_FAULT, Difference, scaled
 from replication.check.inputs import Setting
 from replication.check.scheme import REPORT, Case
-from replication.check.words import COLUMNS
+from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Findings", "joined", "rank"]
+__all__ = ["KINDS", "NO_FAULT", "Difference", "Findings", "joined", "rank"]
+
+KINDS = (
+    "stale value", "typed number", "odd formula", "typed constant", "operation order",
+    "other scheme", "other input", "unit", "printed number", "not calculated",
+)  # fmt: skip
+NO_FAULT = frozenset({"other input", "not calculated"})
+"""Kinds that are said, and leave a workbook clean."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One way in which a workbook parts from the report's sheet, at one place.
+
+    `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
+    cells are calculated. `effect` is the final depth [m] that this difference alone would give.
+    """
+
+    place: Position
+    kind: str
+    expected: float | str | None
+    found: float | str | None
+    explanation: str
+    cells: tuple[Position, ...]
+    rank: tuple[float, ...]
+    effect: float | None = None
+
 
 Text = float | str | None
 

@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from replication.check.difference import power_of_ten, quantity, scaled, title, titles, unit_text
+from replication.check.cells import types
 from replication.check.findings import Findings
 from replication.check.inputs import NEAR, Input, agreement
-from replication.check.irregular import types
 from replication.check.lines import address
 from replication.check.scheme import BRAKES, with_input
+from replication.check.words import power_of_ten, quantity, scaled, title, titles, unit_text
 from spreadsheets.foreign import Position
 
 __all__ = ["calibrate", "derived", "other_inputs", "typed_inputs", "units"]

@@ -13,11 +13,18 @@ from fractions import Fraction
 from statistics import median
 
 from reference.units import to_si
-from replication.check.difference import power_of_ten, scaled, title
 from replication.check.lines import address
 from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
 from replication.check.table import Table
-from replication.check.words import INPUTS, input_roles, is_unit, unit_in
+from replication.check.words import (
+    INPUTS,
+    input_roles,
+    is_unit,
+    power_of_ten,
+    scaled,
+    title,
+    unit_in,
+)
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 

@@ -9,12 +9,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from replication.check.cells import as_rounded, each_cell, order
-from replication.check.difference import Difference
-from replication.check.findings import Findings
+from replication.check.cells import each_cell, order
+from replication.check.findings import Difference, Findings
 from replication.check.givens import calibrate, derived, other_inputs, typed_inputs, units
 from replication.check.inputs import Setting
-from replication.check.recognize import choose
+from replication.check.recognize import as_rounded, choose
 from replication.check.scheme import REPORT, Rules, march
 from spreadsheets.recalculation import Calculation
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
 from reference.units import written
-from replication.check.difference import NO_FAULT, Difference
+from replication.check.findings import NO_FAULT, Difference
 from replication.check.lines import address
 from replication.check.record import safe
 from spreadsheets.foreign import Position

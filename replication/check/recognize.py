@@ -1,15 +1,26 @@
 """Which scheme a table follows: rule by rule, by what most of its rows do."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from statistics import median
 
-from replication.check.difference import power_of_ten, quantity, title
 from replication.check.findings import Findings
 from replication.check.inputs import NEAR, agreement, braked, solve
-from replication.check.scheme import ADVANCES, BRAKES, ENDINGS, REPORT, STARTS, Rule
+from replication.check.scheme import (
+    ADVANCES,
+    BRAKES,
+    ENDINGS,
+    REPORT,
+    STARTS,
+    Rule,
+    Rules,
+    march,
+)  # fmt: skip
+from replication.check.words import power_of_ten, quantity, title
+from spreadsheets.foreign import Position
 
-__all__ = ["choose", "named"]
+__all__ = ["as_rounded", "choose"]
 
 _ROLE = {"start": "depth", "advance": "depth", "brake": "deceleration", "end": "velocity_final"}
 _FIRST = {"start": 1, "advance": 2, "brake": 1, "end": 1}
@@ -160,3 +171,34 @@ def _stresses(f: Findings, role: str) -> tuple[str, str]:
     f.setting = setting
     where = "stands in these formulas" if kind == "typed constant" else "would give every row"
     return (kind, f"{' and '.join(said)}, {where}") if said else unknown
+
+
+def as_rounded(f: Findings, digits: int) -> None:
+    """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
+    parts = {"brake": BRAKES, "start": STARTS, "advance": ADVANCES, "end": ENDINGS}
+    others = [replace(REPORT, **{part: rule}) for part in parts for rule in parts[part][1:]]
+    schemes = [REPORT, *others]
+    # Some rules need another brake to go with them: by themselves they give no rows.
+    able = [rules for rules in schemes if _run(f, rules)["depth"].keys() >= {f.table.steps}]
+    f.rules = min(able, key=lambda rules: len(list(_misprints(f, rules, digits))))
+    named(f)
+    for place, expected, text in _misprints(f, f.rules, digits):
+        f.add("typed number", [place], expected, f.held(place), text)
+
+
+def _run(f: Findings, rules: Rules) -> dict[str, dict[int, float]]:
+    return march(f.case, rules, until=f.table.steps, limit=f.table.steps)
+
+
+def _misprints(f: Findings, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
+    """Numbers that do not round as a scheme's do."""
+    run = _run(f, rules)
+    for role in set(run) & set(f.table.lines):
+        for k, value in run[role].items():
+            found, wanted = f.table.number(role, k), f.shown(role, value)
+            if found is None or wanted is None or (k == 0 and role == "velocity_final"):
+                continue
+            last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits) if wanted else 0.0
+            if abs(found - wanted) > last * (0.5 + 1e-9):
+                text = f"{title(role)} of row {k} is not what the scheme gives"
+                yield f.table.place(role, k), float(f"{wanted:.{digits}g}"), text

@@ -6,11 +6,11 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.difference import Difference, count, unit_text
+from replication.check.findings import Difference
 from replication.check.judge import Verdict
 from replication.check.lines import address, area_of
 from replication.check.printed import Held
-from replication.check.words import INPUTS
+from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check
 from spreadsheets.foreign import Position
 

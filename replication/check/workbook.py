@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reference.units import same_dimension
-from replication.check.difference import NO_FAULT, Difference, count
-from replication.check.findings import rank
+from replication.check.findings import NO_FAULT, Difference, rank
 from replication.check.inputs import find, numbers_beside
 from replication.check.judge import Verdict, judge
 from replication.check.lines import LEAST, Line, address, headed
 from replication.check.printed import Held, held, report_inputs
 from replication.check.table import tables
-from replication.check.words import COLUMNS, INPUTS
+from replication.check.words import COLUMNS, INPUTS, count
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Area, parse

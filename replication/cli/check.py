@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from replication.cli import options as shared
 
 if TYPE_CHECKING:
-    from replication.check.difference import Difference
+    from replication.check.findings import Difference
     from spreadsheets.recalculation import Calculation
 
 HELP = "check somebody's own workbook of the scheme"
@@ -28,7 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     check_files(options)
-    from replication.check.difference import KINDS
+    from replication.check.findings import KINDS
     from replication.check.record import check_record
     from replication.check.workbook import check
 

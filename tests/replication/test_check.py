@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from reference.ledger import load
 from replication.cases import BETA_3, BETA_5
-from replication.check.difference import KINDS
+from replication.check.findings import KINDS
 from replication.check.printed import report_inputs
 from replication.check.record import check_record, safe
 from replication.check.scheme import BRAKES, REPORT, Case, march
