@@ -157,7 +157,7 @@ def _equations(ledger: Ledger, plant: Plant) -> list[str]:
 
 
 def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
-    """Whether some claim no longer agrees, by doubles, at all values that an inferred input may have.
+    """Whether some claim no longer agrees, by doubles, at any value of the inferred inputs.
 
     The audit of the misprint has no part in this; the values are those that the report admits.
     """
