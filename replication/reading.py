@@ -38,7 +38,7 @@ def one_line(message: str, longest: int = 340) -> str:
     text = " ".join(message.split())
     safe = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
     kept = (longest - 3) // 2
-    return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1:]}"
+    return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1 :]}"
 
 
 def read_file(path: Path, largest: int = _SIZE) -> bytes:
