@@ -282,8 +282,6 @@ ATOMS = st.one_of(
     ).map(lambda text: f'"{text}"'),
     st.tuples(NUMBERS, UNITS).map(lambda pair: f'"{"".join(pair)}"'),
 )
-TABLE_KEYS = ("from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
-              "average_mass", "average_velocity", "other")  # fmt: skip
 KEYS = st.sampled_from([
     *INPUTS, "from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
     "average_mass", "average_velocity", "other",
