@@ -8,6 +8,9 @@ import argparse
 import io
 import os
 import re
+import signal
+import subprocess
+import sys
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
@@ -324,3 +327,79 @@ def test_any_plan(folder: Path, document: bytes) -> None:
     if count <= 10_000:  # a million cases are no fault
         (folder / "any.csv").unlink(missing_ok=True)
         check(folder, "sweep", "any.toml", "-o", "any.csv", "--quiet")
+
+
+# A disk that is full, a run that is killed
+
+PLAN = "[inputs]\nradius = {from=1e-6, to=2e-6, points=2000}\n"
+
+
+def limited() -> None:
+    """No file of this process may grow beyond 20,000 bytes: writing fails as on a full disk."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "target"),
+    [
+        (["workbook", "--velocity", "500", "--force", "-o", "target"], "target"),
+        (["sweep", "plan.toml", "-o", "target.csv"], "target.csv"),
+        (["sweep", "plan.toml", "-o", "new.parquet"], "target.csv"),
+        pytest.param(["audit", "--out", "."], "audit.json", marks=pytest.mark.slow),
+    ],
+    ids=["workbook", "csv", "parquet", "audit"],
+)
+def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
+    (tmp_path / "plan.toml").write_text(PLAN)
+    (tmp_path / target).write_text("as it was")
+    before = state(tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-m", "replication", *arguments],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=limited,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(rf"coldspray {arguments[0]}: .*File too large\n", done.stderr)
+    assert state(tmp_path) == before
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from spreadsheets.safely import write_bytes, write_folder
+left = int(sys.argv[1])
+def hook(event, arguments):
+    global left
+    if event in ("open", "os.rename", "os.mkdir", "os.remove", "os.rmdir"):
+        left -= 1
+        if left == 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+sys.addaudithook(hook)
+"""
+WRITERS = {
+    "write_bytes(Path('a'), b'new')": ["a"],
+    "write_folder(Path('.'), {'a': b'new', 'b': b'new', 'c/d': b'new'})": ["a", "b", "c/d"],
+}
+
+
+@pytest.mark.parametrize("writer", WRITERS, ids=["file", "folder"])
+def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) -> None:
+    """It is killed at its first file event, its second, and so on, until it comes to its end."""
+    (tmp_path / "c").mkdir()
+    for moment in range(1, 60):
+        for name in WRITERS[writer]:
+            (tmp_path / name).write_bytes(b"old")
+        command = [sys.executable, "-c", KILLED + writer, str(moment)]
+        done = subprocess.run(command, cwd=tmp_path, check=False)
+        contents = {(tmp_path / name).read_bytes() for name in WRITERS[writer]}
+        if done.returncode == 0:
+            break
+        assert done.returncode == -signal.SIGKILL
+        assert contents <= {b"old", b"new"}
+    assert contents == {b"new"}
+    assert 4 < moment < 59
