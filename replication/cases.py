@@ -7,7 +7,7 @@ from typing import Any
 
 from reference.ledger import INFERRED, load
 from replication.models.impact import Impact
-from replication.reading import parse_toml, quoted, read_file, read_number
+from replication.reading import name_of, parse_toml, quoted, read_file, read_number
 
 __all__ = ["BETA_3", "BETA_5", "CASES", "INPUTS", "inputs_of", "read_case"]
 
@@ -59,7 +59,7 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     if name not in CASES:
         raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
     from_file = {} if file is None else _displaced(_file(file), given)
-    places = {**dict.fromkeys(from_file, f"{quoted(file)}: "), **dict.fromkeys(given, "")}
+    places = {**dict.fromkeys(from_file, f"{name_of(file)}: "), **dict.fromkeys(given, "")}
     values: dict[str, Any] = {}
     for key, text in {**from_file, **given}.items():
         try:
@@ -71,7 +71,7 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     try:
         return replace(CASES[name], **values)
     except ValueError as error:
-        raise ValueError(f"{quoted(file)}: {error}" if from_file else str(error)) from error
+        raise ValueError(f"{name_of(file)}: {error}" if from_file else str(error)) from error
 
 
 _PRODUCT = {"beta", "flow_stress"}
@@ -88,14 +88,14 @@ def _file(path: Path) -> dict[str, str]:
     try:
         document = parse_toml(read_file(path))
     except ValueError as error:
-        raise ValueError(f"{quoted(path)} {error}") from error
+        raise ValueError(f"{name_of(path)} {error}") from error
     table = document.get("impact")
     if not isinstance(table, dict) or set(document) != {"impact"}:
-        raise ValueError(f"{quoted(path)}: wants one table, [impact], with inputs such as velocity")
+        raise ValueError(f"{name_of(path)}: wants one table, [impact], of inputs such as velocity")
     if unknown := sorted(set(table) - set(INPUTS)):
         known = ", ".join(INPUTS)
         raise ValueError(
-            f"{quoted(path)}: no such input as {quoted(unknown[0])}: choose of {known}"
+            f"{name_of(path)}: no such input as {quoted(unknown[0])}: choose of {known}"
         )
     return {name: str(value) for name, value in table.items()}
 

@@ -8,6 +8,7 @@ route than the audit's proofs. Then the audit judges what depends on it.
 import random
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 
 import msgspec
 
@@ -106,18 +107,19 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     """Judge one plant: all that depends on it, beside what the report itself gives there."""
     ledger = planted(truth.ledger, plant)
     claims = dependents(truth.ledger, plant.entry)
-    equations = _equations(truth.ledger, plant)
+    wrong = set()
+    for name in _equations(truth.ledger, plant):
+        assessed = assess_equation(ledger, name, constants=False)
+        # One that fails in the report, too, must fail in another way.
+        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+            wrong.add(name)
+    claims |= {claim.id for claim in ledger.claims.values() if claim.within in wrong}
     audit = Audit(ledger, every_convention=False)
-    failing = {
+    failing = wrong | {
         name
         for name in claims
         if _worse(audit.assessment(ledger.claims[name]).verdict, truth, name)
     }
-    for name in equations:
-        assessed = assess_equation(ledger, name, constants=False)
-        # One that fails in the report, too, must fail in another way.
-        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
-            failing.add(name)
     visible = bool(failing) or _visible(truth, ledger, claims)
     if not failing:
         return Trial(plant, visible, frozenset())
@@ -155,10 +157,27 @@ def _equations(ledger: Ledger, plant: Plant) -> list[str]:
 
 
 def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
-    """Whether some claim no longer agrees, by doubles and with the inferred inputs as they are."""
-    nominal = {INFERRED + name: ledger.value(INFERRED + name) for name in ledger.inferred}
-    planted_failing = Screen(ledger, nominal).failing(claims)
-    return bool(planted_failing - Screen(truth.ledger, nominal).failing(claims))
+    """Whether some claim no longer agrees, by doubles, at any value of the inferred inputs.
+
+    The audit of the misprint has no part in this; the values are those that the report admits.
+    """
+    return all(
+        Screen(ledger, inferred).failing(claims) - Screen(truth.ledger, inferred).failing(claims)
+        for inferred in _inferred(truth)
+    )
+
+
+_VALUES = 24
+"""So many values of an inferred input are tried: a kg/m^3 apart for the density."""
+
+
+def _inferred(truth: Audit) -> Iterator[dict[str, Fraction]]:
+    """The values that the ledger takes for its inferred inputs, then others that are as good."""
+    names = [INFERRED + name for name in truth.ledger.inferred]
+    yield {name: truth.ledger.value(name) for name in names}
+    for k in range(_VALUES + 1):
+        ends = {name: truth.judge.inference(name).inner.ends for name in names}
+        yield {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
 
 
 def power(

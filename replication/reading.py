@@ -9,22 +9,30 @@ from typing import Any
 
 from reference.units import quantity
 
-__all__ = ["one_line", "parse_toml", "quoted", "read_file", "read_number"]
+__all__ = ["name_of", "one_line", "parse_toml", "quoted", "read_file", "read_number"]
 
 _SIZE = 2**20
 _DEPTH = 20
 _QUOTED = 60
+_NAME = 255
 
 
 def quoted(text: object, longest: int = _QUOTED) -> str:
-    r"""What a user wrote, as a message may show it: one line, escaped, shortened.
+    r"""What a user wrote, as a message may show it: one line, texts with quotes, shortened.
 
     >>> quoted("\x1b[31m5 m\n")
     "'\\x1b[31m5 m\\n'"
     """
     shown = str(text)
-    whole = repr(shown if len(shown) <= longest else shown[:longest])
-    return whole if len(shown) <= longest else f"{whole}..."
+    part = shown[:longest]
+    end = "" if part == shown else "..."
+    return f"{repr(part) if type(text) is str else one_line(part)}{end}"
+
+
+def name_of(path: object) -> str:
+    """The name of a file, as a message may show it: one line, and its end if it is very long."""
+    name = str(path)
+    return one_line(name if len(name) <= _NAME else f"...{name[-_NAME:]}")
 
 
 def one_line(message: str, longest: int = 340) -> str:
@@ -47,11 +55,11 @@ def read_file(path: Path, largest: int = _SIZE) -> bytes:
     Raises ValueError for a larger one and for a device, OSError where it cannot be read.
     """
     if stat.S_ISCHR(path.stat().st_mode):
-        raise ValueError(f"{quoted(path)} is a device, not a file")
+        raise ValueError(f"{name_of(path)} is a device, not a file")
     with path.open("rb") as file:
         content = file.read(largest + 1)
     if len(content) > largest:
-        raise ValueError(f"{quoted(path)} is larger than {largest:,} bytes")
+        raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
     return content
 
 

@@ -120,6 +120,7 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
 
     They are made beside the folder first and moved in when all are done. Raises OSError.
     """
+    check_folder(folder, files)
     with _beside(folder) as temporary:
         for name, content in files.items():
             draft = temporary / name

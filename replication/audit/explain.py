@@ -281,8 +281,10 @@ class Explainer:
         If one misprint is behind several failures, it stands in an entry that all of them rest on:
         only such entries are searched. The fewer claims a repair leaves failing, the better; of
         equal ones the likelier slip of a typist comes first. If no entry is common to all, the
-        repairs of the claim that is quickest to compute are given.
+        repairs of the claim that is quickest to compute are given. An input that is doubted only
+        because of the claims that rest on it says no more than they do.
         """
+        names = [name for name in names if not self._is_only_shown(name)]
         if not names:
             return []
         quickest = min(names, key=self._cost)
@@ -297,6 +299,10 @@ class Explainer:
         if not found and len(names) > 1:
             return self.ranked([quickest])
         return self._sorted(found, quickest)
+
+    def _is_only_shown(self, name: str) -> bool:
+        claim = self.ledger.claims.get(name)
+        return claim is not None and claim.computation is None and bool(claim.entry.shown_by)
 
     def _cost(self, name: str) -> tuple[int, str]:
         """How long a claim takes to compute: whole sheets last, repetitions first."""

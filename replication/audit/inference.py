@@ -1,12 +1,12 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Constraint, Solutions, extent, satisfying, solve
+from reference.enclosure import Box, Constraint, Solutions, extent, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
@@ -101,13 +101,16 @@ class Inference:
                 low, high = (found[0][0], found[-1][1]) if found else (low, high)
         return low, high
 
-    def _joint(self, convention: Convention, *, by_mass: bool) -> list[Constraint]:
+    def _joint(
+        self, convention: Convention, *, by_mass: bool, also: Sequence[Constraint] = ()
+    ) -> list[Constraint]:
         free = frozenset(self._box(convention, by_mass=False))
         claims = [self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing)]
         constraints: list[Constraint] = [
             (self.ledger.function(claim, free, centered=self.centered), claim.target())
             for claim in claims
         ]
+        constraints += also
         if not by_mass:
             return constraints
         radius, mass, density = self.entry.radius, self.entry.mass, self.entry.density
@@ -131,6 +134,17 @@ class Inference:
         fixed = {name: (x, x) for name, x in point.items() if name in box}
         joint = self._joint(convention, by_mass=by_mass)
         return satisfying(joint, {**box, **fixed})[0] is True
+
+    def excludes(
+        self, function: Function, target: Interval, convention: Convention, box: Box, budget: int
+    ) -> bool:
+        """Whether no inputs of the box give a number in the target and the evidence, too."""
+        by_mass = not convention.header_exact
+        joint = self._joint(convention, by_mass=by_mass, also=[(function, target)])
+        whole = {**box, **self._box(convention, by_mass=by_mass)}
+        if by_mass:
+            whole.pop(self.entry.radius, None)
+        return satisfying(joint, whole, budget)[0] is False
 
     def admits(self, value: Fraction, range_: Interval) -> str:
         """What the evidence says of a value that is printed, with its range, somewhere else."""

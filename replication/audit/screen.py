@@ -73,7 +73,8 @@ def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> b
 def dependents(ledger: Ledger, name: str) -> set[str]:
     """The claims whose verdict may change with an entry or an equation, itself among them.
 
-    Claims that depend on an inferred input depend on its evidence, and on all that this rests on.
+    Claims that depend on an inferred input depend on its evidence, and on all that this rests on;
+    an input that others show to be right depends on them.
     """
     within = ledger.claims[name].within if name in ledger.claims else name
     direct = {
@@ -88,4 +89,4 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
-    return direct
+    return direct | {c.id for c in ledger.claims.values() if direct & set(c.entry.shown_by)}

@@ -226,7 +226,15 @@ class Judge:
             if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
                 ends = enclose(function, self.box(claim, convention)[1]).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
-        never = found.never and explore(function, box, around, budget).never
+        if found.inside is not None:
+            never = any(
+                self.inference(entry, centered=convention.centered).excludes(
+                    function, around, convention, box, budget
+                )
+                for entry in claim.inferred
+            )
+        else:
+            never = found.never and explore(function, box, around, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         return _judgement(claim, convention, verdict, (found.lower, found.upper))
 

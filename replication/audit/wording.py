@@ -113,7 +113,8 @@ def holds(claim: Claim, reading: Reading) -> str:
     if not exceptions:
         return f"The same under {scope}."
     parts = [
-        f"{verdict} {'; '.join(_merged(conditions))}" for verdict, conditions in exceptions.items()
+        f"{verdict} {', or '.join(_merged(conditions))}"
+        for verdict, conditions in exceptions.items()
     ]
     return f"The same under {scope}, except: {', and '.join(parts)}."
 

@@ -17,9 +17,11 @@ from typing import Any, NoReturn
 from replication.cli import (
     audit,
     bench,
+    check,
     claims,
     converge,
     depth,
+    diff,
     history,
     power,
     sheet,
@@ -42,6 +44,8 @@ COMMANDS: tuple[ModuleType, ...] = (
     stability,
     sweep,
     bench,
+    check,
+    diff,
     power,
 )
 """In the order in which `coldspray --help` lists them."""

@@ -3,7 +3,6 @@
 import argparse
 import sys
 from pathlib import Path
-from textwrap import fill
 
 from replication.cli import options as shared
 
@@ -50,8 +49,6 @@ def run(options: argparse.Namespace) -> int:
     elif not options.quiet:
         from replication.report.terminal import summary
 
-        top = dict.fromkeys(Path(name).parts[0] for name in written)
-        width = shared.width()
-        print(summary(record, width, shared.may_emphasize()), end="\n\n")
-        print(fill(f"Written to {options.out}/: {', '.join(top)}", width, break_long_words=False))
+        print(summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
+        print(f"Written: {options.out}/, of it audit.html first")
     return 1 if options.exit_code and record.counts.failing else 0

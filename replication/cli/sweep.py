@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from replication.cli import options as shared
-from replication.reading import quoted
+from replication.reading import name_of
 
 HELP = "many cases by a TOML plan, to CSV or Parquet"
 
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError(f"{output} is the plan itself: give another -o")
     # Without a terminal (None) there is no bar.
     bar = tqdm(total=plan.count, unit=" cases", unit_scale=True, disable=options.quiet or None)
-    with bar, place(quoted(options.plan)):
+    with bar, place(name_of(options.plan)):
         write(plan, output, done=bar.update)
     if options.json:
         units = {name: unit for name, (unit, _) in plan.columns.items()}

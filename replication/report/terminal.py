@@ -18,12 +18,12 @@ from replication.text import number
 __all__ = ["columns", "ledger_table", "proof", "summary"]
 
 MAIN = (
-    "depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5", "observed-depth-ratio",
-    "observed-depth", "goodier-beta", "walker-anderson-beta",
+    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
+    "walker-anderson-beta",
 )  # fmt: skip
 """The report's main results, by id."""
 
-FINDINGS = 8
+FINDINGS = 3
 """How many findings one screen has room for."""
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from replication.cases import CASES, INPUTS
 from replication.models.impact import check
-from replication.reading import parse_toml, quoted, read_file, read_number
+from replication.reading import name_of, parse_toml, quoted, read_file, read_number
 from replication.sweep.plan import EXTRAS, Plan
 from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
 
@@ -27,7 +27,7 @@ def read_plan(path: Path) -> Plan:
     Raises OSError, or ValueError that names the file, the table, the key and what would be right.
     """
     content = read_file(path)
-    with place(quoted(path)):
+    with place(name_of(path)):
         document = parse_toml(content)
         _check_keys(document, ["inputs"], ["sweep"])
         for name, table in document.items():

@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+import zipfile
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
@@ -327,6 +328,63 @@ def test_any_plan(folder: Path, document: bytes) -> None:
     if count <= 10_000:  # a million cases are no fault
         (folder / "any.csv").unlink(missing_ok=True)
         check(folder, "sweep", "any.toml", "-o", "any.csv", "--quiet")
+
+
+# Somebody's workbook
+
+WORKBOOKS = [
+    *(["check", name] for name in (
+        "empty.toml", "deep.toml", "zero.xlsx", "cut.xlsx", "bomb.xlsx", "nothing.xlsx", "entity.xlsx",
+        "deep.xlsx", "loop.xlsx", ".", "absent.xlsx", "/dev/zero", "/dev/full", 5000 * "n", "pipe.csv/x",
+        "\x1b[31m\n.xlsx")),
+    *(["check", "own.xlsx", "--map", text] for text in (
+        "", "=", "depth", "depth=", "depth=\x1b[31m", "depth=A1:A" + 5000 * "9", "depth=A1:A1048577",
+        "depth=" + 5000 * "A" + "1", "x\n=B4", 5000 * "k" + "=B4", "radius='no such'!B4",
+        "radius=B4:B3:B2", "depth=D0:D9")),
+    ["check", "own.xlsx", "--html", "loop.xlsx"],
+    ["check", "own.xlsx", "--junit", "/dev/full"],
+    ["check", "own.xlsx", "--html", "x", "--junit", "x"],
+    ["check", "own.xlsx", "--html", "absent/x"],
+    ["check", "--map"],
+    ["diff", "own.xlsx", "cut.xlsx"],
+    ["diff", "bomb.xlsx", "own.xlsx"],
+    ["diff", "own.xlsx", "own.xlsx", "--relative", "nan"],
+    ["diff", "own.xlsx", "own.xlsx", "--relative", "1e400"],
+    ["diff", "own.xlsx", "own.xlsx", "--ulp", DIGITS],
+    ["diff", "own.xlsx", "own.xlsx", "--digits", "-1"],
+    ["diff", "own.xlsx"],
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def workbooks(folder: Path) -> Path:
+    """Files that look like workbooks, and one that is."""
+    with chdir(folder):
+        assert run("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
+    whole = (folder / "own.xlsx").read_bytes()
+    (folder / "zero.xlsx").write_bytes(b"")
+    (folder / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
+    sheet = "xl/worksheets/sheet1.xml"
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    entity = b'<!DOCTYPE a [<!ENTITY b "' + b"c" * 100 + b'">]><a>' + b"&b;" * 100 + b"</a>"
+    for name, changed in {
+        "nothing.xlsx": {},
+        "bomb.xlsx": {**parts, sheet: b" " * 2**30},
+        "entity.xlsx": {**parts, sheet: entity},
+        "deep.xlsx": {**parts, sheet: 100_000 * b"<a>"},
+    }.items():
+        with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for part, content in changed.items():
+                archive.writestr(part, content)
+    return folder
+
+
+@pytest.mark.parametrize(
+    "arguments", WORKBOOKS, ids=lambda own: re.sub(r"\W+", " ", " ".join(own))[:40]
+)
+def test_a_workbook_that_is_none(arguments: list[str], workbooks: Path) -> None:
+    assert check(workbooks, *arguments) == 2
 
 
 # A disk that is full, a run that is killed

@@ -31,7 +31,7 @@ from replication.cli import main
 from replication.report import terminal
 from replication.report.facts import OPEN, between
 from replication.report.figures import draw
-from replication.report.files import check_folder, contents, write
+from replication.report.files import check, contents, write
 from replication.report.prose import Named, Prose
 from replication.report.render import page
 
@@ -221,7 +221,7 @@ def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -
         write(record, tmp_path, BESIDE)
     assert [path.name for path in tmp_path.iterdir()] == ["figures"]
     with pytest.raises(NotADirectoryError, match="a folder is wanted"):
-        check_folder(tmp_path / "figures" / "deeper")
+        check(tmp_path / "figures" / "deeper")
 
 
 # The terminal
@@ -265,7 +265,7 @@ def test_commands_print_what_they_promise(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     workbook = ModuleType("replication.workbook")
-    workbook.to_bytes = lambda: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
+    workbook.to_bytes = lambda record: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "replication.workbook", workbook)
     assert main(["audit", "--out", str(tmp_path / "new" / "one"), "--exit-code"]) == 1
     printed = capsys.readouterr().out

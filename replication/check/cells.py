@@ -1,0 +1,280 @@
+"""Each cell of a table, by what the cells before it give and by what its column is."""
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from replication.check.findings import Findings, joined
+from replication.check.inputs import NEAR, Input
+from replication.check.lines import Line, address
+from replication.check.scheme import REPORT, Case, orders
+from replication.check.table import Table
+from replication.check.words import power_of_ten, title
+from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation
+from spreadsheets.references import Formula
+
+__all__ = ["each_cell", "order", "types"]
+
+
+def irregular(
+    line: Line, table: Table, calculation: Calculation
+) -> Iterator[tuple[Position, tuple[str, str]]]:
+    """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
+
+    Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
+    """
+    places = [line.place(table.zero + k) for k in range(2, table.steps + 1)]
+    formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
+    if len(formulas) < max(3, 0.5 * len(places)):
+        return
+    for shape in (_exact, _masked):
+        shapes = {place: shape(formula) for place, formula in formulas.items()}
+        usual, often = Counter(shapes.values()).most_common(1)[0]
+        if often >= 0.5 * len(formulas):
+            break
+    else:
+        return
+    pattern = next(formulas[place] for place, shape in shapes.items() if shape == usual)
+    for place in places:
+        if place in formulas:
+            if shapes[place] != usual:
+                yield place, _odd(formulas[place], pattern, calculation)
+        elif calculation.number(place) is not None:
+            usual_text = _filled(pattern, place, calculation)
+            yield (
+                place,
+                ("typed number", f"a number is typed where {short(usual_text)} would stand"),
+            )
+
+
+def _exact(formula: Formula) -> tuple[str, ...]:
+    return formula.shape
+
+
+def _masked(formula: Formula) -> tuple[str, ...]:
+    """Without numbers: some people type the number of the row into each formula."""
+    pairs = zip(formula.pieces, formula.shape, strict=True)
+    return tuple("#" if piece.kind == "number" else shape for piece, shape in pairs)
+
+
+def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
+    """Whether a formula unlike its column has a number where the others have a reference."""
+    text = short(calculation.book[formula.place].formula or "")
+    usual = short(_filled(pattern, formula.place, calculation))
+    typed = Counter(formula.literals) - Counter(pattern.literals)
+    if typed and len(formula.areas) < len(pattern.areas):
+        numbers = " and ".join(f"{number:g}" for number in typed)
+        return (
+            "typed constant",
+            f"{numbers} is typed where its column reads a cell: {text}, not {usual}",
+        )
+    return "odd formula", f"{text} is unlike its column, where {usual} would stand"
+
+
+def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
+    """The formula of another cell, filled into this one."""
+    from openpyxl.formula.translate import Translator, TranslatorError
+
+    text = calculation.book[pattern.place].formula or ""
+    try:
+        return str(Translator(text, address(pattern.place)).translate_formula(address(place)))
+    except TranslatorError:
+        return text
+
+
+def short(text: str) -> str:
+    """A formula, cut where it would fill the screen."""
+    return text if len(text) <= 90 else f"{text[:87]}..."
+
+
+def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
+    """Whether a formula has an input's value as a number, and does not read its cell."""
+    if not formula.literals or own.place is None or own.role == "beta":
+        return False
+    value = calculation.number(own.place)
+    if value is None:
+        return False
+    if own.role == "stop_velocity":
+        texts = [piece.text for piece in formula.pieces]
+        typed = any(
+            sign in ("<", "<=", ">", ">=") and texts[i + 1] == f"{value:g}"
+            for i, sign in enumerate(texts[:-1])
+        )
+    else:
+        values = {own.si, value} | ({value / 2, own.si / 2} if own.role == "step" else set())
+        typed = any(
+            math.isclose(number, wanted, rel_tol=1e-12)
+            for wanted in values
+            if math.isfinite(wanted) and not _plain(wanted)
+            for number in formula.literals
+        )
+    return typed and not any(
+        own.place == area.corner or _converts(area.corner, own.place, calculation)
+        for area in formula.areas
+        if area.cells == 1
+    )
+
+
+def _converts(place: Position, source: Position, calculation: Calculation) -> bool:
+    """Whether a cell only brings an input into another unit."""
+    formula = calculation.formulas.get(place)
+    return formula is not None and [area.corner for area in formula.areas] == [source]
+
+
+def _plain(value: float) -> bool:
+    """Whether a number stands in formulas for itself: small whole ones, halves, powers of ten."""
+    power = math.log10(abs(value)) if value else 0.0
+    small = float(value).is_integer() and abs(value) <= 10
+    return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
+
+
+def each_cell(f: Findings) -> None:
+    """Every cell that is not what those before it give, and every cell unlike its column."""
+    lines = (*f.table.lines.values(), *f.table.helpers)
+    odd = {p: why for line in lines for p, why in irregular(line, f.table, f.calculation)}
+    accused = f.accused
+    for role, column in f.setting.rows.columns.items():
+        for k in range(f.table.steps + 1):
+            place, expected = f.table.place(role, k), _expected(f, role, k)
+            if place in odd:
+                kind, text = odd.pop(place)
+                if error := f.calculation.error(place):
+                    kind, text = "odd formula", f"{text}; it gives {error}"
+                elif reason := f.calculation.uncomputed.get(place):
+                    kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
+            elif place not in accused and _fails(f, role, k, expected):
+                kind, text = _lone(f, role, k, expected)
+            else:
+                continue
+            shown, found = f.shown(role, expected), column.get(k)
+            if found and expected and math.isclose(found, expected, rel_tol=1e-9):
+                text += "; it gives the right value here"
+            f.add(kind, [place], shown, f.held(place), text)
+    for place, (kind, text) in odd.items():
+        f.add(kind, [place], None, f.held(place), text)
+    f.differences = list(joined(f.differences, f.table.across))
+
+
+def _expected(f: Findings, role: str, k: int) -> float | None:
+    """What a cell should hold by the rules that its table follows."""
+    rows = f.setting.rows
+    if role == "time":
+        before = rows.columns["time"].get(k - 1, (k - 1) * f.case.step)
+        return before + f.case.step if k else None
+    if role == "velocity_final" and k == 0:
+        return f.case.velocity
+    if role.startswith("velocity") and k > (role == "velocity_initial"):
+        if role == "velocity_initial" and "velocity_final" in rows.columns:
+            return rows("velocity_final", k - 1)
+        row = k if role == "velocity_final" else k - 1
+        if "deceleration" in rows.columns:
+            return f.rules.end.value(f.case, rows, row)
+        a, v = f.rules.brake.value(f.case, rows, row), rows("velocity_initial", row)
+        return None if a is None or v is None else v - a * f.case.step
+    return f.rules.value(role, f.case, rows, k)
+
+
+def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
+    """Whether a cell is not what it should hold."""
+    column = f.setting.rows.columns[role]
+    found = column.get(k)
+    if found is None:
+        inside = bool(column) and min(column) < k < max(column)
+        return _breaks(f, f.table.place(role, k)) or (
+            inside and not f.calculation.error(f.table.place(role, k))
+        )
+    if expected is None:
+        return False
+    size = abs(expected)
+    if role.startswith("velocity"):
+        size = max(size, abs(f.setting.rows("velocity_initial", max(k - 1, 0)) or 0.0))
+    return abs(found - expected) > NEAR * size
+
+
+def _breaks(f: Findings, place: Position) -> bool:
+    """Whether a cell gives an error that comes from no other cell of the table."""
+    formula = f.calculation.formulas.get(place)
+    if formula is None or not f.calculation.error(place):
+        return False
+    read = (cell for area in formula.areas if area.cells == 1 for cell in [area.corner])
+    return not any(cell != place and f.calculation.error(cell) for cell in read)
+
+
+def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
+    """The kind of a cell that alone is not what the cells before it give."""
+    place = f.table.place(role, k)
+    found, typed = (
+        f.setting.rows.columns[role].get(k),
+        place not in f.calculation.formulas,
+    )
+    what = f"{title(role)} of row {k} is not what the cells before it give"
+    if error := f.calculation.error(place):
+        return (
+            "odd formula",
+            f"{title(role)} of row {k} gives {error}, as do all cells that read it",
+        )
+    if found is None:
+        return (
+            "typed number" if typed else "odd formula",
+            f"no number in {title(role)} of row {k}",
+        )
+    if role == "time" and k == 1 and found == 0:
+        return "other scheme", "the times are those at the beginning of the rows"
+    if role == "depth" and k == 1 and not typed:
+        return "other scheme", "the first depth is neither half a step nor a whole one"
+    power = power_of_ten(found / expected) if expected else None
+    if power:
+        return "unit", f"{what}: a factor of 1e{abs(power)}"
+    return "typed number" if typed else "odd formula", what
+
+
+def order(f: Findings) -> None:
+    """Columns whose last digits no order of the report's operations gives."""
+    factors = {own.factor for own in (*f.setting.inputs.values(), *f.setting.derived.values())}
+    if any(f.setting.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
+        return  # converting units costs last digits, too
+    accused = f.accused
+    for role in ("depth", "deceleration", "velocity_final"):
+        column = f.setting.rows.columns.get(role, {})
+        rows = [k for k in column if k and f.table.place(role, k) not in accused
+                and f.table.place(role, k) in f.calculation.formulas]  # fmt: skip
+        differ = rows and min((_differing(f, role, rows, m) for m in _masses(f)), key=len)
+        if differ:
+            found = column[differ[0]]
+            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - found))
+            cells = [f.table.place(role, k) for k in differ]
+            ulps = round(abs(wanted - found) / math.ulp(wanted))
+            text = (
+                f"{len(differ)} of {len(rows)} cells of {title(role)} differ in the last digits, "
+                f"this one by {ulps} ulp: the formula calculates in another order, on which no "
+                "printed digit depends"
+            )
+            f.add("operation order", cells, f.shown(role, wanted), f.held(cells[0]), text)
+
+
+def _masses(f: Findings) -> Iterator[float]:
+    """The mass as its cell has it; without a cell, as any order of its product gives it."""
+    low = high = f.case.mass
+    yield low
+    if "mass" not in f.setting.derived:
+        for _ in range(4):
+            low, high = math.nextafter(low, 0.0), math.nextafter(high, math.inf)
+            yield from (low, high)
+
+
+def _differing(f: Findings, role: str, rows: Sequence[int], mass: float) -> list[int]:
+    """The rows whose value no order gives."""
+    case, column = replace(f.case, own_mass=mass), f.setting.rows.columns[role]
+    return [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
+
+
+def _ordered(f: Findings, role: str, k: int, case: Case) -> set[float]:
+    rows = f.setting.rows
+    x, v = rows("depth", k), rows("velocity_initial", k)
+    if role == "deceleration":
+        return set() if x is None or v is None else orders(case, x, v)
+    value = f.rules.value(role, case, rows, k)
+    return set() if value is None else {value}

@@ -1,0 +1,136 @@
+"""What has been found out about one table so far: its setting, its scheme, its differences."""
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from replication.check.inputs import Setting
+from replication.check.scheme import REPORT, Case
+from replication.check.words import COLUMNS, scaled
+from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation
+
+__all__ = ["KINDS", "NO_FAULT", "Difference", "Findings", "joined", "rank"]
+
+KINDS = (
+    "stale value", "typed number", "odd formula", "typed constant", "operation order",
+    "other scheme", "other input", "unit", "printed number", "not calculated",
+)  # fmt: skip
+NO_FAULT = frozenset({"other input", "not calculated"})
+"""Kinds that are said, and leave a workbook clean."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One way in which a workbook parts from the report's sheet, at one place.
+
+    `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
+    cells are calculated. `effect` is the final depth [m] that this difference alone would give.
+    """
+
+    place: Position
+    kind: str
+    expected: float | str | None
+    found: float | str | None
+    explanation: str
+    cells: tuple[Position, ...]
+    rank: tuple[float, ...]
+    effect: float | None = None
+
+
+Text = float | str | None
+
+
+def rank(place: Position, setting: Setting, calculation: Calculation) -> tuple[float, ...]:
+    """When a cell is calculated: inputs first, then row by row, then what rests on the table."""
+    table = setting.table
+    if place in table.places:
+        role, k = table.places[place]
+        return (1, k, 9 if role == "time" else list(COLUMNS).index(role))
+    for line in table.helpers:
+        if line.covers(place):
+            return (1, (place[2] if line.across else place[1]) - table.zero, 2.5)
+    order = calculation.order.get(place, -1)
+    return (0 if place in setting.read or order < 0 else 2, order)
+
+
+class Findings:
+    """Collects differences; `setting` becomes what the workbook really does, as that is learnt."""
+
+    def __init__(
+        self,
+        setting: Setting,
+        calculation: Calculation,
+        report: Mapping[str, tuple[float, ...]],
+    ) -> None:
+        self.setting, self.calculation, self.report = setting, calculation, report
+        self.table = setting.table
+        self.rules = REPORT
+        self.differences: list[Difference] = []
+
+    @property
+    def case(self) -> Case:
+        """The case that the rows follow."""
+        return self.setting.case
+
+    @property
+    def accused(self) -> set[Position]:
+        """The cells that a fault concerns already."""
+        faults = (d for d in self.differences if d.kind not in NO_FAULT)
+        return {cell for fault in faults for cell in fault.cells}
+
+    def add(
+        self, kind: str, cells: Sequence[Position], expected: Text, found: Text, text: str
+    ) -> None:
+        """Add a difference that concerns some cells, the first of them the one to look at."""
+        order = rank(cells[0], self.setting, self.calculation)
+        if isinstance(expected, float) and not math.isfinite(expected):
+            expected = None
+        difference = Difference(cells[0], kind, expected, found, text, tuple(cells), order)
+        self.differences.append(difference)
+
+    def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
+        """The cells of a column from a row on."""
+        last = self.table.steps if last is None else last
+        return [self.table.place(role, k) for k in range(first, max(first, last) + 1)]
+
+    def shown(self, role: str, value: float | None) -> float | None:
+        """A value in SI as its column holds it, in the column's unit and with its sign."""
+        if value is None:
+            return None
+        sign = -1.0 if role == "deceleration" and self.setting.negative else 1.0
+        return sign * scaled(value, Fraction(10) ** -self.setting.powers[role])
+
+    def held(self, place: Position) -> Text:
+        """What a cell holds."""
+        value = self.calculation.values.get(place)
+        return value if isinstance(value, float | str) else None
+
+    def literals(self, role: str) -> set[float]:
+        """The numbers typed into a column's formulas."""
+        formulas = (self.calculation.formulas.get(place) for place in self.cells(role, 0))
+        return {abs(number) for formula in formulas if formula for number in formula.literals}
+
+
+def joined(found: Iterable[Difference], across: bool) -> Iterator[Difference]:
+    """Neighbouring cells of one line with the same kind and cause, as one difference."""
+    line, along = (1, 2) if across else (2, 1)
+    runs: list[list[Difference]] = []
+    for d in sorted(found, key=lambda d: (d.kind, d.place[0], d.place[line], d.place[along])):
+        last = runs[-1][-1] if runs else None
+        if last and (last.kind, _like(last)) == (d.kind, _like(d)):
+            end = last.cells[-1]
+            step = int(d.place[along]) - int(end[along])
+            if (end[0], end[line], step) == (d.place[0], d.place[line], 1):
+                runs[-1].append(d)
+                continue
+        runs.append([d])
+    for run in runs:
+        yield replace(run[0], cells=tuple(cell for d in run for cell in d.cells))
+
+
+def _like(difference: Difference) -> str:
+    """The explanation without its numbers."""
+    return re.sub(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", "#", difference.explanation)

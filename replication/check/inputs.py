@@ -1,0 +1,632 @@
+"""The inputs of a table: which cells hold them, in which units, and what the rows say of the rest.
+
+Only cells that the table's formulas read count as its inputs, through however many cells between.
+They are told apart by label, name, unit and value. What no cell holds is taken from the formulas'
+own numbers, or solved back from the rows, and is said to be so.
+"""
+
+import itertools
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from statistics import median
+
+from reference.units import to_si
+from replication.check.lines import address
+from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
+from replication.check.table import Table
+from replication.check.words import (
+    INPUTS,
+    input_roles,
+    is_unit,
+    power_of_ten,
+    scaled,
+    title,
+    unit_in,
+)
+from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation
+
+__all__ = ["Input", "Setting", "agreement", "braked", "find", "numbers_beside", "solve"]
+
+NEAR = 1e-12
+"""Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
+worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
+_ROUNDED = 12
+"""Numbers without formulas and with at most so many digits are taken as rounded."""
+_MAX_CANDIDATES = 4_000
+_MAX_CHOICES = 64
+
+Report = Mapping[str, tuple[float, ...]]
+"""The values that the report has for each input, in SI."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input: its value in SI, its cell (None if no cell holds it) and how it is known.
+
+    `roles` is what its label allows, `unit` what the workbook says, `factor` what the cell's number
+    was multiplied by.
+    """
+
+    role: str
+    si: float
+    place: Position | None
+    how: str
+    label: str = ""
+    unit: str | None = None
+    factor: Fraction = Fraction(1)
+    roles: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A table with its inputs, and the powers of ten between its columns and SI units.
+
+    `slips` are units of heads that contradict the rest: role -> the power of ten that is wrong.
+    `negative`: decelerations are negative in the workbook. `digits`: how many digits the numbers
+    have, if they are typed and rounded. `read` are all cells outside the table
+    that it reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs
+    that it does not read.
+    """
+
+    table: Table
+    inputs: Mapping[str, Input]
+    case: Case
+    powers: Mapping[str, int]
+    slips: Mapping[str, int]
+    rows: Rows
+    negative: bool
+    digits: int | None = None
+    read: frozenset[Position] = frozenset()
+    derived: Mapping[str, Input] = field(default_factory=dict)
+    unread: tuple[Input, ...] = ()
+
+    @property
+    def near(self) -> float:
+        """The relative distance below which a cell follows a rule."""
+        return NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+
+    def with_case(self, case: Case) -> "Setting":
+        """The same table with another case."""
+        return replace(self, case=case, rows=Rows(self.rows.columns, case))
+
+
+def find(
+    table: Table,
+    calculation: Calculation,
+    candidates: Sequence[Input],
+    mapped: Mapping[str, Position],
+    report: Report,
+) -> Setting:
+    """The setting of a table.
+
+    `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
+    ValueError, saying what to give, when two cells could be the same input and the rows do not
+    decide.
+    """
+    inside = table.places
+    from_table = _read((place for place in inside if place in calculation.formulas), calculation)
+    read = {place: far for place, far in from_table.items() if place not in inside}
+    reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
+    nearest = {
+        role: _nearest(cells, read, calculation)
+        for role, cells in _by_role(reads, _hinted(report, table), bool(read)).items()
+    }
+    choices = {
+        role: typed or cells
+        for role, cells in nearest.items()
+        if (typed := [cell for cell in cells if cell.place not in calculation.formulas])
+        or role not in _FOLLOWS
+    }
+    for role, place in mapped.items():
+        choices[role] = [_mapped(role, place, candidates, calculation, report)]
+    others = (cell for cell in candidates if read and cell.place not in read and cell.label)
+    typed = [cell for cell in others if cell.place not in calculation.formulas]
+    unread = _by_role(typed, report, read=True)
+    if "stop_velocity" not in choices and len(unread.get("stop_velocity", ())) == 1:
+        # Whoever ends the rows by hand reads the stop velocity with his eyes.
+        choices["stop_velocity"] = unread.pop("stop_velocity")
+    setting = _settled(table, choices, calculation, report)
+    rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
+    setting = setting.with_case(replace(setting.case, pi=next(rounded, math.pi)))
+    taken = {own.place for own in setting.inputs.values()}
+    left = [cell for cell in reads if cell.place not in taken]
+    again = {
+        role: _nearest(cells, read, calculation) for role, cells in _by_role(left, report).items()
+    }
+    derived = {
+        role: own if own is not None and own.place else again[role][0]
+        for role in ("mass", "diameter", "resistance")
+        if ((own := setting.inputs.get(role)) is not None and own.place) or role in again
+    }
+    single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
+    return replace(setting, read=frozenset(read), derived=derived, unread=single)
+
+
+def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
+    """Every cell that some cells' formulas read, and through how many others; 0 for themselves."""
+    edge = list(cells)
+    found = dict.fromkeys(edge, 0)
+    distance = 0
+    while edge:
+        distance += 1
+        formulas = (formula for place in edge if (formula := calculation.formulas.get(place)))
+        areas = (area for formula in formulas for area in formula.areas if area.cells <= 64)
+        edge = list({p for area in areas for p in area.places() if p not in found})
+        found.update(dict.fromkeys(edge, distance))
+    return found
+
+
+def _nearest(
+    cells: Sequence[Input], read: Mapping[Position, int], calculation: Calculation
+) -> list[Input]:
+    """Of the cells for one role those that are read most directly; constants behind conversions."""
+    far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
+    near = [cell for cell in cells if far[cell] == min(far.values())]
+    sources = {_source(cell.place, calculation) for cell in near if cell.place}
+    return [cell for cell in cells if cell.place in sources] or near
+
+
+def _source(place: Position, calculation: Calculation) -> Position:
+    """The cell that a formula brings into another unit, if it reads only that."""
+    for _ in range(8):
+        formula = calculation.formulas.get(place)
+        if formula is None or len(formula.areas) != 1 or formula.areas[0].cells > 1:
+            break
+        place = formula.areas[0].corner
+    return place
+
+
+# ---- cells by label, name and value
+
+
+def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterator[Input]:
+    """Every number beside the tables, with its label or name; and names that are numbers."""
+    inside = [line for table in tables for line in (*table.lines.values(), *table.helpers)]
+    names = calculation.named
+    numbers = (place for place, value in calculation.values.items() if isinstance(value, float))
+    beside = (place for place in numbers if not any(line.covers(place) for line in inside))
+    for place in itertools.islice(beside, _MAX_CANDIDATES):
+        label, unit = _label(place, calculation)
+        roles, how = input_roles(label, unit) if label else frozenset(), "label"
+        if not roles and place in names:
+            label, how = names[place], "name"
+            roles = input_roles(label, unit)
+        value = calculation.number(place)
+        assert value is not None
+        yield Input("", value, place, how, label, unit, roles=roles)
+    for name, meaning in calculation.book.names.items():
+        try:
+            value = float(meaning)
+        except ValueError:
+            continue
+        if math.isfinite(value):
+            yield Input("", value, None, "name", name, roles=input_roles(name, None))
+
+
+def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
+    """The label of a number, at its left, above or at its right, and its unit."""
+    sheet, row, column = place
+
+    def text(r: int, c: int) -> str:
+        value = calculation.values.get((sheet, r, c)) if r > 0 and c > 0 else None
+        return value.strip() if isinstance(value, str) else ""
+
+    beside = (text(row, column + 1), text(row - 1, column), text(row + 1, column))
+    unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
+    left: list[str] = []
+    for i in range(1, 6):
+        if any(left) and isinstance(calculation.values.get((sheet, row, column - i)), float):
+            break  # what stands beyond another number is that number's label
+        left.append(text(row, column - i))
+    above = [text(row - i, column) for i in range(1, 3)]
+    right = [text(row, column + i) for i in range(1, 3)]
+    for cells in (left, above, right):
+        words = [cell for cell in cells if cell and not is_unit(cell)]
+        known = (cell for cell in words if input_roles(cell, unit))
+        if words:  # "β | resistance over flow stress | 3": the nearest that says something
+            label = next(known, words[0])
+            return label, unit or unit_in(label)
+    return "", unit
+
+
+def _by_role(cells: Sequence[Input], report: Report, read: bool = False) -> dict[str, list[Input]]:
+    """Cells by role: first those whose label has one meaning, then by value for roles left over.
+
+    `read`: the table reads them all.
+    """
+    found: dict[str, list[Input]] = {}
+    for cell in cells:
+        if len(cell.roles) == 1:
+            (role,) = cell.roles
+            found.setdefault(role, []).append(_as_role(cell, role, report))
+    for cell in cells:
+        # A label that says nothing known may be in another language, if the table reads the cell.
+        any_label = read or not cell.label or cell.unit is not None
+        roles = cell.roles or (_like_the_report(cell, report) if any_label else ())
+        left = [role for role in roles if role not in found]
+        if len(cell.roles) != 1 and left:
+            nearest = min(left, key=lambda role: _distance(cell, role, report))
+            how = cell.how if cell.roles else "value"
+            found.setdefault(nearest, []).append(replace(_as_role(cell, nearest, report), how=how))
+    return found
+
+
+def _hinted(report: Report, table: Table) -> Report:
+    """The report's values, and those that the table itself shows of velocity and step."""
+    speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
+    first = tuple(itertools.islice((speed for speed in speeds if speed), 1))
+    times = [table.number("time", k) for k in (2, 3)]
+    step = tuple(b - a for a, b in [times] if a is not None and b is not None)
+    return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
+
+
+def _like_the_report(cell: Input, report: Report) -> list[str]:
+    """The roles that have the same digits in the report."""
+    ratios = {role: [cell.si / value for value in values] for role, values in report.items()}
+    return [r for r, values in ratios.items() if any(power_of_ten(v) is not None for v in values)]
+
+
+def _distance(cell: Input, role: str, report: Report) -> float:
+    si = scaled(cell.si, to_si(cell.unit)) if cell.unit else cell.si
+    if not 0 < si < math.inf:
+        return math.inf
+    return min((abs(math.log10(si / value)) for value in report.get(role, ())), default=9.0)
+
+
+def _as_role(cell: Input, role: str, report: Report) -> Input:
+    """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
+
+    If it has the digits of the report's, any power of ten will do.
+    """
+    factor = Fraction(1)
+    if INPUTS[role] != "1":
+        if cell.unit:
+            factor = to_si(cell.unit)
+        elif role in report and cell.si > 0:
+            ratios = sorted(
+                (value / cell.si for value in report[role]), key=lambda r: abs(_round(r))
+            )
+            same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
+            factor = Fraction(10) ** (3 * round(_round(ratios[0]) / 3) if same is None else same)
+    return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
+
+
+def _mapped(
+    role: str,
+    place: Position,
+    candidates: Sequence[Input],
+    calculation: Calculation,
+    report: Report,
+) -> Input:
+    value = calculation.number(place)
+    if value is None:
+        raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
+    known = next((cell for cell in candidates if cell.place == place), None)
+    return replace(_as_role(known or Input("", value, place, ""), role, report), how="--map")
+
+
+# ---- the setting that the rows agree with
+
+
+_FOLLOWS = {
+    "diameter": {"radius"}, "mass": {"particle_density"}, "resistance": {"beta", "flow_stress"},
+}  # fmt: skip
+
+
+def _settled(
+    table: Table, choices: Mapping[str, list[Input]], calculation: Calculation, report: Report
+) -> Setting:
+    """One cell for each role: where there are several, those that the rows agree with."""
+    for role, enough in _FOLLOWS.items():  # what follows from others can be done without
+        if enough <= set(choices) and len(choices.get(role, ())) > 1:
+            choices = {name: cells for name, cells in choices.items() if name != role}
+    several = {
+        role: cells
+        for role, cells in choices.items()
+        if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
+    }
+    chosen = {role: cells[0] for role, cells in choices.items()}
+    tried: list[tuple[float, Setting]] = []
+    for picked in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
+        inputs = chosen | dict(zip(several, picked, strict=True))
+        setting = _setting(table, inputs, calculation, report)
+        tried.append((agreement(setting), setting))
+    tried.sort(key=lambda entry: -entry[0])
+    if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
+        role, cells = next(iter(several.items()))
+        where = " and ".join(address(c.place, True) for c in cells[:3] if c.place)
+        raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
+    return tried[0][1]
+
+
+def _setting(
+    table: Table, chosen: Mapping[str, Input], calculation: Calculation, report: Report
+) -> Setting:
+    """The setting with these cells as inputs; what is missing solved back from the rows."""
+    powers, slips = _powers(table, chosen, report)
+    columns = {
+        role: {
+            k: scaled(value, Fraction(10) ** powers[role])
+            for k in range(table.steps + 1)
+            if (value := table.number(role, k)) is not None
+        }
+        for role in table.lines
+    }
+    brakes = columns.get("deceleration", {})
+    negative = bool(brakes) and median(brakes.values()) < 0
+    if negative:
+        columns["deceleration"] = {k: -a for k, a in brakes.items()}
+    inputs = _completed(chosen, columns, calculation, report)
+    names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
+             "stop_velocity")  # fmt: skip
+    for own in inputs.values():
+        _check(own)
+    case = Case(**{name: inputs[name].si for name in names if name in inputs})
+    if inputs["particle_density"].place is None and "mass" in inputs:
+        case = replace(case, own_mass=inputs["mass"].si)
+    digits = _digits(table, calculation)
+    setting = Setting(table, inputs, case, powers, slips, Rows(columns, case), negative, digits)
+    return _solved_back(setting, calculation, report)
+
+
+def _check(own: Input) -> None:
+    """Raise ValueError for an input that no motion has."""
+    if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
+        where = "its rows" if own.place is None else address(own.place, True)
+        raise ValueError(
+            f"{where}: taken for {title(own.role)}, is {own.si:g}; a number greater than zero is "
+            f"wanted, or --map {own.role}=CELL"
+        )
+
+
+def _digits(table: Table, calculation: Calculation) -> int | None:
+    """How many digits the table's numbers have, if they are typed and rounded; else None."""
+    roles = [role for role in ("depth", "deceleration") if role in table.lines]
+    places = [table.place(role, k) for role in roles for k in range(1, table.steps + 1)]
+    if any(place in calculation.formulas for place in places):
+        return None
+    numbers = [number for place in places if (number := calculation.number(place))]
+    texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
+    most = max((len(text.strip("0")) for text in texts), default=17)
+    return most if most <= _ROUNDED else None
+
+
+def _powers(
+    table: Table, inputs: Mapping[str, Input], report: Report
+) -> tuple[dict[str, int], dict[str, int]]:
+    """The power of ten of each column, and by how much the units of some heads contradict it.
+
+    The rows tie the units together: dx = v dt and dv = a dt. Of the powers that satisfy both, those
+    that contradict the fewest units named, then those nearest to the report's numbers.
+    """
+    speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
+    later = 1 if speed == "velocity_initial" else 0
+    rows = range(2, table.steps + 1)
+
+    def number(role: str, k: int) -> float:
+        return table.number(role, k) or 0.0
+
+    def change(role: str, k: int) -> float:
+        here, before = table.number(role, k), table.number(role, k - 1)
+        return 0.0 if here is None or before is None else here - before
+
+    def typical(ratios: Iterable[float]) -> float:
+        usual = [abs(ratio) for ratio in ratios if ratio and math.isfinite(ratio)]
+        return median(usual) if usual else 0.0
+
+    def ratio(a: float, b: float) -> float:
+        return a / b if b else 0.0
+
+    # What the step would be, and what a column would be, if all cells were in SI units.
+    step = typical(change("time", k) for k in rows)
+    move = typical(ratio(change("depth", k), number(speed, k)) for k in rows)
+    brake = typical(ratio(change(speed, k + later), number("deceleration", k)) for k in rows)
+    named = {role: _power(line.unit) for role, line in table.lines.items()}
+    start = next((v for k in range(table.steps + 1) if (v := abs(number(speed, k)))), 1.0)
+    impact = inputs["velocity"].si if "velocity" in inputs else 0.0
+    impact = impact if impact > 0 else report["velocity"][0]
+    speeds = {named[speed], _round(impact / start)} - {None}
+    steps = [inputs["step"].si] if "step" in inputs else []
+    if step and named.get("time") is not None:
+        steps.append(step * 10.0 ** (named["time"] or 0))
+    if step or move:
+        steps.append(
+            (step or move) * 1000.0 ** round(_round(report["step"][0] / (step or move)) / 3)
+        )
+    best: tuple[tuple[int, int], dict[str, int]] | None = None
+    for power in speeds:
+        for dt in [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]:
+            v = 10.0 ** (power or 0)
+            wanted = {
+                "time": ratio(dt, step),
+                "depth": ratio(dt * v, move),
+                "deceleration": v / dt * brake,
+            }
+            powers = {
+                role: _whole(wanted[role], named[role]) if role in wanted else power or 0
+                for role in table.lines
+            }
+            against = sum(named[role] not in (None, power) for role, power in powers.items())
+            far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
+            if best is None or (against, far) < best[0]:
+                best = (against, far), powers
+    assert best is not None
+    slips = {role: (named[role] or 0) - power for role, power in best[1].items()
+             if named[role] not in (None, power)}  # fmt: skip
+    return best[1], slips
+
+
+def _power(unit: str | None) -> int | None:
+    """The power of ten that a unit is of the SI unit."""
+    return None if unit in (None, "1") else power_of_ten(float(to_si(unit or "1")))
+
+
+def _round(ratio: float) -> int:
+    """The nearest power of ten, within what any unit could be."""
+    return max(-30, min(30, round(math.log10(ratio)))) if 0 < ratio < math.inf else 0
+
+
+def _whole(factor: float, named: int | None) -> int:
+    """A factor as a power of ten: the one that a unit names, if it is that, else of a thousand."""
+    if not 0 < factor < math.inf:
+        return named or 0
+    return named if _round(factor) == named else 3 * round(_round(factor) / 3)
+
+
+def _completed(
+    chosen: Mapping[str, Input],
+    columns: Mapping[str, Mapping[int, float]],
+    calculation: Calculation,
+    report: Report,
+) -> dict[str, Input]:
+    """The inputs, with those that follow from others or from the columns."""
+    inputs = dict(chosen)
+
+    def add(role: str, si: float, how: str, *of: str) -> None:
+        inputs.setdefault(role, Input(role, si, None, how, " and ".join(map(title, of))))
+
+    if "diameter" in inputs:
+        add("radius", inputs["diameter"].si / 2, "follows", "diameter")
+    if {"beta", "flow_stress"} <= set(inputs):
+        product = inputs["beta"].si * inputs["flow_stress"].si
+        add("resistance", product, "follows", "beta", "flow_stress")
+    speeds = columns.get("velocity_initial") or columns["velocity_final"]
+    add("velocity", speeds[min(speeds)], "rows")
+    add("radius", report["radius"][0], "report")
+    if "mass" in inputs:
+        volume = 4 / 3 * math.pi * inputs["radius"].si * inputs["radius"].si * inputs["radius"].si
+        add(
+            "particle_density",
+            inputs["mass"].si / volume if volume else 0.0,
+            "follows",
+            "mass",
+            "radius",
+        )
+    if "step" not in inputs:
+        step, typed = _step(columns, report), _typed(calculation)
+        add("step", step, "formulas" if step in typed else "rows")
+    for role in ("particle_density", "target_density", "resistance"):
+        add(role, report[role][0], "report")
+    return inputs
+
+
+def _typed(calculation: Calculation) -> set[float]:
+    """Every number that stands in a formula."""
+    return {number for formula in calculation.formulas.values() for number in formula.literals}
+
+
+def _step(columns: Mapping[str, Mapping[int, float]], report: Report) -> float:
+    """The step that the rows have taken, as the shortest decimal that they agree with."""
+    steps = [t / k for k, t in columns.get("time", {}).items() if k and t]
+    if not steps:
+        speeds = columns.get("velocity_initial") or columns["velocity_final"]
+        x = columns["depth"]
+        steps = [
+            (x[k] - x[k - 1]) / v for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)
+        ]
+    step = abs(median(steps)) if steps else 0.0
+    return _shortest(step, 1e-6) if 0 < step < math.inf else report["step"][0]
+
+
+def _shortest(value: float, near: float) -> float:
+    """The decimal with the fewest digits that lies as near to a value.
+
+    >>> _shortest(2.0000000003e-10, 1e-9)
+    2e-10
+    """
+    decimals = (float(f"{value:.{digits}e}") for digits in range(17))
+    return next((d for d in decimals if math.isclose(d, value, rel_tol=near)), value)
+
+
+def agreement(
+    setting: Setting, near: float | None = None, rules: Sequence[Rule] = BRAKES[:2]
+) -> float:
+    """Which share of the rows brakes as its depth and velocity say, by the best of some rules."""
+    return max(_agrees(setting, rule, setting.near if near is None else near) for rule in rules)
+
+
+def _agrees(setting: Setting, rule: Rule, near: float) -> float:
+    rows, case = setting.rows, setting.case
+    held = "deceleration" in rows.columns
+    good = total = 0
+    for k in range(1, setting.table.steps + 1):
+        wanted, found = rule.value(case, rows, k), braked(rows, case, k)
+        if wanted is not None and found is not None:
+            # Where no column holds the deceleration, the velocities' own rounding is in it.
+            slack = 0.0 if held else 4e-16 * abs(rows("velocity_initial", k) or 0.0) / case.step
+            good += abs(found - wanted) <= near * (1 if held else 1e3) * abs(wanted) + slack
+            total += 1
+    return good / total if total else 0.0
+
+
+def braked(rows: Rows, case: Case, k: int) -> float | None:
+    """The deceleration of a row: its cell, or what the velocities say."""
+    if "deceleration" in rows.columns:
+        return rows("deceleration", k)
+    v, final = rows("velocity_initial", k), rows("velocity_final", k)
+    return None if v is None or final is None else (v - final) / case.step
+
+
+def _solved_back(setting: Setting, calculation: Calculation, report: Report) -> Setting:
+    """Inputs that no cell holds: the report's if the rows agree, else from the rows."""
+    unknown = [role for role, own in setting.inputs.items() if own.how == "report"]
+    typed = _typed(calculation) if unknown else set()
+    for rules in (BRAKES[:2], BRAKES):
+        for values in itertools.product(*(report[role] for role in unknown)):
+            tried = dict(zip(unknown, values, strict=True))
+            agreed = _tried(setting, tried, "report", rules, typed)
+            if agreed is not None:
+                return agreed
+    solved = None if "radius" in unknown else solve(setting.rows, setting.case)
+    if not unknown or solved is None:
+        return setting
+    stresses = dict(zip(("target_density", "resistance"), solved, strict=True))
+    tried = {role: _nearby(value, typed) for role, value in stresses.items() if role in unknown}
+    return _tried(setting, tried, "rows", BRAKES[:2], typed) or setting
+
+
+def _tried(
+    setting: Setting, tried: Mapping[str, float], how: str, rules: Sequence[Rule], typed: set[float]
+) -> Setting | None:
+    """The setting with some inputs, if the rows agree with it."""
+    case = setting.case
+    for role, value in tried.items():
+        case = with_input(case, role, value)
+    other = setting.with_case(case)
+    if agreement(other, rules=rules) < 0.5:
+        return None
+    inputs = {
+        role: replace(setting.inputs[role], si=value, how="formulas" if value in typed else how)
+        for role, value in tried.items()
+    }
+    return replace(other, inputs={**setting.inputs, **inputs})
+
+
+def _nearby(value: float, typed: Iterable[float]) -> float:
+    """A number that some formula has, or the shortest decimal."""
+    near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
+    return next(near, _shortest(value, 1e-8))
+
+
+def solve(rows: Rows, case: Case) -> tuple[float, float] | None:
+    """Target density and resistance for which the rows brake as they do, drag at the beginning.
+
+    a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
+    Each pair of rows gives both; the medians withstand some wrong rows.
+    """
+    points = []
+    for k in range(1, max(rows.columns["depth"]) + 1):
+        a, x, v = braked(rows, case, k), rows("depth", k), rows("velocity_initial", k)
+        if a is not None and x and v is not None and (area := contact(case, x)):
+            points.append((v * v, a * case.mass / (math.pi * area)))
+    pairs = zip(points, points[len(points) // 2 :], strict=False)
+    apart = [(p, q) for p, q in pairs if p[0] - q[0] > 0.05 * p[0]]
+    if len(apart) < 3:
+        return None
+    slopes = [(p[1] - q[1]) / (p[0] - q[0]) for p, q in apart]
+    ends = [p[1] - slope * p[0] for (p, _), slope in zip(apart, slopes, strict=True)]
+    density, resistance = 2 * median(slopes), median(ends)
+    return (density, resistance) if density > 0 and resistance > 0 else None

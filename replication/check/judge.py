@@ -1,0 +1,149 @@
+"""What is wrong with one table, cell by cell: each difference with its kind, place and cause.
+
+Every cell is compared with what the cells before it give, so a wrong one is found where it stands
+and what follows from it is not accused. A column in which most cells follow another rule than the
+report's is one difference, named by that rule.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from replication.check.cells import each_cell, order
+from replication.check.findings import Difference, Findings
+from replication.check.givens import calibrate, derived, other_inputs, typed_inputs, units
+from replication.check.inputs import Setting
+from replication.check.recognize import as_rounded, choose
+from replication.check.scheme import REPORT, Rules, march
+from spreadsheets.recalculation import Calculation
+
+__all__ = ["Verdict", "judge"]
+
+_LIMIT = 20_000
+"""Rows that a run computed for comparison may have."""
+
+
+@dataclass
+class Verdict:
+    """What was found out about one table; depths in m.
+
+    `right_depth` is that of the report's scheme with the table's inputs, None if it does not end.
+    `differing` counts the cells that differ from that run, causes and consequences alike.
+    """
+
+    setting: Setting
+    rules: Rules
+    differences: list[Difference]
+    final_depth: float | None
+    right_depth: float | None
+    differing: int
+
+    @property
+    def ends(self) -> bool:
+        """Whether the rows go down to the stop."""
+        return not any(d.kind == "not calculated" for d in self.differences)
+
+
+def judge(
+    setting: Setting, calculation: Calculation, report: Mapping[str, tuple[float, ...]]
+) -> Verdict:
+    """Every difference between a table and the report's sheet, but for its printed numbers.
+
+    `report` are the report's values of each input, in SI.
+    """
+    f = Findings(setting, calculation, report)
+    units(f)
+    other_inputs(f)
+    if setting.digits is None:
+        calibrate(f)
+        derived(f)
+        choose(f)
+        each_cell(f)
+        typed_inputs(f)
+        order(f)
+    else:
+        as_rounded(f, setting.digits)
+    _stop(f)
+    return _verdict(f)
+
+
+def _stop(f: Findings) -> None:
+    """Whether the rows end with the first velocity below the stop."""
+    steps, stop = f.table.steps, f.case.stop_velocity
+    finals = {k: v for k in range(1, steps + 1) if (v := _final(f, k)) is not None}
+    below = next((k for k, v in finals.items() if v < stop), None)
+    right = max(march(f.case, limit=steps + 1)["depth"])
+    if not finals or below == steps or (below != steps and right == steps):
+        return  # with as many rows as there should be, where they end follows from the rest
+    last = finals[max(finals)]
+    role = "velocity_final" if "velocity_final" in f.table.lines else "velocity_initial"
+    if below is not None:
+        cells = f.cells(role, below + 1)
+        text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
+        f.add("other scheme", cells, None, f.held(cells[0]), text)
+        return
+    run = march(f.case, f.rules, limit=_LIMIT)["velocity_final"]
+    whole = max(run, default=0)
+    if whole <= steps or (run[whole] >= stop and whole < _LIMIT):
+        return  # the rules that the rows follow do not lead to the stop by themselves
+    text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
+    of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
+    place = f.table.place(role, steps)
+    if 2 * steps < whole:
+        f.add("not calculated", [place], None, None, f"{text}: {steps} of {of}")
+    else:
+        f.add(
+            "other scheme",
+            [place],
+            None,
+            f.held(place),
+            f"other stop: {text}, {steps} of {of}",
+        )
+
+
+def _final(f: Findings, k: int) -> float | None:
+    """The velocity at the end of a row, computed where the table ends before it shows it."""
+    rows = f.setting.rows
+    final = rows("velocity_final", k)
+    if final is not None or k < f.table.steps:
+        return final
+    v, a = rows("velocity_initial", k), rows("deceleration", k)
+    a = f.rules.brake.value(f.case, rows, k) if a is None else a
+    return None if v is None or a is None else v - a * f.case.step
+
+
+def _verdict(f: Findings) -> Verdict:
+    """All of it, with the final depths and the difference that explains them."""
+    steps, rows = f.table.steps, f.setting.rows
+    run = march(f.case, limit=_LIMIT)
+    ends = run["velocity_final"].get(max(run["depth"]), math.inf) < f.case.stop_velocity
+    pairs = [
+        (value, rows.columns[role].get(k))
+        for role in set(run) & set(rows.columns)
+        for k, value in run[role].items()
+    ]
+    differing = sum(
+        own is not None and abs(own - value) > 1e-9 * abs(value) for value, own in pairs
+    )
+    found = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
+    right = run["depth"][max(run["depth"])] if ends else None
+    return Verdict(f.setting, f.rules, found, rows("depth", steps), right, differing)
+
+
+def _with_effect(f: Findings, difference: Difference) -> Difference:
+    """The difference with the final depth that it alone would give."""
+    fixed: dict[tuple[str, int], float] = {}
+    rules = REPORT
+    if difference.kind == "other scheme":
+        named = [part for part, rule in f.rules.others() if rule.says in difference.explanation]
+        rules = replace(rules, **{part: f.rules.part(part) for part in named})
+    elif difference.kind in ("typed number", "odd formula", "typed constant"):
+        for place in difference.cells:
+            role, k = f.table.places.get(place, ("", 0))
+            value = f.setting.rows.columns.get(role, {}).get(k)
+            if value is not None:
+                fixed[role, k] = value
+    else:
+        return difference
+    depths = march(f.case, rules, fixed, limit=f.table.steps, until=f.table.steps)["depth"]
+    return replace(difference, effect=depths.get(f.table.steps))

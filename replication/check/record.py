@@ -1,0 +1,198 @@
+"""What `check` and `diff` found, as one JSON document; text, page and JUnit file show that."""
+
+import math
+import unicodedata
+from collections import Counter
+from typing import Any
+
+from replication.check.diff import Comparison
+from replication.check.findings import Difference
+from replication.check.judge import Verdict
+from replication.check.lines import address, area_of
+from replication.check.printed import Held
+from replication.check.words import INPUTS, count, unit_text
+from replication.check.workbook import Check
+from spreadsheets.foreign import Position
+
+__all__ = ["check_record", "diff_record", "safe"]
+
+
+def check_record(check: Check) -> dict[str, Any]:
+    """The document of `coldspray check --json`; a number beyond doubles is null."""
+    record = {
+        "file": str(check.path),
+        "verdict": _verdict(check),
+        "clean": check.first is None,
+        "summary": check.summary,
+        "first": check.first and _difference(check.first),
+        "differences": [_difference(d) for d in check.differences],
+        "taken": [_taken(verdict) for verdict in check.verdicts],
+        "final_depths": [_depth(verdict) for verdict in check.verdicts],
+        "claims": [_claim(number) for number in check.held],
+        "notes": list(check.calculation.book.notes),
+    }
+    return {name: _finite(entry) for name, entry in record.items()}
+
+
+def diff_record(comparison: Comparison) -> dict[str, Any]:
+    """The document of `coldspray diff --json`; `expected` is the first workbook's."""
+    found = comparison.differences
+    cells = sum(len(d.cells) for d in found if d.kind in ("formula", "value"))
+    verdict = f"{count(len(found), 'difference')}, in the contents of {count(cells, 'cell')}"
+    return {
+        "file": " and ".join(map(str, comparison.paths)),
+        "verdict": f"{verdict}." if found else "Equal: every cell holds the same.",
+        "clean": not found,
+        "summary": dict(Counter(d.kind for d in found)),
+        "first": comparison.first and _difference(comparison.first),
+        "differences": [_difference(d) for d in found],
+        "taken": [],
+        "final_depths": [],
+        "claims": [],
+        "notes": [note for c in comparison.calculations for note in c.book.notes],
+    }
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _difference(difference: Difference) -> dict[str, Any]:
+    """One difference; `cells` is the range that it concerns, `count` how many cells."""
+    return {
+        "sheet": difference.place[0],
+        "cell": address(difference.place),
+        "kind": difference.kind,
+        "expected": difference.expected,
+        "found": difference.found,
+        "explanation": difference.explanation,
+        "cells": _range(difference.cells),
+        "count": len(difference.cells),
+        "final_depth": difference.effect,
+    }
+
+
+def _range(cells: tuple[Position, ...]) -> str:
+    """Some cells as one range, if they are one."""
+    rows, columns = {cell[1] for cell in cells}, {cell[2] for cell in cells}
+    area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
+    if len(cells) != area or len({cell[0] for cell in cells}) > 1:
+        return f"{address(cells[0])} and {count(len(cells) - 1, 'cell')} more"
+    sheet = cells[0][0]
+    return area_of((sheet, min(rows), min(columns)), (sheet, max(rows), max(columns)))
+
+
+def _verdict(check: Check) -> str:
+    """One sentence for all of it."""
+    causes, faults = check.causes, check.faults
+    if not faults:
+        others = check.summary.get("other input", 0)
+        inputs = f", with {count(others, 'other input')}" if others else ""
+        if any(verdict.ends for verdict in check.verdicts):
+            return f"Clean: the report's sheet{inputs}, cell by cell."
+        return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
+    if not causes:
+        are = "is" if len(faults) == 1 else "are"
+        return f"The sheet is right; {count(len(faults), 'number')} beside it {are} not as printed."
+    if all(d.kind == "operation order" for d in causes):
+        return "The report's sheet but for last digits: it calculates in another order."
+    sentence = f"{count(len(causes), 'difference')} from the report's sheet"
+    for verdict in check.verdicts:
+        own, right = verdict.final_depth, verdict.right_depth
+        if own is not None and right is not None and _apart(own, right):
+            return f"{sentence}; the final depth is {_um(own)}, and should be {_um(right)}."
+    if all(v.right_depth and v.final_depth and v.ends for v in check.verdicts):
+        return f"{sentence}; the final depth is right all the same."
+    return f"{sentence}."
+
+
+def _um(depth: float) -> str:
+    return f"{depth * 1e6:.7g} um"
+
+
+def _apart(own: float, right: float) -> bool:
+    return abs(own - right) > 1e-9 * abs(right)
+
+
+def _depth(verdict: Verdict) -> dict[str, Any]:
+    """The final depth, what it should be, and the one difference that alone explains it, if any."""
+    own, right = verdict.final_depth, verdict.right_depth
+    explains = None
+    if own is not None and right is not None and _apart(own, right):
+        effects = {d: d.effect for d in verdict.differences if d.effect is not None}
+        if effects:
+            nearest = min(effects, key=lambda d: abs(effects[d] - own))
+            if abs(effects[nearest] - own) < 0.05 * abs(own - right):
+                explains = address(nearest.place, True)
+    return {
+        "found": own,
+        "expected": right,
+        "explained_by": explains,
+        "differing": verdict.differing,
+    }
+
+
+def _taken(verdict: Verdict) -> dict[str, Any]:
+    """What was taken for what."""
+    setting, table = verdict.setting, verdict.setting.table
+    return {
+        "sheet": table.sheet,
+        "direction": "to the right" if table.across else "down",
+        "steps": table.steps,
+        "scheme": verdict.rules.name,
+        "columns": {
+            role: {
+                "cells": table.area(role),
+                "head": line.head,
+                "unit": unit_text(role, setting.powers[role]),
+                "by": "--map" if line.given else "head" if role in line.roles else "values",
+            }
+            for role, line in table.lines.items()
+        },
+        "inputs": {
+            role: {
+                "value": own.si,
+                "unit": INPUTS[role],
+                "cell": address(own.place, True) if own.place else None,
+                "label": own.label or None,
+                "by": own.how,
+            }
+            for role in INPUTS
+            if (own := setting.inputs.get(role)) is not None
+        },
+    }
+
+
+def _claim(number: Held) -> dict[str, Any]:
+    return {
+        "id": number.claim.id,
+        "title": number.claim.title,
+        "where": str(number.claim.place),
+        "printed": number.claim.shown,
+        "unit": number.claim.unit,
+        "interval": str(number.claim.interval()),
+        "cell": address(number.place, True),
+        "found": number.found,
+        "met": number.met,
+    }
+
+
+def safe(text: object, limit: int = 90) -> str:
+    r"""Text from a file as it may be shown: one line, nothing that moves a terminal, not too long.
+
+    >>> safe("a\nb\x1b[31m"), safe("abcdef", 5)
+    ('a\\nb\\x1b[31m', 'ab...')
+    """
+    cut = str(text)[: limit + 1]
+    plain = "".join(
+        c if c == " " or unicodedata.category(c)[0] not in "CZ" else _escaped(c) for c in cut
+    )
+    return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
+
+
+def _escaped(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")

@@ -1,0 +1,328 @@
+"""The scheme's rules, the report's and others that people use, each for one cell from those before.
+
+A rule is a function of a case and of a `Rows` to the value that a cell should hold, in SI units. So
+a workbook is judged cell by cell by what its own cells before hold: only the cell where something
+goes wrong fails, not the hundred that follow from it.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+__all__ = [
+    "ADVANCES", "BRAKES", "ENDINGS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules",
+    "deceleration", "march", "orders", "with_input",
+]  # fmt: skip
+
+ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
+"""The order of calculation within a row."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """The inputs of a run in SI units; mass and diameter as the workbook has them, or computed.
+
+    `pi` is that of the workbook, which LibreOffice saves with 15 digits where a cell holds it.
+    """
+
+    velocity: float
+    radius: float
+    particle_density: float
+    target_density: float
+    resistance: float
+    step: float
+    stop_velocity: float = 1.0
+    own_mass: float | None = None
+    own_diameter: float | None = None
+    pi: float = math.pi
+
+    @property
+    def mass(self) -> float:
+        """M = (4/3) pi R^3 rho_p [kg], or the workbook's own."""
+        if self.own_mass is not None:
+            return self.own_mass
+        r = self.radius
+        return self.particle_density * 4 / 3 * self.pi * r * r * r
+
+    @property
+    def diameter(self) -> float:
+        """D = 2R [m], or the workbook's own."""
+        return 2 * self.radius if self.own_diameter is None else self.own_diameter
+
+
+@dataclass
+class Rows:
+    """The cells of a run by role and row, in SI units; one velocity stands for the other.
+
+    The velocity at a row's end is that at the beginning of the next.
+    """
+
+    columns: Mapping[str, Mapping[int, float]]
+    case: Case
+
+    def __call__(self, role: str, k: int) -> float | None:
+        """The number in a role and row, if it is there."""
+        value = self.columns.get(role, {}).get(k)
+        if value is not None or role in self.columns:
+            return self._start(role, k) if value is None else value
+        if role == "velocity_final":
+            return self.columns["velocity_initial"].get(k + 1)
+        if role == "velocity_initial":
+            return self.case.velocity if k <= 1 else self.columns["velocity_final"].get(k - 1)
+        return self._start(role, k)
+
+    def _start(self, role: str, k: int) -> float | None:
+        """What a row 0 that is not shown would hold."""
+        if k != 0:
+            return None
+        return self.case.velocity if role.startswith("velocity") else 0.0
+
+
+Value = Callable[[Case, Rows, int], float | None]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One way to fill a column. `says` completes "here"; the report's own says nothing."""
+
+    name: str
+    value: Value
+    says: str = ""
+
+
+@dataclass(frozen=True)
+class Rules:
+    """A whole scheme: how each column is filled."""
+
+    start: Rule
+    advance: Rule
+    brake: Rule
+    end: Rule
+
+    def part(self, name: str) -> Rule:
+        """The rule of a part: start, advance, brake or end."""
+        rule = getattr(self, name)
+        assert isinstance(rule, Rule)
+        return rule
+
+    def others(self) -> list[tuple[str, Rule]]:
+        """The parts that are not the report's."""
+        parts = ((name, self.part(name)) for name in ("start", "advance", "brake", "end"))
+        return [(name, rule) for name, rule in parts if rule.says]
+
+    @property
+    def name(self) -> str:
+        """The scheme by name."""
+        names = dict.fromkeys(rule.name for _, rule in self.others())
+        return " and ".join(names) or "the report's"
+
+    def value(self, role: str, case: Case, rows: Rows, k: int) -> float | None:
+        """What a cell should hold."""
+        if role == "velocity_initial":
+            return case.velocity if k <= 1 else rows("velocity_final", k - 1)
+        if k == 0:
+            return 0.0
+        rule = {
+            "depth": self.start if k == 1 else self.advance,
+            "deceleration": self.brake,
+            "velocity_final": self.end,
+        }[role]
+        return rule.value(case, rows, k)
+
+
+def deceleration(
+    case: Case, x: float, v: float, *, factor: float = 0.5, area: float | None = None
+) -> float:
+    """Deceleration at a depth [m] and velocity [m/s], positive (report's Eqs. A-1 to A-3) [m/s^2].
+
+    >>> case = Case(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10)
+    >>> f"{deceleration(case, 5e-8, 500.0):.2E}"
+    '3.11E+08'
+    """
+    area = contact(case, x) if area is None else area
+    stress = factor * case.target_density * v * v + case.resistance
+    return stress * case.pi * area / case.mass
+
+
+def contact(case: Case, x: float) -> float:
+    """Contact area over pi [m^2]: that of the sphere's section, and of the whole sphere beyond."""
+    return case.diameter * x - x * x if x < case.radius else case.radius * case.radius
+
+
+def orders(case: Case, x: float, v: float) -> set[float]:
+    """The deceleration in each order of operations that the report's equations may be typed in.
+
+    A square is a product or a power, which differ in the last digit now and then.
+    """
+    rho, pi, m = case.target_density, case.pi, case.mass
+    areas = {contact(case, x)}
+    if 0 < x < case.radius:
+        areas.add(case.diameter * x - x**2)
+    stresses = {0.5 * rho * v * v, 0.5 * rho * (v * v)}
+    if abs(v) < 1e100:  # Python's powers end with an error where products become infinite
+        stresses.add(0.5 * rho * v**2)
+    return {
+        value
+        for area in areas
+        for s in (stress + case.resistance for stress in stresses)
+        for value in (s * pi * area / m, s * (pi * area) / m)
+    }
+
+
+def _with(
+    how: Callable[[Case, float, float, Rows, int], float | None],
+) -> Value:
+    def value(case: Case, rows: Rows, k: int) -> float | None:
+        x, v = rows("depth", k), rows("velocity_initial", k)
+        return None if x is None or v is None else how(case, x, v, rows, k)
+
+    return value
+
+
+def _centered(case: Case, x: float, v: float, *_: object) -> float:
+    return deceleration(case, x, v - deceleration(case, x, v) * (case.step / 2))
+
+
+def _at_start(case: Case, rows: Rows, k: int) -> float | None:
+    x, v = rows("depth", k - 1), rows("velocity_initial", k)
+    return None if x is None or v is None else deceleration(case, x, v)
+
+
+BRAKES = (
+    Rule("velocity at the beginning", _with(lambda c, x, v, *_: deceleration(c, x, v))),
+    Rule("centered", _with(_centered),
+         "the drag is taken at the velocity in the middle of the step, half a step ahead of the "
+         "row's initial velocity"),
+    Rule("explicit Euler", _at_start, "the force is taken at the depth of the row before"),
+    Rule("no drag", _with(lambda c, x, v, *_: deceleration(c, x, v, factor=0.0)),
+         "the force lacks the term with the target's density"),
+    Rule("drag without 1/2", _with(lambda c, x, v, *_: deceleration(c, x, v, factor=1.0)),
+         "the factor 1/2 before the target's density is missing"),
+    Rule("drag at impact velocity", _with(lambda c, x, _, *__: deceleration(c, x, c.velocity)),
+         "the drag is taken at the impact velocity in every row"),
+    Rule("area without x²", _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.diameter * x)),
+         "the contact area is pi D x, without - x²"),
+    Rule("area with R for D",
+         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.radius * x - x * x)),
+         "the contact area has the radius where the diameter belongs"),
+    Rule("area of the whole sphere",
+         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.radius * c.radius)),
+         "the contact area is that of the whole sphere, pi R², at every depth"),
+    Rule("area beyond the radius",
+         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.diameter * x - x * x)),
+         "the contact area shrinks again beyond the depth R, where the report keeps pi R²"),
+    Rule("drag at the row before", _with(lambda c, x, _, rows, k: None if (
+        v := rows("velocity_initial", k - 1)) is None else deceleration(c, x, v)),
+         "the drag is taken at the initial velocity of the row before"),
+)  # fmt: skip
+
+STARTS = (
+    Rule("half step", lambda c, r, k: _times(r("velocity_initial", k), c.step / 2)),
+    Rule("no half step", lambda c, r, k: _times(r("velocity_initial", k), c.step),
+         "the first depth is V times the whole step; the report takes half of it"),
+    Rule("starts at zero", lambda *_: 0.0,
+         "the first step leaves the depth at zero; the report takes V times half a step"),
+)  # fmt: skip
+
+ADVANCES = (
+    Rule("initial velocity", lambda c, r, k: _moved(r, k, c.step, r("velocity_initial", k))),
+    Rule("explicit Euler", lambda c, r, k: _moved(r, k, c.step, r("velocity_initial", k - 1)),
+         "the depth moves on by the initial velocity of the row before"),
+    Rule("final velocity", lambda c, r, k: _moved(r, k, c.step, r("velocity_final", k)),
+         "the depth moves on by the velocity at the end of the row"),
+    Rule("mean velocity", lambda c, r, k: _moved(
+        r, k, c.step, _mean(r("velocity_initial", k), r("velocity_final", k))),
+         "the depth moves on by the mean of the row's two velocities"),
+    Rule("mean velocity of the row before", lambda c, r, k: _moved(
+        r, k, c.step, _mean(r("velocity_initial", k - 1), r("velocity_final", k - 1))),
+         "the depth moves on by the mean of the velocities of the row before"),
+    Rule("half steps throughout", lambda c, r, k: _moved(
+        r, k, c.step / 2, r("velocity_initial", k)),
+         "every step moves the depth by half a step only"),
+)  # fmt: skip
+
+ENDINGS = (
+    Rule("whole step", lambda c, r, k: _slowed(r, k, c.step)),
+    Rule("half a step", lambda c, r, k: _slowed(r, k, c.step / 2),
+         "the velocity falls by the deceleration times half a step only"),
+    Rule("by energy", lambda _, r, k: _by_energy(r, k),
+         "the velocity follows from v² - 2 a times the step in depth"),
+)  # fmt: skip
+
+
+REPORT = Rules(STARTS[0], ADVANCES[0], BRAKES[0], ENDINGS[0])
+"""The report's own scheme."""
+
+
+def _times(a: float | None, b: float | None) -> float | None:
+    return None if a is None or b is None else a * b
+
+
+def _mean(a: float | None, b: float | None) -> float | None:
+    return None if a is None or b is None else (a + b) / 2
+
+
+def _moved(rows: Rows, k: int, step: float, velocity: float | None) -> float | None:
+    before = rows("depth", k - 1)
+    return None if before is None or velocity is None else before + velocity * step
+
+
+def _slowed(rows: Rows, k: int, step: float) -> float | None:
+    v, a = rows("velocity_initial", k), rows("deceleration", k)
+    return None if v is None or a is None else v - a * step
+
+
+def _by_energy(rows: Rows, k: int) -> float | None:
+    v, a = rows("velocity_initial", k), rows("deceleration", k)
+    x, before = rows("depth", k), rows("depth", k - 1)
+    if v is None or a is None or x is None or before is None:
+        return None
+    square = v * v - 2 * a * (x - before)
+    return math.sqrt(square) if square >= 0 else None
+
+
+def march(
+    case: Case,
+    rules: Rules | None = None,
+    fixed: Mapping[tuple[str, int], float] | None = None,
+    limit: int = 20_000,
+    until: int | None = None,
+) -> dict[str, dict[int, float]]:
+    """All rows of a scheme, with some cells `fixed`, down to the stop velocity or `until` a row.
+
+    >>> rows = march(Case(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10))
+    >>> len(rows["depth"]) - 1, f"{rows['depth'][131] * 1e6:.2f}"
+    (131, '7.67')
+    """
+    rules, fixed = rules or REPORT, fixed or {}
+    columns: dict[str, dict[int, float]] = {role: {} for role in ORDER}
+    rows = Rows(columns, case)
+    columns["velocity_initial"][0] = case.velocity
+    columns["depth"][0] = columns["deceleration"][0] = 0.0
+    for k in range(1, limit + 1):
+        waiting = list(ORDER)
+        for _ in ORDER:  # a rule that needs a later column of the row waits for it
+            for role in list(waiting):
+                value = fixed.get((role, k), rules.value(role, case, rows, k))
+                if value is not None:
+                    columns[role][k] = value
+                    waiting.remove(role)
+        final = columns["velocity_final"].get(k)
+        if final is None or not math.isfinite(final):
+            break
+        if k == until or (until is None and final < case.stop_velocity):
+            break
+    return columns
+
+
+def with_input(case: Case, role: str, value: float) -> Case:
+    """The case with another input, by its name among a workbook's inputs."""
+    if role == "mass":
+        return replace(case, own_mass=value)
+    if role == "diameter":
+        return replace(case, own_diameter=value, radius=value / 2)
+    if role == "radius":
+        return replace(case, radius=value, own_mass=None, own_diameter=None)
+    if role == "particle_density":
+        return replace(case, particle_density=value, own_mass=None)
+    return replace(case, **{role: value})

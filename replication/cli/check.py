@@ -1,0 +1,91 @@
+"""`coldspray check`: somebody's own workbook of the scheme, against the report's sheet."""
+
+import argparse
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from replication.cli import options as shared
+
+if TYPE_CHECKING:
+    from replication.check.findings import Difference
+    from spreadsheets.recalculation import Calculation
+
+HELP = "check somebody's own workbook of the scheme"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    command.add_argument(
+        "file", type=shared.path, metavar="FILE", help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods"
+    )
+    command.add_argument(
+        "--map", action="append", default=[], metavar="NAME=RANGE",
+        help="where a column or an input is: depth=Sheet1!D8:D139, radius=B4",
+    )  # fmt: skip
+    finding_options(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check, and say what was found: 1 if the workbook is not the report's sheet."""
+    check_files(options)
+    from replication.check.findings import KINDS
+    from replication.check.record import check_record
+    from replication.check.workbook import check
+
+    found = check(options.file, _mapping(options.map))
+    record = check_record(found)
+    put(options, record, found.differences, found.calculation, KINDS)
+    return 0 if record["clean"] else 1
+
+
+def _mapping(given: Sequence[str]) -> dict[str, str]:
+    mapping = {}
+    for text in given:
+        name, _, where = text.partition("=")
+        if not where:
+            raise ValueError(f"--map {text[:60]!r}: NAME=RANGE is wanted, such as depth=D8:D139")
+        mapping[name.strip().replace("-", "_")] = where.strip()
+    return mapping
+
+
+# What `diff` does in the same way.
+
+
+def finding_options(command: argparse.ArgumentParser) -> None:
+    """--json, --html, --junit and --quiet: how what was found in a workbook is given."""
+    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument(
+        "--html", type=shared.path, metavar="FILE", help="write a page with the cells marked"
+    )
+    command.add_argument("--junit", type=shared.path, metavar="FILE", help="write a JUnit file")
+    command.add_argument("--quiet", action="store_true", help="print nothing; the status tells")
+
+
+def check_files(options: argparse.Namespace) -> None:
+    """Raise OSError or ValueError, before any work, where a file could not be written."""
+    from spreadsheets.safely import check_target
+
+    targets = [check_target(file) for file in (options.html, options.junit) if file is not None]
+    if len(set(targets)) < len(targets):
+        raise ValueError(f"--html and --junit both name {targets[0]}: give each its own file")
+
+
+def put(
+    options: argparse.Namespace,
+    record: dict[str, Any],
+    differences: "Sequence[Difference]",
+    calculation: "Calculation",
+    kinds: Sequence[str],
+) -> None:
+    """Write the files that were asked for, then print the record as JSON or as text."""
+    from replication.check import page, terminal
+    from spreadsheets.safely import write_bytes
+
+    if options.html is not None:
+        write_bytes(options.html, page.html(record, differences, calculation).encode())
+    if options.junit is not None:
+        write_bytes(options.junit, page.junit(record, kinds).encode())
+    if options.json:
+        shared.print_json(record)
+    elif not options.quiet:
+        print(terminal.text(record))

@@ -1,0 +1,52 @@
+"""`coldspray diff`: two workbooks, their layout, formulas and values."""
+
+import argparse
+
+from replication.cli import options as shared
+from replication.cli.check import check_files, finding_options, put
+from replication.reading import quoted
+
+HELP = "compare two workbooks: layout, formulas and values"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    command.add_argument("first", type=shared.path, metavar="A.xlsx", help="one workbook")
+    command.add_argument("second", type=shared.path, metavar="B.xlsx", help="the other")
+    command.add_argument("--values-only", action="store_true", help="leave formulas aside")
+    command.add_argument(
+        "--ulp", type=shared.whole(0, 10**9), default=0, metavar="N",
+        help="equal if at most N doubles apart",
+    )  # fmt: skip
+    command.add_argument(
+        "--relative", type=_share, default=0.0, metavar="X",
+        help="equal if at most X times the number apart",
+    )  # fmt: skip
+    command.add_argument(
+        "--digits", type=shared.whole(1, 17), metavar="N",
+        help="equal if they print alike to N digits",
+    )  # fmt: skip
+    finding_options(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compare, and say what was found: 1 if anything differs."""
+    check_files(options)
+    from replication.check.diff import KINDS, Tolerance, diff
+    from replication.check.record import diff_record
+
+    allowed = Tolerance(options.ulp, options.relative, options.digits)
+    found = diff(options.first, options.second, values_only=options.values_only, allowed=allowed)
+    record = diff_record(found)
+    put(options, record, found.differences, found.calculations[1], KINDS)
+    return 0 if record["clean"] else 1
+
+
+def _share(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1.0
+    if not 0 <= number <= 1:
+        raise argparse.ArgumentTypeError(f"a number from 0 to 1 is wanted, not {quoted(text)}")
+    return number

@@ -1,0 +1,532 @@
+"""Somebody else's workbook -> its cells: formulas and stored values, read once, within bounds.
+
+The file is hostile until shown otherwise. It is read as a stream by a parser that refuses document
+types (so no entities, inner or outer) and counts what it unpacks; nothing in it is run, looked up
+or followed. openpyxl is not used for this: it fills merged and linked ranges cell by cell, so that
+a file of a kilobyte keeps it busy for hours, and it gives formulas or stored values, not both.
+"""
+
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+from xml.etree import ElementTree as ET
+
+from openpyxl.formula.translate import Translator, TranslatorError
+from openpyxl.utils.cell import column_index_from_string, get_column_letter
+
+__all__ = ["Book", "Cell", "Position", "WorkbookError", "read"]
+
+Position = tuple[str, int, int]
+"""Sheet, row and column, both counted from 1."""
+
+Value = float | str | bool
+
+MAX_FILE = 64 * 2**20
+MAX_UNPACKED = 192 * 2**20
+"""Bytes of a file, packed and unpacked; the largest sheet allowed below takes some 40 MB."""
+MAX_ENTRIES = 10_000
+MAX_CELLS = 400_000
+MAX_FORMULAS = 60_000
+"""A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
+MAX_PART = 8 * 2**20
+"""Bytes of a part that is held as a tree: the list of sheets, names, relations."""
+MAX_TEXT = 32_767
+"""Characters of a cell in Excel."""
+MAX_FORMULA = 8_192
+"""Characters of a formula in Excel."""
+CONVERT_LIMIT_S = 120
+_MEMORY = 4 * 2**30
+"""Bytes that LibreOffice may address; it starts with less than two of the four gigabytes."""
+_SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
+"""How .xls files begin, and encrypted workbooks of any kind."""
+
+_LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
+
+
+class WorkbookError(ValueError):
+    """A file cannot be read as a workbook, or is refused. Its message is one line."""
+
+
+class Cell(NamedTuple):
+    """What a cell holds: a formula with its "=", and the value stored, None if there is none.
+
+    `error` tells an error from a text that spells one; `array` marks a cell of an array formula,
+    whose text stands for the whole range.
+    """
+
+    formula: str | None
+    value: Value | None
+    error: bool = False
+    array: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """The worksheets in their order, cell by (row, column); the names; what else there is."""
+
+    path: Path
+    sheets: Mapping[str, Mapping[tuple[int, int], Cell]]
+    names: Mapping[str, str]
+    notes: tuple[str, ...] = ()
+
+    def __getitem__(self, position: Position) -> Cell:
+        sheet, row, column = position
+        return self.sheets[sheet].get((row, column), _BLANK)
+
+    def cells(self) -> Iterator[tuple[Position, Cell]]:
+        """Every cell that is not blank."""
+        for sheet, cells in self.sheets.items():
+            for (row, column), cell in cells.items():
+                yield (sheet, row, column), cell
+
+
+_BLANK = Cell(None, None)
+
+
+def read(path: Path) -> Book:
+    """Read an .xlsx or .xlsm file; an .xls, .xlsb or .ods file by way of LibreOffice.
+
+    Raises WorkbookError, naming the file, for what is none of them, damaged, or beyond the limits
+    of this module; OSError for what cannot be opened.
+    """
+    if not path.is_file():
+        kind = "is a folder" if path.is_dir() else "is no regular file"
+        raise WorkbookError(f"{path}: {kind if path.exists() else 'there is no such file'}")
+    if path.stat().st_size > MAX_FILE:
+        raise WorkbookError(f"{path}: has more than {MAX_FILE >> 20} MB; {_LIMITS}")
+    if _is_xlsx(path):
+        return _read(path)
+    if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
+        with path.open("rb") as file:
+            sealed = file.read(len(_SEALED)) == _SEALED
+        what = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
+        raise WorkbookError(f"{path}: {what}; an open .xlsx or .xlsm file is wanted")
+    with TemporaryDirectory(prefix="coldspray-") as folder:
+        book = _read(_converted(path, Path(folder)), shown=path)
+    note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
+    return Book(path, book.sheets, book.names, (note, *book.notes))
+
+
+def _is_xlsx(path: Path) -> bool:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
+    except (zipfile.BadZipFile, zlib.error, ValueError):
+        return False
+
+
+def _read(path: Path, shown: Path | None = None) -> Book:
+    shown = shown or path
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return _Reader(archive, shown).book()
+    except WorkbookError as error:
+        raise WorkbookError(f"{shown}: {error}") from error
+    except ET.ParseError as error:
+        raise WorkbookError(f"{shown}: is damaged: its XML is not well formed ({error})") from error
+    except (KeyError, IndexError, ValueError, EOFError, RecursionError) as error:
+        raise WorkbookError(f"{shown}: is damaged: {error}") from error
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
+        raise WorkbookError(f"{shown}: cannot be unpacked: {error}") from error
+
+
+def _converted(path: Path, folder: Path) -> Path:
+    """The same workbook as .xlsx, saved by LibreOffice in a new profile, where macros are off."""
+    soffice = shutil.which("soffice") or shutil.which("libreoffice")
+    if soffice is None:
+        raise WorkbookError(
+            f"{path}: {path.suffix} files are read by way of LibreOffice, which is not installed; "
+            "save it as .xlsx"
+        )
+    if zipfile.is_zipfile(path):
+        _check_unpacked(path)
+    source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
+    command = [
+        soffice, "--headless", "--norestore",
+        f"-env:UserInstallation={(folder / 'profile').as_uri()}",
+        "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source),
+    ]  # fmt: skip
+    for _ in range(2):  # a first run in a new profile may end with a wish to start again
+        _run(command, path)
+        if (folder / "out" / "workbook.xlsx").is_file():
+            return folder / "out" / "workbook.xlsx"
+    raise WorkbookError(f"{path}: LibreOffice cannot open it")
+
+
+def _check_unpacked(path: Path) -> None:
+    left = MAX_UNPACKED
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for name in archive.namelist():
+                with archive.open(name) as stream:
+                    while left >= 0 and (chunk := stream.read(2**20)):
+                        left -= len(chunk)
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
+        raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
+    if left < 0:
+        raise WorkbookError(f"{path}: is refused: it unpacks to too many bytes; {_LIMITS}")
+
+
+def _run(command: list[str], path: Path) -> None:
+    """Run LibreOffice within bounds of time, memory and disk, and leave none of its processes."""
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(
+        command,
+        stdout=quiet,
+        stderr=quiet,
+        start_new_session=True,
+        preexec_fn=_limited if os.name == "posix" else None,
+    ) as process:
+        try:
+            process.wait(CONVERT_LIMIT_S)
+        except subprocess.TimeoutExpired as error:
+            raise WorkbookError(
+                f"{path}: LibreOffice did not open it within {CONVERT_LIMIT_S} s"
+            ) from error
+        finally:
+            if hasattr(os, "killpg"):
+                with suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+            process.kill()
+
+
+def _limited() -> None:
+    """Bound the memory and the file size of a process that is about to start."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
+
+
+class _Reader:
+    """Reads the parts of one file, within one budget of bytes, cells and formulas."""
+
+    def __init__(self, archive: zipfile.ZipFile, path: Path) -> None:
+        if len(archive.namelist()) > MAX_ENTRIES:
+            raise WorkbookError(f"is refused: it holds more than {MAX_ENTRIES:,} parts")
+        self.archive, self.path = archive, path
+        self.parts = {name.lstrip("/"): name for name in archive.namelist()}
+        self.left = MAX_UNPACKED
+        self.cells = self.formulas = 0
+
+    def book(self) -> Book:
+        root = self.relations("")
+        main = next((p for k, p in root.values() if k == "officeDocument"), "xl/workbook.xml")
+        tree, related = self.tree(main), self.relations(main)
+        strings = next((p for k, p in related.values() if k == "sharedStrings"), None)
+        texts = self.texts(strings) if strings in self.parts else []
+        sheets: dict[str, dict[tuple[int, int], Cell]] = {}
+        tables: dict[str, _Table] = {}
+        names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
+        for sheet in tree.iterfind("{*}sheets/{*}sheet"):
+            identity = next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
+            kind, part = related[identity]
+            if kind == "worksheet":
+                name = sheet.attrib["name"]
+                sheets[name] = self.worksheet(part, texts)
+                tables |= self.tables(part, name)
+        if not sheets:
+            raise WorkbookError("has no worksheet")
+        if tables:
+            sheets = {s: _without_tables(s, cells, tables) for s, cells in sheets.items()}
+        return Book(self.path, sheets, _names(tree, names), tuple(self.notes()))
+
+    def notes(self) -> Iterator[str]:
+        if any(part.endswith("vbaProject.bin") for part in self.parts):
+            yield "it holds macros: they are not run"
+        if any("/externalLinks/" in part for part in self.parts):
+            yield "it has links to other files: they are not followed"
+
+    def worksheet(self, part: str, texts: list[str]) -> dict[tuple[int, int], Cell]:
+        target = _Sheet(self, texts)
+        self.parse(part, target)
+        return target.finished()
+
+    def texts(self, part: str) -> list[str]:
+        target = _Strings()
+        self.parse(part, target)
+        return target.texts
+
+    def tables(self, sheet_part: str, sheet: str) -> dict[str, "_Table"]:
+        found = {}
+        for kind, part in self.relations(sheet_part).values():
+            if kind == "table" and part in self.parts:
+                tree = self.tree(part)
+                heads = [c.attrib["name"] for c in tree.iterfind("{*}tableColumns/{*}tableColumn")]
+                corner = _corners(tree.attrib["ref"])[0]
+                found[tree.attrib["displayName"].lower()] = _Table(sheet, corner[1], heads)
+        return found
+
+    def relations(self, part: str) -> dict[str, tuple[str, str]]:
+        """Of a part: identity -> kind and target."""
+        path = PurePosixPath(part)
+        rels = f"{path.parent}/_rels/{path.name}.rels".removeprefix("./") if part else "_rels/.rels"
+        if rels not in self.parts:
+            return {}
+        return {
+            r.attrib["Id"]: (
+                r.attrib["Type"].rpartition("/")[2],
+                _resolved(path.parent, r.attrib["Target"]),
+            )
+            for r in self.tree(rels)
+            if r.attrib.get("TargetMode") != "External"
+        }
+
+    def tree(self, part: str) -> ET.Element:
+        root = self.parse(part, _Tree(), MAX_PART)
+        assert isinstance(root, ET.Element)
+        return root
+
+    def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
+        """Feed a part to a target, counting what comes out of the archive, not what it says."""
+        parser = ET.XMLParser(target=target)
+        taken = 0
+        with self.archive.open(self.parts[part]) as stream:
+            while chunk := stream.read(2**16):
+                self.left -= len(chunk)
+                taken += len(chunk)
+                if self.left < 0 or taken > limit:
+                    raise WorkbookError(f"is refused: it unpacks to too many bytes; {_LIMITS}")
+                parser.feed(chunk)
+        return parser.close()
+
+    def count(self, formula: bool) -> None:
+        self.cells += 1
+        self.formulas += formula
+        if self.cells > MAX_CELLS or self.formulas > MAX_FORMULAS:
+            raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
+
+
+class _Refusing:
+    def doctype(self, *_: object) -> None:
+        raise WorkbookError("is refused: its XML declares a document type, which no workbook needs")
+
+
+class _Tree(_Refusing, ET.TreeBuilder):
+    pass
+
+
+class _Strings(_Refusing):
+    """The shared strings, without what is said about their pronunciation."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+        self.pieces: list[str] = []
+        self.taking = self.aside = False
+
+    def start(self, tag: str, _: Mapping[str, str]) -> None:
+        name = tag.rpartition("}")[2]
+        if name == "si":
+            self.pieces = []
+        self.aside = self.aside or name == "rPh"
+        self.taking = name == "t" and not self.aside
+
+    def data(self, text: str) -> None:
+        if self.taking:
+            self.pieces.append(text)
+
+    def end(self, tag: str) -> None:
+        name = tag.rpartition("}")[2]
+        self.taking = False
+        if name == "rPh":
+            self.aside = False
+        if name == "si":
+            self.texts.append("".join(self.pieces)[:MAX_TEXT])
+
+    def close(self) -> None:
+        pass
+
+
+class _Sheet(_Refusing):
+    """The cells of a worksheet."""
+
+    def __init__(self, reader: _Reader, texts: list[str]) -> None:
+        self.reader, self.texts = reader, texts
+        self.cells: dict[tuple[int, int], Cell] = {}
+        self.masters: dict[str, tuple[str, tuple[int, int]]] = {}
+        self.arrays: list[tuple[str, str]] = []
+        self.row = self.column = 0
+        self.kind = "n"
+        self.formula: Mapping[str, str] | None = None
+        self.pieces: dict[str, list[str]] = {}
+        self.tag = ""
+        self.inside = False
+
+    def start(self, tag: str, attributes: Mapping[str, str]) -> None:
+        name = tag.rpartition("}")[2]
+        if name == "row":
+            self.row, self.column = int(attributes.get("r", self.row + 1)), 0
+        elif name == "c":
+            address = attributes.get("r")
+            if address:
+                self.row, self.column = _corner(address)
+            else:
+                self.column += 1
+            if not (0 < self.row <= 1_048_576 and 0 < self.column <= 16_384):
+                raise WorkbookError(f"is damaged: no cell can be at {address!r}")
+            self.kind = attributes.get("t", "n")
+            self.formula, self.pieces, self.inside = None, {}, True
+        elif self.inside and name == "f":
+            self.formula = dict(attributes)
+        self.tag = name if self.inside else ""
+
+    def data(self, text: str) -> None:
+        if self.tag in ("v", "f", "t"):
+            self.pieces.setdefault(self.tag, []).append(text)
+
+    def end(self, tag: str) -> None:
+        name = tag.rpartition("}")[2]
+        self.tag = ""
+        if name == "c" and self.inside:
+            self.inside = False
+            self.take()
+
+    def take(self) -> None:
+        formula = self.taken_formula()
+        value, error = self.value()
+        if formula is None and value is None:
+            return
+        self.reader.count(formula is not None)
+        array = self.formula is not None and self.formula.get("t") in ("array", "dataTable")
+        self.cells[self.row, self.column] = Cell(formula, value, error, array)
+
+    def taken_formula(self) -> str | None:
+        if self.formula is None:
+            return None
+        text = "".join(self.pieces.get("f", ()))[: MAX_FORMULA + 1]
+        kind, here = self.formula.get("t"), (self.row, self.column)
+        if kind == "shared":
+            index = self.formula.get("si", "")
+            if text:
+                self.masters[index] = text, here
+            elif index in self.masters:
+                master, origin = self.masters[index]
+                try:
+                    moved = Translator(f"={master}", _address(origin)).translate_formula(
+                        _address(here)
+                    )
+                except TranslatorError as error:
+                    raise WorkbookError(f"is damaged: {error} at {_address(here)}") from error
+                return str(moved)
+        if kind == "array" and text:
+            self.arrays.append((self.formula.get("ref", _address(here)), f"={text}"))
+        return f"={text}" if text else None
+
+    def value(self) -> tuple[Value | None, bool]:
+        text = "".join(self.pieces.get("v", ()))
+        if self.kind == "inlineStr":
+            return "".join(self.pieces.get("t", ()))[:MAX_TEXT] or None, False
+        if not text:
+            return None, False
+        match self.kind:
+            case "s":
+                return self.texts[int(text)] or None, False
+            case "b":
+                return text.strip() not in ("0", "false"), False
+            case "e":
+                return text[:MAX_TEXT], True
+            case "str" | "d":
+                return text[:MAX_TEXT], False
+        number = float(text)
+        # A writer that stores nan or inf stores what no engine reads: the same as nothing.
+        return (number, False) if math.isfinite(number) else (None, False)
+
+    def close(self) -> None:
+        pass
+
+    def finished(self) -> dict[tuple[int, int], Cell]:
+        """The cells, with the text of an array formula in each cell that it fills."""
+        for ref, text in self.arrays:
+            (top, left), (bottom, right) = _corners(ref)
+            for place, cell in self.cells.items():
+                if top <= place[0] <= bottom and left <= place[1] <= right:
+                    self.cells[place] = cell._replace(formula=text, array=True)
+        return self.cells
+
+
+def _names(tree: ET.Element, sheets: list[str]) -> dict[str, str]:
+    """Defined names -> what they stand for; those of one sheet as 'Sheet'!name."""
+    names = {}
+    for entry in tree.iterfind("{*}definedNames/{*}definedName"):
+        name, scope = entry.attrib["name"], entry.attrib.get("localSheetId")
+        if name.startswith("_xlnm.") or not entry.text:
+            continue
+        local = f"'{sheets[int(scope)]}'!{name}" if scope is not None else name
+        names[local] = entry.text[:MAX_FORMULA]
+    return names
+
+
+class _Table(NamedTuple):
+    sheet: str
+    column: int
+    heads: list[str]
+
+
+_THIS_ROW = re.compile(
+    r"(?P<table>[^\W\d][\w.]*)?\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)+)\]"
+    r"|@\[?(?P<short>(?:[^\[\]']|'.)+)\]?)\]"
+)
+
+
+def _without_tables(
+    sheet: str, cells: Mapping[tuple[int, int], Cell], tables: Mapping[str, _Table]
+) -> dict[tuple[int, int], Cell]:
+    """The same cells with each "this row" of a table written as the address that it is."""
+
+    def rewritten(place: tuple[int, int], formula: str) -> str:
+        def address(match: re.Match[str]) -> str:
+            table = tables.get((match["table"] or "").lower()) or next(iter(tables.values()))
+            head = re.sub(r"'(.)", r"\1", match["long"] or match["short"])
+            if head not in table.heads or table.sheet != sheet:
+                return match[0]
+            return f"$%s{place[0]}" % get_column_letter(table.column + table.heads.index(head))
+
+        return _THIS_ROW.sub(address, formula)
+
+    return {
+        place: cell._replace(formula=rewritten(place, cell.formula))
+        if cell.formula and "[" in cell.formula
+        else cell
+        for place, cell in cells.items()
+    }
+
+
+def _resolved(folder: PurePosixPath, target: str) -> str:
+    """The part that a relation means; "/" starts at the root, ".." goes up."""
+    parts: list[str] = []
+    for step in (target if target.startswith("/") else f"{folder}/{target}").split("/"):
+        if step == "..":
+            del parts[-1:]
+        elif step not in ("", "."):
+            parts.append(step)
+    return "/".join(parts)
+
+
+_ADDRESS = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
+
+
+def _corner(address: str) -> tuple[int, int]:
+    match = _ADDRESS.fullmatch(address)
+    if match is None:
+        raise WorkbookError(f"is damaged: {address[:20]!r} is no cell")
+    return int(match[2]), column_index_from_string(match[1])
+
+
+def _corners(area: str) -> tuple[tuple[int, int], tuple[int, int]]:
+    first, _, last = area.partition(":")
+    return _corner(first), _corner(last or first)
+
+
+def _address(place: tuple[int, int]) -> str:
+    return f"{get_column_letter(place[1])}{place[0]}"

@@ -1,0 +1,265 @@
+"""A formula as its cell sees it: what it refers to, its shape, and what an engine may be given.
+
+Two formulas have the same shape when the one is the other filled down or across: references become
+distances, as in R1C1 notation (the fingerprints of ExceLint). Names are what they stand for.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import NamedTuple
+
+from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
+from openpyxl.utils.cell import column_index_from_string, get_column_letter
+
+from spreadsheets.foreign import MAX_FORMULA, Position
+
+__all__ = ["Area", "Formula", "parse"]
+
+MAX_DEPTH = 64
+"""Levels of nesting in Excel. One engine ends the process at some thousands."""
+_MAX_EXPANSIONS = 200
+LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
+
+FUNCTIONS = frozenset((
+    "ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN",
+    "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP",
+    "FALSE", "FLOOR", "HLOOKUP", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK",
+    "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH",
+    "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI",
+    "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH",
+    "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH",
+    "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
+))  # fmt: skip
+"""What an engine may be asked for: functions of bounded cost that reach nothing outside."""
+
+
+class Area(NamedTuple):
+    """All cells between two corners, both counted from 1."""
+
+    sheet: str
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    @property
+    def cells(self) -> int:
+        """How many."""
+        return (self.bottom - self.top + 1) * (self.right - self.left + 1)
+
+    @property
+    def corner(self) -> Position:
+        """The first cell."""
+        return self.sheet, self.top, self.left
+
+    def places(self) -> Iterator[Position]:
+        """Each of them, row by row."""
+        for row in range(self.top, self.bottom + 1):
+            for column in range(self.left, self.right + 1):
+                yield self.sheet, row, column
+
+    def covers(self, place: Position) -> bool:
+        """Whether a cell is one of them."""
+        sheet, row, column = place
+        inside = self.top <= row <= self.bottom and self.left <= column <= self.right
+        return sheet == self.sheet and inside
+
+
+class Piece(NamedTuple):
+    """One token: its kind, its text, and the area that it refers to.
+
+    `ends` are the area's rows and columns as they are written, each with whether "$" fixes it.
+    """
+
+    kind: str
+    text: str
+    area: Area | None = None
+    ends: tuple[tuple[int, bool], ...] = ()
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula, parsed at its place. `obstacle` says why no engine may compute it, if so."""
+
+    place: Position
+    pieces: tuple[Piece, ...]
+    obstacle: str | None
+
+    @cached_property
+    def areas(self) -> tuple[Area, ...]:
+        """Everything that it refers to."""
+        return tuple(piece.area for piece in self.pieces if piece.area is not None)
+
+    @cached_property
+    def shape(self) -> tuple[str, ...]:
+        """The same for every cell that it is filled into, piece by piece."""
+        return tuple(self._shape(piece) for piece in self.pieces)
+
+    @cached_property
+    def literals(self) -> tuple[float, ...]:
+        """The numbers that are typed into it."""
+        return tuple(float(piece.text) for piece in self.pieces if piece.kind == "number")
+
+    def reads(self, place: Position) -> bool:
+        """Whether a cell is among what it refers to."""
+        return any(area.covers(place) for area in self.areas)
+
+    def for_engine(self, sheets: Mapping[str, str]) -> str:
+        """The formula with names resolved and every sheet called as `sheets` says."""
+        return "=" + "".join(
+            piece.text if piece.area is None else _written(piece, sheets[piece.area.sheet])
+            for piece in self.pieces
+        )
+
+    def _shape(self, piece: Piece) -> str:
+        if piece.area is None:
+            return piece.text.upper() if piece.kind == "function" else piece.text
+        sheet, row, column = self.place
+        area, here = piece.area, (row, column, row, column)
+        steps = [
+            str(end) if fixed else f"[{end - own}]"
+            for (end, fixed), own in zip(piece.ends, here, strict=True)
+        ]
+        prefix = "" if area.sheet == sheet else f"{area.sheet}!"
+        first = f"{prefix}R{steps[0]}C{steps[1]}"
+        return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
+
+
+def parse(
+    text: str, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
+) -> Formula:
+    """Read a formula at its place.
+
+    `sheets` maps the sheets' names in capitals to the names, `names` the defined names in capitals
+    to what they stand for. Never fails: what cannot be read is an obstacle.
+    """
+    obstacle = _unreadable(text)
+    if obstacle:
+        return Formula(place, (Piece("text", text),), obstacle)
+    reader = _Pieces(place, sheets, names)
+    try:
+        pieces = tuple(reader.read(text))
+    except (TokenizerError, IndexError, ValueError):
+        return Formula(place, (Piece("text", text),), "it cannot be read")
+    return Formula(place, pieces, reader.obstacle)
+
+
+def _unreadable(text: str) -> str | None:
+    if len(text) > MAX_FORMULA:
+        return f"it has more than {MAX_FORMULA:,} characters"
+    depth = deepest = 0
+    for character in text if len(text) > MAX_DEPTH else "":
+        depth += (character in "([{") - (character in ")]}")
+        deepest = max(deepest, depth)
+    return f"it is nested more than {MAX_DEPTH} levels deep" if deepest > MAX_DEPTH else None
+
+
+_CELL = r"(\$?)([A-Za-z]{1,3})(\$?)([1-9][0-9]{0,6})"
+_REFERENCE = re.compile(
+    rf"(?:(?P<sheet>'(?:[^']|'')+'|[^'!\[\]]+)!)?"
+    rf"(?:{_CELL}(?::{_CELL})?|(\$?)([A-Za-z]{{1,3}}):(\$?)([A-Za-z]{{1,3}})"
+    rf"|(\$?)([1-9][0-9]{{0,6}}):(\$?)([1-9][0-9]{{0,6}}))#?"
+)
+
+
+@lru_cache(maxsize=4096)
+def _tokens(text: str) -> tuple[Token, ...]:
+    """The tokens of a formula; names mean the same again and again."""
+    return tuple(Tokenizer(text).items)
+
+
+class _Pieces:
+    """Turns tokens into pieces; `obstacle` collects the first reason not to compute."""
+
+    def __init__(
+        self, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
+    ) -> None:
+        self.place, self.sheets, self.names = place, sheets, names
+        self.obstacle: str | None = None
+        self.expansions = 0
+
+    def read(self, text: str) -> Iterator[Piece]:
+        for token in _tokens(text):
+            yield from self.pieces(token)
+
+    def stop(self, reason: str) -> None:
+        self.obstacle = self.obstacle or reason
+
+    def pieces(self, token: Token) -> Iterator[Piece]:
+        value, kind = token.value, token.type
+        if kind == Token.WSPACE:
+            return
+        if kind == Token.OPERAND and token.subtype == Token.RANGE:
+            yield from self.operand(value)
+        elif kind == Token.OPERAND and token.subtype == Token.NUMBER:
+            yield Piece("number", value)
+        elif kind == Token.FUNC and token.subtype == Token.OPEN:
+            name = value.rstrip("(").upper().removeprefix("_XLFN.").removeprefix("_XLWS.")
+            if name not in FUNCTIONS:
+                self.stop(f"it uses {name[:40]}")
+            yield Piece("function", f"{name}(")
+        else:
+            if kind == Token.ARRAY:
+                self.stop("it holds an array")
+            yield Piece("sign", value)
+
+    def operand(self, value: str) -> Iterator[Piece]:
+        match = _REFERENCE.fullmatch(value)
+        if match is not None and (area := self.area(match)) is not None:
+            yield area
+            return
+        meaning = self.names.get(
+            f"'{self.place[0]}'!{value}".upper(), self.names.get(value.upper())
+        )
+        if meaning is None or self.expansions > _MAX_EXPANSIONS:
+            outside = "[" in value or "|" in value
+            self.stop(
+                "it refers outside the workbook" if outside else f"nothing is called {value[:40]}"
+            )
+            yield Piece("name", value)
+            return
+        self.expansions += 1
+        inner = tuple(self.read(f"={meaning.removeprefix('=')}"))
+        yield from inner if len(inner) == 1 else (Piece("sign", "("), *inner, Piece("sign", ")"))
+
+    def area(self, match: re.Match[str]) -> Piece | None:
+        named = match["sheet"]
+        sheet = self.place[0] if named is None else self.sheets.get(_unquoted(named).upper())
+        if sheet is None:
+            return None
+        g = match.groups()[1:]
+        if g[1] is not None:
+            ends = _ends(g[0:4]) + _ends(g[0:4] if g[5] is None else g[4:8])
+        elif g[9] is not None:
+            ends = _ends(("", g[9], "$", "1")) + _ends(("", g[11], "$", str(LAST_ROW)))
+            ends = (ends[0], (ends[1][0], bool(g[8])), ends[2], (ends[3][0], bool(g[10])))
+        else:
+            ends = (
+                (int(g[13]), bool(g[12])),
+                (1, True),
+                (int(g[15]), bool(g[14])),
+                (LAST_COLUMN, True),
+            )
+        rows, columns = sorted((ends[0][0], ends[2][0])), sorted((ends[1][0], ends[3][0]))
+        if rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
+            return None
+        area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
+        return Piece("area", match[0], area, ends)
+
+
+def _ends(corner: Sequence[str]) -> tuple[tuple[int, bool], tuple[int, bool]]:
+    """Row and column of a corner such as $B$7, given as its four parts, and which are fixed."""
+    return (int(corner[3]), bool(corner[2])), (column_index_from_string(corner[1]), bool(corner[0]))
+
+
+def _unquoted(sheet: str) -> str:
+    return sheet[1:-1].replace("''", "'") if sheet.startswith("'") else sheet
+
+
+def _written(piece: Piece, sheet: str) -> str:
+    area = piece.area
+    assert area is not None
+    first = f"{sheet}!{get_column_letter(area.left)}{area.top}"
+    return first if area.cells == 1 else f"{first}:{get_column_letter(area.right)}{area.bottom}"

@@ -1,0 +1,216 @@
+"""Layouts drawn at random: heads, units, order, place and helpers that nobody chose by hand."""
+
+import random
+
+from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters
+
+from replication.models.impact import Impact
+
+HEADS = {
+    TIME: ["t", "Time", "time (UNIT)", "Zeit [UNIT]", "temps (UNIT)", "t [UNIT]", "t/UNIT", "Zeit"],
+    START: [
+        "v_i", "dx/dt initial", "initial velocity (UNIT)", "Anfangsgeschwindigkeit [UNIT]",
+        "vitesse initiale (UNIT)", "v alt", "speed at start, UNIT", "v_start [UNIT]",
+    ],
+    DEPTH: [
+        "x", "depth (UNIT)", "Eindringtiefe [UNIT]", "profondeur de pénétration (UNIT)",
+        "penetration", "x in UNIT", "Tiefe", "enfoncement [UNIT]",
+    ],
+    BRAKE: [
+        "a", "d²x/dt²", "deceleration (UNIT)", "Verzögerung [UNIT]", "décélération (UNIT)",
+        "Bremsung", "acceleration", "a [UNIT]",
+    ],
+    END: [
+        "v_f", "dx/dt final", "final velocity (UNIT)", "Endgeschwindigkeit [UNIT]",
+        "vitesse finale (UNIT)", "v neu", "speed at end, UNIT", "v_end [UNIT]",
+    ],
+}  # fmt: skip
+UNITS = {
+    TIME: [("s", ""), ("ns", "1000000000"), ("µs", "1000000")],
+    DEPTH: [("m", ""), ("µm", "1000000"), ("mm", "1000"), ("nm", "1000000000")],
+    BRAKE: [("m/s²", ""), ("m/s^2", ""), ("km/s2", "0.001")],
+}
+LABELS = {
+    "radius": ["R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"],
+    "particle_density": [
+        "density of particle",
+        "rho_p",
+        "Dichte Kupfer",
+        "masse volumique Cu",
+        "ρp",
+    ],
+    "target_density": ["density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"],
+    "velocity": ["V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"],
+    "resistance": ["R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"],
+    "step": ["dt", "time step", "Zeitschritt", "pas de temps", "Δt"],
+}
+INPUT_UNITS = {
+    "radius": [("m", ""), ("µm", "*0.000001"), ("mm", "/1000")],
+    "particle_density": [("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")],
+    "target_density": [("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")],
+    "velocity": [("m/s", ""), ("km/s", "*1000")],
+    "resistance": [("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")],
+    "step": [("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")],
+}
+FACTORS = {
+    "": 1, "*0.000001": 1e-6, "/1000": 1e-3, "*1000": 1e3, "*1000000000": 1e9, "*1000000": 1e6,
+    "/1000000000": 1e-9, "/1000000000000": 1e-12,
+}  # fmt: skip
+
+
+def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from top to bottom)
+    """A workbook of that seed: everything about it is drawn, but what it calculates."""
+    r = random.Random(seed)
+    f = Foreign(f"random-{seed}", impact, si=False)
+    sheet = r.choice(["Sheet1", "Tabelle1", "Feuil1", "sim", "my sheet", "v=500"])
+    data = sheet if r.random() < 0.7 else "Inputs"
+    across = r.random() < 0.2
+    table, corner = r.randrange(12, 30), r.randrange(1, 5)
+    with_units = r.choice(["head", "row", "none"])
+    simple = with_units == "none"
+
+    def at(line: int, along: int) -> str:
+        """The cell of a line of the table, `along` cells from its heads."""
+        return (
+            f"{letters(corner + along)}{table + line}"
+            if across
+            else f"{letters(corner + line)}{table + along}"
+        )
+
+    si = _inputs(f, r, data, simple)
+    prefix = "" if data == sheet else f"{data}!"
+    si = {name: cell.replace("$", f"{prefix}$", 1) for name, cell in si.items()}
+    order = [TIME, START, DEPTH, BRAKE, END]
+    if r.random() < 0.3:
+        order.remove(TIME)
+    if r.random() < 0.4:
+        r.shuffle(order)
+    helpers = [h for h in ("area", "energy", "n") if r.random() < 0.3]
+    lines = order + helpers
+    if "n" in helpers and r.random() < 0.5:
+        lines = ["n", *[name for name in lines if name != "n"]]
+    gap = 2 if r.random() < 0.15 else 1
+    line = {name: i * gap for i, name in enumerate(lines)}
+    units = {
+        role: ("m/s", "") if simple or role not in UNITS else r.choice(UNITS[role])
+        for role in order
+    }
+    if simple:
+        units = {role: (UNITS.get(role, [("m/s", "")])[0]) for role in order}
+    first = 2 if with_units == "row" else 1
+    for name in lines:
+        head = (
+            r.choice(HEADS[name])
+            if name in HEADS
+            else {"area": "A(x)", "energy": "E_kin", "n": "n"}[name]
+        )
+        unit = units[name][0] if name in units else ""
+        if with_units != "head":
+            bare = head
+            for mark in (" (UNIT)", " [UNIT]", "/UNIT", " in UNIT", ", UNIT"):
+                bare = bare.replace(mark, "")
+            head = bare
+        f.put(
+            sheet,
+            at(line[name], 0),
+            head.replace("UNIT", f"({unit})" if "/UNIT" in head and "/" in unit else unit),
+        )
+        if with_units == "row" and unit:
+            f.put(sheet, at(line[name], 1), unit)
+    negative = r.random() < 0.2 and BRAKE in order
+
+    def cell(name: str, k: int) -> str:
+        return at(line[name], first + k)
+
+    def inner(name: str, k: int) -> str:
+        """The cell's value in SI."""
+        factor = units[name][1]
+        return f"{cell(name, k)}/{factor}" if factor else cell(name, k)
+
+    def outer(name: str, text: str) -> str:
+        factor = units[name][1]
+        return f"=({text})*{factor}" if factor else f"={text}"
+
+    minus = "-" if negative else ""
+    for k in range(f.steps + 1):
+        values: dict[str, str | float] = {}
+        if TIME in order:
+            values[TIME] = outer(TIME, f"{inner(TIME, k - 1)}+{si['step']}") if k else 0
+        values[START] = f"={si['velocity']}" if k < 2 else f"={cell(END, k - 1)}"
+        v = cell(START, k)
+        if k == 0:
+            values |= {DEPTH: 0, BRAKE: 0}
+        else:
+            x = inner(DEPTH, k)
+            moved = f"{v}*{si['step']}/2" if k == 1 else f"{inner(DEPTH, k - 1)}+{v}*{si['step']}"
+            values[DEPTH] = outer(DEPTH, moved)
+            area = f"(2*{si['radius']}*({x})-({x})^2)"
+            if "area" in helpers:
+                values["area"] = f"=PI()*{area}"
+                area = cell("area", k)
+            else:
+                area = f"PI()*{area}"
+            force = f"(0.5*{si['target_density']}*{v}^2+{si['resistance']})*{area}"
+            values[BRAKE] = outer(BRAKE, f"{minus}{force}/{si['mass']}")
+            sign = "+" if negative else "-"
+            values[END] = f"={v}{sign}{inner(BRAKE, k)}*{si['step']}"
+        if "energy" in helpers:
+            values["energy"] = f"=0.5*{si['mass']}*{v}^2"
+        if "n" in helpers:
+            values["n"] = k
+        for name, content in values.items():
+            f.put(sheet, cell(name, k), content)
+            if name in order:
+                column, row = _split(cell(name, k))
+                f.where[name, k] = (sheet, row, column)
+    return f
+
+
+def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str, str]:
+    """Write the inputs; the cell that holds each in SI, absolute."""
+    row, col = r.randrange(1, 3), r.randrange(1, 8)
+    beside = r.random() < 0.5
+    flat = not beside and r.random() < 0.4 and not simple
+    order = list(LABELS)
+    r.shuffle(order)
+    values = {
+        "radius": f.impact.radius, "particle_density": f.impact.particle_density,
+        "target_density": f.impact.target_density, "velocity": f.impact.velocity,
+        "resistance": f.impact.target_resistance, "step": f.impact.step,
+    }  # fmt: skip
+    si = {}
+    for i, name in enumerate(order):
+        unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
+        value = float(f"{values[name] / FACTORS[conversion]:.12g}")
+        label = r.choice(LABELS[name])
+        if flat:
+            f.put(sheet, f"{letters(col + i)}{row}", f"{label} [{unit}]")
+            here = f"{letters(col + i)}{row + 1}"
+        else:
+            f.put(
+                sheet,
+                f"{letters(col)}{row + i}",
+                label if simple or beside else f"{label} [{unit}]",
+            )
+            here = f"{letters(col + 1)}{row + i}"
+            if beside and not simple:
+                f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
+        f.put(sheet, here, value)
+        column, at = _split(here)
+        f.inputs[name] = (sheet, at, column)
+        absolute = f"${letters(column)}${at}"
+        si[name] = f"({absolute}{conversion})" if conversion else absolute
+    mass = f"{letters(col + (7 if flat else 1))}{row + (1 if flat else 7)}"
+    label = f"{letters(col + (7 if flat else 0))}{row + (0 if flat else 7)}"
+    f.put(sheet, label, "mass [kg]")
+    f.put(sheet, mass, f"={si['particle_density']}*4/3*PI()*{si['radius']}^3")
+    column, at = _split(mass)
+    return si | {"mass": f"${letters(column)}${at}"}
+
+
+def _split(address: str) -> tuple[int, int]:
+    text = address.rstrip("0123456789")
+    number = 0
+    for letter in text:
+        number = number * 26 + ord(letter) - ord("A") + 1
+    return number, int(address[len(text) :])

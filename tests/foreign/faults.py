@@ -1,0 +1,334 @@
+"""Faults to plant in a foreign workbook, and where and as what each ought to be found."""
+
+import copy
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters
+
+Values = dict[Place, float | str | bool]
+
+
+@dataclass
+class Planted:
+    """A spoiled workbook: the kind that ought to be named, at which cell, or one of some cells."""
+
+    fault: str
+    kind: str
+    workbook: Foreign
+    cells: tuple[Place, ...]
+    wrong: Values = field(default_factory=dict)
+    status: int = 1
+
+
+def ref(place: Place) -> str:
+    return f"{letters(place[2])}{place[1]}"
+
+
+def _copy(f: Foreign) -> Foreign:
+    return copy.deepcopy(f)
+
+
+def _formula(f: Foreign, role: str, k: int) -> str | None:
+    place = f.where.get((role, k))
+    content = f.cells.get(place) if place else None
+    return content if isinstance(content, str) and content.startswith("=") else None
+
+
+def stale_value(f: Foreign, values: Values) -> Planted | None:
+    """One stored value is not what its formula gives."""
+    if _formula(f, BRAKE, 60) is None:
+        return None
+    place = f.where[BRAKE, 60]
+    value = values[place]
+    assert isinstance(value, float)
+    return Planted("stale value", "stale value", f, (place,), {place: value * (1 + 1e-11)})
+
+
+def typed_number(f: Foreign, values: Values) -> Planted | None:
+    """A number over a formula, half a percent off."""
+    if _formula(f, DEPTH, 40) is None:
+        return None
+    g, place = _copy(f), f.where[DEPTH, 40]
+    value = values[place]
+    assert isinstance(value, float)
+    g.cells[place] = float(f"{value * 1.005:.6g}")
+    return Planted("typed number", "typed number", g, (place,))
+
+
+def typed_right_number(f: Foreign, values: Values) -> Planted | None:
+    """The right number over a formula: wrong as soon as an input changes."""
+    role = END if (END, 77) in f.where else START
+    if _formula(f, role, 77) is None:
+        return None
+    g, place = _copy(f), f.where[role, 77]
+    value = values[place]
+    assert isinstance(value, float)
+    g.cells[place] = value
+    return Planted("typed number, right value", "typed number", g, (place,))
+
+
+def odd_formula(f: Foreign, _: Values) -> Planted | None:
+    """A formula copied without its references moving: it reads the row before."""
+    text = _formula(f, DEPTH, 52)
+    before = _formula(f, DEPTH, 51)
+    if text is None or before is None or text == before:
+        return None
+    g = _copy(f)
+    g.cells[f.where[DEPTH, 52]] = before
+    return Planted("odd formula", "odd formula", g, (f.where[DEPTH, 52],))
+
+
+def odd_sign(f: Foreign, _: Values) -> Planted | None:
+    """One formula with another factor in it."""
+    text = _formula(f, BRAKE, 33)
+    if text is None:
+        return None
+    g = _copy(f)
+    g.cells[f.where[BRAKE, 33]] = f"=({text[1:]})*1.01"
+    return Planted("odd formula, factor", "odd formula", g, (f.where[BRAKE, 33],))
+
+
+def _constants(f: Foreign) -> list[tuple[str, str, str]]:
+    """Inputs as a formula may name them: role, its reference, its value as typed."""
+    found = []
+    for role, place in f.inputs.items():
+        cell, value = f"${letters(place[2])}${place[1]}", f"{f.cells[place]!r}"
+        names = [name for name, meaning in f.names.items() if meaning.rpartition("!")[2] == cell]
+        references = [cell, f"{place[0]}!{cell}", f"'{place[0]}'!{cell}", *names]
+        found += [(role, reference, value) for reference in references]
+    return sorted(found, key=lambda entry: -len(entry[1]))
+
+
+def _typed(f: Foreign, text: str) -> str | None:
+    for role, reference, value in _constants(f):
+        if role in ("beta", "stop_velocity"):
+            continue
+        pattern = rf"(?<![\w$!']){re.escape(reference)}(?![\w$])"
+        if re.search(pattern, text):
+            number = f"{float(value):.15f}".rstrip("0").rstrip(".") if "e" in value else value
+            return re.sub(pattern, number, text)
+    return None
+
+
+def typed_constant(f: Foreign, _: Values) -> Planted | None:
+    """An input's value in place of its cell, in one formula."""
+    text = _formula(f, BRAKE, 45)
+    changed = _typed(f, text) if text else None
+    if changed is None:
+        return None
+    g = _copy(f)
+    g.cells[f.where[BRAKE, 45]] = changed
+    return Planted("typed constant, one cell", "typed constant", g, (f.where[BRAKE, 45],))
+
+
+def typed_column(f: Foreign, _: Values) -> Planted | None:
+    """An input's value in place of its cell, in a whole column."""
+    g, cells = _copy(f), []
+    for k in range(1, f.steps + 1):
+        text = _formula(f, BRAKE, k)
+        changed = _typed(f, text) if text else None
+        if changed:
+            cells.append(f.where[BRAKE, k])
+            g.cells[f.where[BRAKE, k]] = changed
+    return Planted("typed constant, column", "typed constant", g, (cells[0],)) if cells else None
+
+
+def operation_order(f: Foreign, _: Values) -> Planted | None:
+    """The same product from its other end, which changes last digits."""
+    g, changed = _copy(f), False
+    for k in range(1, f.steps + 1):
+        text = _formula(f, BRAKE, k)
+        match = re.fullmatch(r"=(-?\(.*?\))\*PI\(\)\*(\(.*\))/([^/()]+)", text or "")
+        if match is None or not f.si:
+            return None
+        g.cells[f.where[BRAKE, k]] = f"={match[1]}/{match[3]}*({match[2]}*PI())"
+        changed = True
+    cells = tuple(f.where[BRAKE, k] for k in range(1, f.steps + 1))
+    return Planted("operation order", "operation order", g, cells) if changed else None
+
+
+def no_half_step(f: Foreign, _: Values) -> Planted | None:
+    """The first step as long as the others."""
+    text = _formula(f, DEPTH, 1)
+    if text is None:
+        return None
+    for half, whole in (("/2", ""), ("*0.0000000001", "*0.0000000002")):
+        if text.count(half) >= 1:
+            at = text.index(half)
+            g = _copy(f)
+            g.cells[f.where[DEPTH, 1]] = text[:at] + whole + text[at + len(half) :]
+            return Planted("no half step", "other scheme", g, (f.where[DEPTH, 1],))
+    return None
+
+
+def middle_velocity(f: Foreign, _: Values) -> Planted | None:
+    """The drag at the velocity in the middle of the step."""
+    g = _copy(f)
+    step = _step(f)
+    if step is None:
+        return None
+    for k in range(1, f.steps + 1):
+        text = _formula(f, BRAKE, k)
+        helped = "A(x)" in f.cells.values() or "force" in f.cells.values()
+        if text is None or helped or not f.si or (START, k) not in f.where:
+            return None
+        v = ref(f.where[START, k])
+        sign = "+" if text.startswith("=-") else "-"
+        inner = text[1:]
+        middle = f"({v}{sign}({inner})*{step}/2)"
+        guarded = re.fullmatch(r"=IF\((ISNUMBER\(\w+\)),(.*),\"\"\)", text)
+        if guarded:
+            inner = guarded[2]
+            middle = f"({v}{sign}({inner})*{step}/2)"
+            changed = re.sub(rf"(?<![\w$]){v}(?!\d)", middle, inner)
+            g.cells[f.where[BRAKE, k]] = f'=IF({guarded[1]},{changed},"")'
+        else:
+            g.cells[f.where[BRAKE, k]] = "=" + re.sub(rf"(?<![\w$]){v}(?!\d)", middle, inner)
+    return Planted("middle velocity", "other scheme", g,
+                   tuple(f.where[BRAKE, k] for k in (1, 2, 3)))  # fmt: skip
+
+
+def _step(f: Foreign) -> str | None:
+    if "step" not in f.inputs:
+        return "0.0000000002"
+    place = f.inputs["step"]
+    for name, meaning in f.names.items():
+        if meaning.rpartition("!")[2] == f"${letters(place[2])}${place[1]}":
+            return name
+    return f"${letters(place[2])}${place[1]}"
+
+
+def explicit_euler(f: Foreign, _: Values) -> Planted | None:
+    """The depth moves on by the velocity of the row before."""
+    g, cells = _copy(f), []
+    for k in range(2, f.steps + 1):
+        text = _formula(f, DEPTH, k)
+        if text is None:
+            return None
+        if (START, k) not in f.where:
+            return None
+        now, before = ref(f.where[START, k]), ref(f.where[START, k - 1])
+        changed = re.sub(rf"(?<![\w$]){now}(?!\d)", before, text)
+        if changed == text:
+            return None
+        g.cells[f.where[DEPTH, k]] = changed
+        cells.append(f.where[DEPTH, k])
+    # In row 2 the velocity of the row before is still nearly the same: row 2 or 3 shows it.
+    return Planted("explicit Euler", "other scheme", g, tuple(cells[:3]))
+
+
+def drag_without_half(f: Foreign, _: Values) -> Planted | None:
+    """The factor 1/2 of the drag left out."""
+    g = _copy(f)
+    for k in range(1, f.steps + 1):
+        text = _formula(f, BRAKE, k)
+        if text is None or "0.5*" not in text:
+            return None
+        g.cells[f.where[BRAKE, k]] = text.replace("0.5*", "", 1)
+    return Planted("drag without 1/2", "other scheme", g, (f.where[BRAKE, 1],))
+
+
+def early_stop(f: Foreign, _: Values) -> Planted | None:
+    """The last nine rows are missing."""
+    if _formula(f, DEPTH, 40) is None or f.name in ("guarded", "side-by-side"):
+        return None
+    g = _copy(f)
+    for (role, k), place in f.where.items():
+        if k > f.steps - 9:
+            del g.cells[place]
+            del g.where[role, k]
+    for place in _beside(f, f.steps - 8, f.steps):
+        g.cells.pop(place, None)
+    for place, content in list(g.cells.items()):  # results that read the last row read the new one
+        last = f.where[DEPTH, f.steps]
+        if isinstance(content, str) and content == f"={ref(last)}":
+            g.cells[place] = f"={ref(f.where[DEPTH, f.steps - 9])}"
+    role = END if (END, 40) in f.where else START
+    return Planted("stop at another velocity", "other scheme", g,
+                   (f.where[role, f.steps - 9],))  # fmt: skip
+
+
+def _beside(f: Foreign, first: int, last: int) -> list[Place]:
+    """Helpers in the same rows (or columns) of the table."""
+    sheet, row, _ = f.where[DEPTH, 1]
+    across = f.where[DEPTH, 2][1] == row
+    low, high = f.where[DEPTH, first], f.where[DEPTH, last]
+    along = 2 if across else 1
+    return [
+        p for p in f.cells if p[0] == sheet and low[along] <= p[along] <= high[along]
+        and p not in f.inputs.values()
+    ]  # fmt: skip
+
+
+def wrong_head(f: Foreign, _: Values) -> Planted | None:
+    """A head that says millimetres over metres, or micrometres."""
+    place = f.where[DEPTH, 1]
+    across = f.where[DEPTH, 2][1] == place[1]
+    for back in range(1, 4):
+        here = (place[0], place[1], place[2] - back - 1) if across else (
+            place[0], place[1] - back - 1, place[2])  # fmt: skip
+        text = f.cells.get(here)
+        if isinstance(text, str) and not text.startswith("="):
+            for old, new in (("µm", "mm"), ("(m)", "(mm)"), ("[m]", "[mm]"), ("in m", "in mm"),
+                             (" / m", " / mm"), ("nm", "µm"), ("mm", "µm")):  # fmt: skip
+                if old in text or (text == old.strip("()[]") == "m"):
+                    g = _copy(f)
+                    g.cells[here] = text.replace(old, new) if old in text else "mm"
+                    return Planted("unit in a head", "unit", g, (here,))
+    return None
+
+
+def wrong_unit_input(f: Foreign, _: Values) -> Planted | None:
+    """The radius a thousand times too large, as if its cell were in millimetres."""
+    place = f.inputs.get("radius")
+    if place is None:
+        return None
+    value = f.cells[place]
+    if not isinstance(value, float | int) or _formula(f, DEPTH, 3) is None:
+        return None
+    g = _copy(f)
+    g.cells[place] = float(f"{value * 1000:.12g}")
+    return Planted("unit of an input", "unit", g, (place,))
+
+
+def other_velocity(f: Foreign, _: Values) -> Planted | None:
+    """Not the report's impact velocity, all else right."""
+    place = f.inputs.get("velocity")
+    if place is None or _formula(f, DEPTH, 3) is None or f.name == "guarded":
+        return None
+    layout = next((layout for layout in BY_HAND if layout(f.impact).name == f.name), None)
+    g = layout(replace(f.impact, velocity=450.0)) if layout else f
+    if g.cells[g.inputs["velocity"]] != 450.0:
+        return None  # its velocity is typed in another unit
+    return Planted("other input", "other input", g, (g.inputs["velocity"],), status=0)
+
+
+def misprint(f: Foreign, _: Values) -> Planted | None:
+    """A final depth typed beside the table, with two digits swapped."""
+    if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
+        return None
+    g = _copy(f)
+    labels = [
+        p
+        for p, t in f.cells.items()
+        if isinstance(t, str) and t.startswith(("Endtiefe", "Final depth"))
+    ]
+    if labels:
+        sheet, row, column = labels[0]
+        unit = 1 if "µm" in str(f.cells[labels[0]]) else 1e-6
+        g.cells[sheet, row, column + 1] = 7.76 * unit
+    else:
+        sheet, _, _ = f.where[DEPTH, 1]
+        row, column = max(p[1] for p in f.cells if p[0] == sheet) + 3, 2
+        g.cells[sheet, row, column] = "final depth (µm)"
+        g.cells[sheet, row, column + 1] = 7.76
+    return Planted("misprint", "printed number", g, ((sheet, row, column + 1),))
+
+
+FAULTS: tuple[Callable[[Foreign, Values], Planted | None], ...] = (
+    stale_value, typed_number, typed_right_number, odd_formula, odd_sign, typed_constant,
+    typed_column, operation_order, no_half_step, middle_velocity, explicit_euler,
+    drag_without_half, early_stop, wrong_head, wrong_unit_input, other_velocity, misprint,
+)  # fmt: skip

@@ -1,0 +1,135 @@
+"""How well `coldspray check` does on workbooks that it has not made.
+
+`python tests/foreign/rates.py` prints the tables of docs/check.md; the tests measure them again.
+"""
+
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from foreign import writers
+from foreign.drawn import drawn
+from foreign.faults import FAULTS, Planted
+from foreign.layouts import Foreign, by_hand
+
+from replication.cases import BETA_3, BETA_5
+from replication.check.workbook import Check, check
+
+DRAWN = range(24)
+CASES = (BETA_5, BETA_3)
+
+
+def right(made_by: str, folder: Path) -> list[tuple[str, bool]]:
+    """Right workbooks as one program writes them: each by name, and whether it is clean."""
+    if made_by.startswith("LibreOffice"):
+        kind = made_by.rpartition(".")[2]
+        books = by_hand(BETA_5)[: 20 if kind == "xlsx" else 8]
+        plain = [writers.with_openpyxl(f, folder / f"{f.name}.xlsx") for f in books]
+        return [(f.name, clean(f, path)) for f, path in zip(
+            books, writers.with_libreoffice(plain, folder, kind), strict=True)]  # fmt: skip
+    found = []
+    for f in workbooks(made_by):
+        path = folder / f"{f.name}.xlsx"
+        if made_by == "like Excel":
+            writers.with_xlsxwriter(f, path, writers.calculated(f, folder / "plain.xlsx"))
+        else:
+            writers.with_openpyxl(f, path)
+        found.append((f.name, clean(f, path)))
+    return found
+
+
+def workbooks(made_by: str) -> Iterator[Foreign]:
+    for impact in CASES:
+        yield from by_hand(impact)
+    if made_by == "openpyxl":
+        yield from (drawn(seed, CASES[seed % 2]) for seed in DRAWN)
+
+
+def clean(f: Foreign, path: Path) -> bool:
+    """Whether a right workbook is clean, its columns and inputs taken for what they are."""
+    found = check(path)
+    setting = found.verdicts[0].setting
+    columns = all(
+        role in setting.table.lines and setting.table.place(role, k) == place
+        for (role, k), place in f.where.items()
+    )
+    inputs = all(setting.inputs[name].place == place for name, place in f.inputs.items())
+    return found.first is None and columns and inputs
+
+
+@cache
+def to_spoil() -> list[tuple[Foreign, writers.Values]]:
+    """The workbooks that faults are planted in, with the values of their formulas."""
+    books = (*by_hand(BETA_5), *(drawn(seed, CASES[seed % 2]) for seed in DRAWN[:6]))
+    with tempfile.TemporaryDirectory() as folder:
+        return [(f, writers.calculated(f, Path(folder, "plain.xlsx"))) for f in books]
+
+
+def planted(
+    plant: Callable[..., Planted | None], folder: Path
+) -> tuple[str, list[tuple[str, bool, bool]]]:
+    """One fault in every workbook that can have it: its name; each workbook, found, found alone.
+
+    Found: named rightly, placed on the right cell, called the first; alone: nothing else accused.
+    """
+    fault, found = "", []
+    for f, values in to_spoil():
+        spoiled = plant(f, values)
+        if spoiled is not None:
+            path = folder / "spoiled.xlsx"
+            if spoiled.wrong:
+                writers.with_xlsxwriter(spoiled.workbook, path, values, spoiled.wrong)
+            else:
+                writers.with_openpyxl(spoiled.workbook, path)
+            fault = spoiled.fault
+            done = check(path)
+            found.append((f.name, _found(spoiled, done), len(done.causes) <= 1))
+    return fault, found
+
+
+def _found(spoiled: Planted, done: Check) -> bool:
+    if spoiled.status:
+        first = done.first
+        return first is not None and first.kind == spoiled.kind and first.place in spoiled.cells
+    said = any(d.kind == spoiled.kind and d.place in spoiled.cells for d in done.differences)
+    return said and done.first is None
+
+
+WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "LibreOffice .xls")
+
+
+def right_row(made_by: str, folder: Path) -> tuple[str, list[str]]:
+    """A row of the first table, and the workbooks that are not clean."""
+    found = right(made_by, folder)
+    missed = [name for name, good in found if not good]
+    return f"| {made_by} | {len(found)} | {len(found) - len(missed)} |", missed
+
+
+def planted_row(plant: Callable[..., Planted | None], folder: Path) -> tuple[str, list[str]]:
+    """A row of the second table, and the workbooks in which the fault is not found."""
+    fault, found = planted(plant, folder)
+    missed = [name for name, good, _ in found if not good]
+    alone = sum(lone for *_, lone in found)
+    return f"| {fault} | {len(found)} | {len(found) - len(missed)} | {alone} |", missed
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        print("| made by | right workbooks | clean |\n|---|---|---|")
+        for made_by in WRITERS:
+            if shutil.which("soffice") or not made_by.startswith("LibreOffice"):
+                print(right_row(made_by, folder)[0], flush=True)
+        print("\n| planted | workbooks | found, named and placed | nothing else accused |")
+        print("|---|---|---|---|")
+        for plant in FAULTS:
+            print(planted_row(plant, folder)[0], flush=True)
+
+
+if __name__ == "__main__":
+    main()

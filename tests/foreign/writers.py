@@ -1,0 +1,95 @@
+"""Files of foreign workbooks, as the programs of other people write them."""
+
+import os
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from foreign.layouts import Foreign, Place
+
+Values = dict[Place, float | str | bool]
+
+
+def with_openpyxl(f: Foreign, path: Path) -> Path:
+    """Formulas without stored values, as scripts write them."""
+    from openpyxl import Workbook
+    from openpyxl.workbook.defined_name import DefinedName
+
+    book = Workbook()
+    book.remove(book.active)
+    for (sheet, row, column), content in f.cells.items():
+        if sheet not in book.sheetnames:
+            book.create_sheet(sheet)
+        book[sheet].cell(row, column, content)
+    for name, meaning in f.names.items():
+        book.defined_names[name] = DefinedName(name, attr_text=meaning)
+    book.save(path)
+    return path
+
+
+def calculated(f: Foreign, path: Path) -> Values:
+    """What each formula gives, by an engine that the program under test does not use."""
+    from spreadsheets.engines import engine
+    from spreadsheets.engines.base import address
+
+    found = engine("formualizer").recalculate(with_openpyxl(f, path))
+    return {
+        place: found[place[0]][address(place[1], place[2])]
+        for place in f.cells
+        if address(place[1], place[2]) in found[place[0]]
+    }
+
+
+def with_xlsxwriter(f: Foreign, path: Path, values: Values, wrong: Values | None = None) -> Path:
+    """Formulas with their values, all 17 digits, as Excel stores them; some of them `wrong`."""
+    import xlsxwriter
+
+    with xlsxwriter.Workbook(path) as book:
+        sheets = {}
+        for (sheet, row, column), content in f.cells.items():
+            if sheet not in sheets:
+                sheets[sheet] = book.add_worksheet(sheet)
+            place = sheets[sheet], row - 1, column - 1
+            if isinstance(content, str) and content.startswith("="):
+                value = {**values, **(wrong or {})}.get((sheet, row, column), "")
+                exact = _Number(value) if isinstance(value, float) else value
+                place[0].write_formula(place[1], place[2], content, value=exact)
+            elif isinstance(content, str):
+                place[0].write_string(place[1], place[2], content)
+            else:
+                place[0].write_number(place[1], place[2], _Number(content))
+        for name, meaning in f.names.items():
+            book.define_name(name, f"={meaning}")
+    return path
+
+
+class _Number(float):
+    """A float that is written with all its digits, not with the writer's 16."""
+
+    def __format__(self, _: str) -> str:
+        return repr(float(self))
+
+    __str__ = float.__repr__
+
+
+def require_libreoffice() -> None:
+    """Skip the test where LibreOffice is missing; fail it where it must not be."""
+    if shutil.which("soffice") is None:
+        assert os.environ.get("COLDSPRAY_REQUIRE_ENGINES") != "1"
+        pytest.skip("LibreOffice is not installed")
+
+
+def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
+    """The same workbooks, calculated and saved by LibreOffice in one run."""
+    soffice = shutil.which("soffice")
+    assert soffice is not None
+    profile = f"-env:UserInstallation={(folder / 'profile').as_uri()}"
+    command = [soffice, "--headless", "--norestore", profile, "--convert-to", kind, "--outdir",
+               str(folder / "out"), *map(str, paths)]  # fmt: skip
+    for _ in range(2):
+        subprocess.run(command, check=False, capture_output=True, timeout=300)
+        if all((folder / "out" / f"{path.stem}.{kind}").is_file() for path in paths):
+            break
+    return [folder / "out" / f"{path.stem}.{kind}" for path in paths]

@@ -1,0 +1,421 @@
+"""`coldspray check` on single workbooks: what it takes for what, what it says, how it ends."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import html5lib
+import pytest
+from foreign import layouts, writers
+from foreign.drawn import drawn
+from foreign.layouts import BRAKE, DEPTH, END, START, Foreign
+from foreign.writers import require_libreoffice
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from reference.ledger import load
+from replication.cases import BETA_3, BETA_5
+from replication.check.findings import KINDS
+from replication.check.printed import report_inputs
+from replication.check.record import check_record, safe
+from replication.check.scheme import BRAKES, REPORT, Case, march
+from replication.check.words import COLUMNS, INPUTS
+from replication.check.workbook import check
+from replication.models import sheet as midpoint
+from replication.models.impact import Impact
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+def written(f: Foreign, folder: Path) -> Path:
+    return writers.with_openpyxl(f, folder / f"{f.name}.xlsx")
+
+
+@pytest.fixture
+def spoiled(tmp_path: Path) -> Path:
+    """A workbook with one number typed over a formula."""
+    f = layouts.french(BETA_5)
+    f.cells[f.where[DEPTH, 40]] = 3.7e-6
+    return written(f, tmp_path)
+
+
+# ---- the rules against the models
+
+
+@pytest.mark.parametrize(("scheme", "brake"), [("published", BRAKES[0]), ("centered", BRAKES[1])])
+@given(
+    velocity=st.floats(50, 900), radius=st.floats(2e-6, 3e-5), step=st.floats(1e-10, 2e-9),
+    beta=st.floats(1, 9),
+)  # fmt: skip
+@settings(max_examples=40, deadline=None)
+def test_the_rules_give_the_sheet_double_for_double(
+    scheme: str, brake: object, velocity: float, radius: float, step: float, beta: float
+) -> None:
+    from dataclasses import replace
+
+    impact = Impact(
+        velocity=velocity, radius=radius, particle_density=8900, target_density=7850,
+        resistance=beta * 7e8, step=step,
+    )  # fmt: skip
+    case = Case(
+        velocity, radius, 8900.0, 7850.0, impact.target_resistance, step, impact.stop_velocity
+    )
+    run = march(case, replace(REPORT, brake=brake))
+    sheet = midpoint.run(impact, scheme)
+    for role in ("velocity_initial", "depth", "deceleration", "velocity_final"):
+        column = [getattr(row, role) for row in sheet.rows]
+        assert [run[role].get(k) for k in range(len(column))] == column
+
+
+def test_the_report_s_inputs_are_those_of_its_cases() -> None:
+    report = report_inputs()
+    for case, impact in enumerate((BETA_5, BETA_3)):
+        assert report["resistance"][case] == impact.target_resistance
+        for role in ("velocity", "radius", "particle_density", "target_density", "step"):
+            assert report[role][0] == getattr(impact, role)
+
+
+# ---- what is said
+
+
+def test_a_clean_workbook_says_what_was_taken_for_what(coldspray: Run, tmp_path: Path) -> None:
+    status, out, err = coldspray("check", written(layouts.german(BETA_5), tmp_path))
+    assert (status, err) == (0, "")
+    assert "sheet 'Rechnung': 131 steps down, the report's scheme" in out
+    assert re.search(r"depth +D18:D149 +in um +head 'Eindringtiefe \[µm\]'", out)
+    assert re.search(r"radius +Rechnung!B4 +1.1e-05 m +label 'Partikelradius R'", out)
+    assert "Clean: the report's sheet, cell by cell." in out
+    assert re.search(r"7\.67 um +Rechnung!G4 +7\.669557 +as printed", out)
+    assert out.index("taken for what") < out.index("Clean") < out.index("printed numbers")
+
+
+def test_a_spoiled_one_says_where_what_and_why_first(coldspray: Run, spoiled: Path) -> None:
+    status, out, _ = coldspray("check", spoiled)
+    assert status == 1
+    after = out[out.index("1 difference from the report's sheet; the final depth is 7.6") :]
+    assert after.index("Calcul pas à pas!G61, typed number") < after.index("holds 3.7e-06")
+    assert "where =G60+F61*delta_t would stand" in after
+    assert "'Calcul pas à pas'!G61 alone explains the final depth" in after
+    assert after.count("typed number") == 1
+
+
+def test_json_has_the_promised_keys_and_every_digit(coldspray: Run, spoiled: Path) -> None:
+    status, out, err = coldspray("check", spoiled, "--json")
+    record = json.loads(out)
+    assert (status, err) == (1, "")
+    assert {"differences", "summary", "first"} <= record.keys()
+    keys = {"sheet", "cell", "kind", "expected", "found", "explanation"}
+    assert all(keys <= entry.keys() for entry in record["differences"])
+    assert {entry["kind"] for entry in record["differences"]} <= set(KINDS)
+    assert sum(record["summary"].values()) == len(record["differences"])
+    first = record["first"]
+    assert first in record["differences"]
+    assert (first["sheet"], first["cell"], first["kind"]) == (
+        "Calcul pas à pas",
+        "G61",
+        "typed number",
+    )
+    right = midpoint.run(BETA_5).rows[40]
+    assert (first["found"], first["expected"]) == (3.7e-6, right.depth)
+    assert record["taken"][0]["columns"].keys() <= COLUMNS.keys()
+    assert record["taken"][0]["inputs"].keys() <= INPUTS.keys()
+
+
+def test_the_kinds_are_the_promised_ones() -> None:
+    assert set(KINDS) == {
+        "stale value", "typed number", "odd formula", "typed constant", "operation order",
+        "other scheme", "other input", "unit", "printed number", "not calculated",
+    }  # fmt: skip
+
+
+def test_other_inputs_and_uncalculated_formulas_are_no_fault(
+    coldspray: Run, tmp_path: Path
+) -> None:
+    from dataclasses import replace
+
+    f = layouts.table_a1(replace(BETA_5, velocity=480.0))
+    status, out, _ = coldspray("check", written(f, tmp_path), "--json")
+    record = json.loads(out)
+    assert (status, record["first"]) == (0, None)
+    assert record["summary"] == {"other input": 1, "not calculated": 1}
+    assert record["claims"] == []
+
+
+def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
+    f = layouts.printed_digits(BETA_5)
+    f.cells[f.where[BRAKE, 3]] = 1.55e9
+    found = check(written(f, tmp_path))
+    assert found.first is not None
+    missed = {number.claim.id: number for number in found.held if not number.met}
+    assert list(missed) == ["a1-deceleration-3"]
+    assert {d.kind for d in found.differences} == {
+        "typed number",
+        "printed number",
+        "not calculated",
+    }
+    assert all(number.claim in load().claims.values() for number in found.held)
+    assert len(found.held) == 30
+
+
+@pytest.mark.parametrize("saved_by", ["us", "LibreOffice"])
+def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
+    from replication import workbook
+
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(workbook.to_bytes())
+    if saved_by == "LibreOffice":
+        require_libreoffice()
+        (path,) = writers.with_libreoffice([path], tmp_path)
+    found = check(path)
+    assert found.first is None
+    sheets = {verdict.setting.table.sheet: verdict for verdict in found.verdicts}
+    assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
+    for sheet in ("Sheet beta 3", "Sheet beta 5"):
+        inputs = sheets[sheet].setting.inputs
+        cells = {name: own.place and own.place[0] for name, own in inputs.items()}
+        assert set(cells.values()) <= {"Inputs", None}
+        assert [name for name, where in cells.items() if where is None] == ["resistance"]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("=1/0", "#DIV/0!"),
+        ("=NoName*G60", "nothing is called NoName"),
+        ("=G61+1", "#CIRC!"),
+        (None, "no number"),
+    ],
+)
+def test_errors_and_gaps_are_named_where_they_begin(
+    tmp_path: Path, content: str | None, words: str
+) -> None:
+    f = layouts.french(BETA_5)
+    place = f.where[DEPTH, 40]
+    if content is None:
+        del f.cells[place]
+    else:
+        f.cells[place] = content
+    first = check(written(f, tmp_path)).first
+    assert first is not None
+    assert first.place == place
+    assert words in first.explanation
+
+
+def test_two_faults_come_in_the_order_of_calculation(tmp_path: Path) -> None:
+    f = layouts.sideways(BETA_5)
+    f.cells[f.where[END, 80]] = 300.0
+    f.cells[f.where[BRAKE, 20]] = 5e9
+    found = check(written(f, tmp_path))
+    assert [d.place for d in found.causes] == [f.where[BRAKE, 20], f.where[END, 80]]
+
+
+# ---- where it cannot tell
+
+
+def test_what_is_where_can_be_said(coldspray: Run, tmp_path: Path) -> None:
+    f = layouts.no_words(BETA_5)
+    path = written(f, tmp_path)
+    given = ["depth=Sheet1!AC510:AC641", "velocity=AB510:AB641", "target-density=T503"]
+    arguments = [word for text in given for word in ("--map", text)]
+    status, out, _ = coldspray("check", path, "--json", *arguments)
+    (taken,) = json.loads(out)["taken"]
+    assert status == 0
+    assert taken["columns"]["depth"] == {
+        "cells": "AC510:AC641", "head": None, "unit": "m", "by": "--map",
+    }  # fmt: skip
+    assert taken["inputs"]["target_density"]["by"] == "--map"
+
+
+def test_a_wrong_map_is_believed_and_found_wanting(coldspray: Run, tmp_path: Path) -> None:
+    f = layouts.french(BETA_5)
+    status, out, _ = coldspray(
+        "check", written(f, tmp_path), "--json", "--map", "radius=Données!C9"
+    )
+    assert status == 1
+    assert json.loads(out)["taken"][0]["inputs"]["radius"]["cell"] == "Données!C9"
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ("depth", "NAME=RANGE is wanted"),
+        ("deep=A1:A9", "choose of time, velocity_initial"),
+        ("depth=Nowhere!A1:A9", "a range such as Sheet1!D8:D139 is wanted"),
+        ("depth=A1:C9", "one column or one row is wanted"),
+        ("radius=A1:A9", "one cell is wanted"),
+        ("depth=E1:E3", "fewer than 4 numbers"),
+        ("radius='Données'!B3", "holds no number"),
+        ("depth=E21:E152", "a unit of something else"),
+        ("depth=C3:C9", "name both"),
+        ("depth=" + "(" * 99, "a range such as"),
+    ],
+)
+def test_a_map_that_cannot_be_is_explained(
+    coldspray: Run, tmp_path: Path, given: str, words: str
+) -> None:
+    path = written(layouts.french(BETA_5), tmp_path)
+    status, out, err = coldspray("check", path, "--map", given)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+def test_a_workbook_of_something_else_is_not_guessed_at(coldspray: Run, tmp_path: Path) -> None:
+    f = Foreign("other", BETA_5)
+    for r in range(1, 90):
+        f.put("Budget", f"A{r}", f"item {r}")
+        f.put("Budget", f"B{r}", 1000.0 - r * r % 17)
+    status, out, err = coldspray("check", written(f, tmp_path))
+    assert (status, out) == (2, "")
+    assert "no table of depth and velocity is found among its numbers (89 on 'Budget')" in err
+    assert "--map depth=Sheet1!D8:D139" in err
+
+
+def test_numbers_as_text_are_recognised(coldspray: Run, tmp_path: Path) -> None:
+    f = layouts.pasted(BETA_5)
+    f.cells = {p: f"{v:.6g}".replace(".", ",") if isinstance(v, float) else v
+               for p, v in f.cells.items()}  # fmt: skip
+    _, _, err = coldspray("check", written(f, tmp_path))
+    assert "numbers as text" in err
+
+
+def test_two_cells_that_could_be_one_input_are_asked_about(coldspray: Run, tmp_path: Path) -> None:
+    f = layouts.pasted(BETA_5)
+    for r, value in ((1, 11e-6), (2, 12e-6)):
+        f.put("Sheet1", f"H{r}", "particle radius (m)")
+        f.put("Sheet1", f"I{r}", value)
+    path = written(f, tmp_path)
+    status, _, _ = coldspray("check", path)
+    assert status == 0  # the rows decide
+    for place in [p for p in f.where.values() if p[2] in (5, 6)]:
+        f.cells.pop(place)
+    status, _, err = coldspray("check", written(f, tmp_path))
+    assert status == 0 or "could each be the radius: give --map radius=CELL" in err
+
+
+# ---- hostile contents
+
+
+EVIL = "</td><script>alert(1)</script>\x9b31m\u202egnp.exe"
+
+
+@pytest.fixture
+def evil(tmp_path: Path) -> Path:
+    """Names, heads, labels and texts made to break a terminal or a page; one fault to show."""
+    f = layouts.table_a1(BETA_5)
+    f.cells = {("Sheet<1>&'x\u202e", r, c): v for (_, r, c), v in f.cells.items()}
+    sheet = next(iter(f.cells))[0]
+    f.cells[sheet, 7, 4] = f"x {EVIL}"
+    f.cells[sheet, 2, 1] = f"Density {EVIL}"
+    f.cells[sheet, 3, 8] = EVIL
+    f.cells[sheet, 60, 4] = f'=LEN("{EVIL}")'
+    return written(f, tmp_path)
+
+
+def test_nothing_in_a_workbook_reaches_the_terminal(coldspray: Run, evil: Path) -> None:
+    status, out, _ = coldspray("check", evil)
+    assert status == 1
+    assert "\\x9b31m\\u202egnp.exe" in out
+    assert all(c.isprintable() or c == "\n" for c in out)
+
+
+def test_the_page_draws_the_sheet_and_runs_nothing(
+    coldspray: Run, evil: Path, tmp_path: Path
+) -> None:
+    page = tmp_path / "page.html"
+    coldspray("check", evil, "--html", page, "--quiet")
+    text = page.read_text("utf-8")
+    assert "default-src 'none'; style-src 'sha256-" in text
+    assert "<script" not in text
+    assert "\u202e" not in text
+    assert "style=" not in text
+    tree = html5lib.HTMLParser(strict=True).parse(text)
+    cells = [
+        td
+        for td in tree.iter("{http://www.w3.org/1999/xhtml}td")
+        if "origin" in td.get("class", "")
+    ]
+    assert [cell.get("id") for cell in cells if "typed-constant" not in cell.get("class", "")]
+    links = set(re.findall(r'href="#([^"]+)"', text))
+    assert links <= set(re.findall(r'id="([^"]+)"', text))
+
+
+def test_a_junit_file_has_a_test_for_each_kind(coldspray: Run, evil: Path, tmp_path: Path) -> None:
+    coldspray("check", evil, "--junit", tmp_path / "out.xml", "--quiet")
+    suite = ET.parse(tmp_path / "out.xml").getroot()
+    assert [case.get("name") for case in suite] == list(KINDS)
+    failed = [case.get("name") for case in suite if case.find("failure") is not None]
+    assert len(failed) == int(suite.get("failures", "-1")) > 0
+    assert suite.get("skipped") == "1"
+
+
+def test_files_are_written_whole_or_not_at_all(
+    coldspray: Run, spoiled: Path, tmp_path: Path
+) -> None:
+    for arguments in (
+        ["--html", tmp_path / "no" / "page.html", "--junit", tmp_path / "a.xml"],
+        ["--html", tmp_path / "same", "--junit", tmp_path / "same"],
+        ["--html", tmp_path, "--junit", tmp_path / "a.xml"],
+    ):
+        status, out, err = coldspray("check", spoiled, *arguments)
+        assert (status, out, err.count("\n")) == (2, "", 1)
+    (tmp_path / "junk.xlsx").write_bytes(b"junk")
+    assert coldspray("check", tmp_path / "junk.xlsx", "--html", tmp_path / "b.html")[0] == 2
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["french.xlsx", "junk.xlsx"]
+
+
+def test_one_line_and_no_escape_is_left_of_any_text() -> None:
+    assert safe("a\r\nb\x1b[31m\x00\u2028\u202e\ud800") == r"a\r\nb\x1b[31m\x00\u2028\u202e\ud800"
+    assert safe("x" * 99, 10) == "xxxxxxx..."
+
+
+CONTENTS = st.one_of(
+    st.none(),
+    st.sampled_from([0, -1, 1e308, 5e-324, 1e15, True]),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from(
+        ["x", "t", "v", "R [mm]", "dt", "(m)", "=1/0", "=NA()", "=SQRT(-1)", "=1E308*10", '=""',
+         "=A1", "=B4:B9", "=ROW()", "=Sheet9!A1", "=[1]S!A1", "=IF(1,2", "0,5", "µm"]
+    ),
+)  # fmt: skip
+BASES = {f.name: f for f in (
+    layouts.french(BETA_5), layouts.table_a1(BETA_5), layouts.side_by_side(BETA_5),
+    layouts.one_velocity(BETA_5), layouts.printed_digits(BETA_5), drawn(3, BETA_5),
+)}  # fmt: skip
+
+
+@given(
+    name=st.sampled_from(sorted(BASES)),
+    edits=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), min_size=1, max_size=6),
+    heads=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=2),
+)
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
+    tmp_path_factory: pytest.TempPathFactory,
+    name: str, edits: list[tuple[int, object]], heads: list[tuple[int, object]],
+) -> None:  # fmt: skip
+    base = BASES[name]
+    f = Foreign("fuzz", BETA_5, cells=dict(base.cells), names=base.names)
+    texts = [p for p, c in base.cells.items() if isinstance(c, str) and not c.startswith("=")]
+    for places, changes in ((list(base.cells), edits), (texts, heads)):
+        for at, content in changes:
+            place = places[at % len(places)]
+            if content is None:
+                f.cells.pop(place, None)
+            else:
+                f.cells[place] = content  # type: ignore[assignment]
+    path = written(f, tmp_path_factory.mktemp("fuzz"))
+    message = ""
+    try:
+        json.dumps(check_record(check(path)), allow_nan=False)
+    except ValueError as error:
+        message = str(error)
+    assert not message or (str(path) in message and "\n" not in message)
+
+
+def test_starts_and_heads_are_where_they_are(tmp_path: Path) -> None:
+    for layout in (layouts.velocity_at_end, layouts.merged_heads, layouts.no_deceleration):
+        f = layout(BETA_5)
+        (verdict,) = check(written(f, tmp_path)).verdicts
+        assert (START in verdict.setting.table.lines) == ((START, 1) in f.where)

@@ -1,0 +1,183 @@
+"""`coldspray diff`: what changed between two workbooks, and what only moved."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from foreign import layouts, writers
+from foreign.layouts import Foreign, letters, place
+
+from replication.cases import BETA_5
+from replication.check.diff import KINDS, Tolerance
+
+Run = Callable[..., tuple[int, str, str]]
+Diff = Callable[..., tuple[int, dict]]
+
+
+@pytest.fixture
+def diff(coldspray: Run, tmp_path: Path) -> Diff:
+    """Compare table A-1 with a changed copy: the status and the record."""
+
+    def run(change: Callable[[Foreign], None], *options: str) -> tuple[int, dict]:
+        f, g = layouts.table_a1(BETA_5), layouts.table_a1(BETA_5)
+        change(g)
+        a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
+        b = writers.with_openpyxl(g, tmp_path / "b.xlsx")
+        status, out, err = coldspray("diff", a, b, "--json", *options)
+        assert err == ""
+        return status, json.loads(out)
+
+    return run
+
+
+def moved(f: Foreign, rows: Callable[[int], int], columns: Callable[[int], int]) -> None:
+    """Move every cell as a spreadsheet does when rows or columns are inserted."""
+
+    def address(match: re.Match[str]) -> str:
+        _, row, column = place("", f"{match[2]}{match[4]}")
+        return f"{match[1]}{letters(columns(column))}{match[3]}{rows(row)}"
+
+    def content(c: str | float) -> str | float:
+        if isinstance(c, str) and c.startswith("="):
+            return re.sub(r"(\$?)\b([A-Z]{1,2})(\$?)(\d+)\b(?!\()", address, c)
+        return c
+
+    f.cells = {(s, rows(r), columns(c)): content(v) for (s, r, c), v in f.cells.items()}
+
+
+def kinds(record: dict) -> list[tuple[str, str, int]]:
+    return [(d["kind"], d["cell"], d["count"]) for d in record["differences"]]
+
+
+def test_equal_workbooks_are_equal(diff: Diff) -> None:
+    status, record = diff(lambda f: None)
+    assert (status, record["differences"], record["first"]) == (0, [], None)
+
+
+def test_a_changed_input_comes_first(diff: Diff) -> None:
+    status, record = diff(lambda f: f.put("Sheet1", "B5", 450.0))
+    assert status == 1
+    first = record["first"]
+    assert (first["cell"], first["kind"], first["expected"], first["found"]) == (
+        "B5",
+        "value",
+        500.0,
+        450.0,
+    )
+    assert set(record["summary"]) == {"value"}
+    assert len(record["differences"]) < 10
+
+
+def test_a_formula_and_what_follows_are_told_apart(diff: Diff) -> None:
+    status, record = diff(lambda f: f.put("Sheet1", "D60", "=D59+C60*0.0000000003"))
+    assert status == 1
+    assert (record["first"]["kind"], record["first"]["cell"]) == ("formula", "D60")
+    assert record["summary"]["formula"] == 1
+    values_only = diff(lambda f: f.put("Sheet1", "D60", "=D59+C60*0.0000000003"), "--values-only")[
+        1
+    ]
+    assert set(values_only["summary"]) == {"value"}
+
+
+def test_a_value_over_a_formula_is_a_formula_gone(diff: Diff) -> None:
+    _, record = diff(lambda f: f.put("Sheet1", "A20", 2.4e-9))
+    assert kinds(record) == [("formula", "A20", 1)]
+    assert record["first"]["expected"] == "=A19+0.0000000002"
+
+
+def test_inserted_rows_are_one_move(diff: Diff) -> None:
+    status, record = diff(lambda f: moved(f, lambda r: r + 3 * (r >= 7), lambda c: c))
+    assert status == 1
+    assert kinds(record) == [("moved", "A10", 1)]
+    assert (record["first"]["expected"], record["first"]["found"]) == ("7 to 139", "10 to 142")
+
+
+def test_an_inserted_column_is_one_move_and_what_it_holds(diff: Diff) -> None:
+    def insert(f: Foreign) -> None:
+        moved(f, lambda r: r, lambda c: c + (c >= 4))
+        for r in range(8, 140):
+            f.put("Sheet1", f"D{r}", f"=C{r}*C{r}")
+
+    _, record = diff(insert)
+    assert sorted(kinds(record)) == [("added", "D8", 132), ("moved", "E1", 1)]
+
+
+def test_a_block_put_elsewhere_is_one_move(diff: Diff) -> None:
+    def put(f: Foreign) -> None:
+        cells = {}
+        for (s, r, c), v in f.cells.items():
+            cells[(s, r + 1, c + 9) if r <= 6 else (s, r, c)] = v
+        f.cells = {}
+        for p, v in cells.items():
+            text = re.sub(r"\$?B\$?([1-6])\b", lambda m: f"$K${int(m[1]) + 1}", str(v))
+            f.cells[p] = text if isinstance(v, str) else v
+
+    _, record = diff(put)
+    assert {d["kind"] for d in record["differences"]} == {"moved"}
+    assert len(record["differences"]) <= 2
+
+
+def test_a_reference_that_stays_behind_is_a_changed_formula(diff: Diff) -> None:
+    def half(f: Foreign) -> None:
+        moved(f, lambda r: r + 3 * (r >= 7), lambda c: c)
+        f.put("Sheet1", "F50", "=C49-E50*0.0000000002")
+
+    _, record = diff(half)
+    assert ("formula", "F50", 1) in kinds(record)
+
+
+def test_sheets_come_go_and_change_their_names(diff: Diff) -> None:
+    def rename(f: Foreign) -> None:
+        f.cells = {("Tabelle1", r, c): v for (_, r, c), v in f.cells.items()}
+
+    assert kinds(diff(rename)[1]) == [("moved", "A1", 1)]
+    assert kinds(diff(lambda f: f.put("Notes", "A1", "hello"))[1]) == [("added", "A1", 1)]
+
+
+def test_tolerances(diff: Diff) -> None:
+    def nudge(f: Foreign) -> None:
+        f.put("Sheet1", "B1", 1.1e-5 * (1 + 1e-14))
+
+    assert diff(nudge)[0] == 1
+    assert diff(nudge, "--relative", "1e-11")[0] == 0
+    assert diff(nudge, "--digits", "9")[0] == 0
+    assert diff(nudge, "--digits", "17")[0] == 1
+    assert Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
+    assert not Tolerance(ulp=1).equal(1.0, 1.0 + 2**-51)
+    assert not Tolerance(digits=3).equal(7.664, 7.666)
+
+
+@pytest.mark.parametrize(
+    "option", [("--ulp", "x"), ("--ulp", "1.5"), ("--relative", "-1"), ("--relative", "nan"),
+               ("--digits", "0"), ("--digits", "1e400"), ("--ulp", "9" * 400)],
+)  # fmt: skip
+def test_a_tolerance_that_is_none_is_explained(
+    coldspray: Run, tmp_path: Path, option: tuple[str, str]
+) -> None:
+    a = writers.with_openpyxl(layouts.pasted(BETA_5), tmp_path / "a.xlsx")
+    status, out, err = coldspray("diff", a, a, *option)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert option[0] in err
+    assert "is wanted" in err
+
+
+def test_text_page_and_junit_are_those_of_check(coldspray: Run, tmp_path: Path) -> None:
+    f = layouts.french(BETA_5)
+    a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
+    f.put("Données", "C8", 450)
+    b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
+    page, junit = tmp_path / "d.html", tmp_path / "d.xml"
+    status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
+    assert status == 1
+    assert "Données!C8, value\n    holds 450.0, should hold 500.0" in out
+    assert "c0-C8" in page.read_text("utf-8")
+    assert all(f'name="{kind}"' in junit.read_text("utf-8") for kind in KINDS)
+
+
+def test_an_unreadable_file_is_named(coldspray: Run, tmp_path: Path) -> None:
+    a = writers.with_openpyxl(layouts.pasted(BETA_5), tmp_path / "a.xlsx")
+    status, _, err = coldspray("diff", a, tmp_path / "none.xlsx")
+    assert status == 2
+    assert "none.xlsx: there is no such file" in err

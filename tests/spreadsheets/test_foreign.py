@@ -1,0 +1,295 @@
+"""Reading somebody else's workbook: what it holds, and what is refused, in bounded time."""
+
+import os
+import zipfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from spreadsheets import foreign
+from spreadsheets.foreign import Cell, WorkbookError, read
+from spreadsheets.recalculation import calculate
+
+SHEET = "xl/worksheets/sheet1.xml"
+NUMBERS = [[1.0, 2.5, "text"], [0.1, "=A2*2", "=A1&C1"]]
+
+
+@pytest.fixture
+def plain(tmp_path: Path) -> Path:
+    """A small right workbook."""
+    from openpyxl import Workbook
+
+    book = Workbook()
+    for row in NUMBERS:
+        book.active.append(row)
+    book.save(tmp_path / "plain.xlsx")
+    return tmp_path / "plain.xlsx"
+
+
+@pytest.fixture
+def shared(tmp_path: Path) -> Path:
+    """One whose texts stand in a part of their own."""
+    import xlsxwriter
+
+    with xlsxwriter.Workbook(tmp_path / "shared.xlsx") as book:
+        sheet = book.add_worksheet()
+        sheet.write_string(0, 0, "text")
+        sheet.write_string(1, 0, "<b>&amp;</b>")
+    return tmp_path / "shared.xlsx"
+
+
+def spoiled(
+    path: Path,
+    change: Mapping[str, Callable[[bytes], bytes]] | None = None,
+    extra: Mapping[str, bytes] | None = None,
+) -> Path:
+    """The same workbook with some of its parts changed or added."""
+    other = path.with_name("spoiled.xlsx")
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(other, "w", zipfile.ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            data = old.read(name)
+            new.writestr(name, (change or {}).get(name, bytes)(data))
+        for name, data in (extra or {}).items():
+            new.writestr(name, data)
+    return other
+
+
+def refusal(path: Path) -> str:
+    with pytest.raises(WorkbookError) as refused:
+        read(path)
+    message = str(refused.value)
+    assert message.startswith(str(path))
+    assert "\n" not in message
+    return message
+
+
+def cells_of(rows: bytes) -> Callable[[bytes], bytes]:
+    return lambda data: data.replace(b"</sheetData>", rows + b"</sheetData>")
+
+
+def test_formulas_and_values_are_read_together(plain: Path) -> None:
+    book = read(plain)
+    cells = book.sheets["Sheet"]
+    assert cells[1, 1] == Cell(None, 1.0)
+    assert cells[1, 3] == Cell(None, "text")
+    assert cells[2, 2] == Cell("=A2*2", None)
+    assert book["Sheet", 9, 9] == Cell(None, None)
+    assert calculate(book).values["Sheet", 2, 2] == 0.2
+    assert calculate(book).values["Sheet", 2, 3] == "1text"
+
+
+def test_every_digit_of_a_stored_number_is_kept(tmp_path: Path) -> None:
+    import xlsxwriter
+
+    class Exact(float):
+        def __format__(self, _: str) -> str:
+            return repr(float(self))
+
+    with xlsxwriter.Workbook(tmp_path / "exact.xlsx") as book:
+        book.add_worksheet("S").write_number(0, 0, Exact(0.1 + 0.2))
+    assert read(tmp_path / "exact.xlsx").sheets["S"][1, 1].value == 0.1 + 0.2
+
+
+def test_shared_formulas_move_with_their_cell(plain: Path) -> None:
+    rows = (
+        b'<row r="5"><c r="A5"><f t="shared" ref="A5:A7" si="0">A4+$B$1</f><v>1</v></c></row>'
+        b'<row r="6"><c r="A6"><f t="shared" si="0"/><v>2</v></c></row>'
+    )
+    book = read(spoiled(plain, {SHEET: cells_of(rows)}))
+    assert book.sheets["Sheet"][6, 1].formula == "=A5+$B$1"
+
+
+def test_an_array_formula_stands_for_every_cell_that_it_fills(plain: Path) -> None:
+    rows = (
+        b'<row r="5"><c r="A5"><f t="array" ref="A5:A6">B1:B2*2</f><v>1</v></c></row>'
+        b'<row r="6"><c r="A6"><v>2</v></c></row>'
+    )
+    book = read(spoiled(plain, {SHEET: cells_of(rows)}))
+    assert book.sheets["Sheet"][6, 1] == Cell("=B1:B2*2", 2.0, array=True)
+    calculation = calculate(book)
+    assert calculation.uncomputed["Sheet", 6, 1] == "it is an array formula"
+    assert calculation.values["Sheet", 6, 1] == 2.0
+
+
+def test_this_row_of_a_table_is_an_address(tmp_path: Path) -> None:
+    import xlsxwriter
+
+    with xlsxwriter.Workbook(tmp_path / "table.xlsx") as book:
+        sheet = book.add_worksheet()
+        columns = [{"header": "v old"}, {"header": "x"}]
+        sheet.add_table(0, 0, 2, 1, {"name": "Steps", "columns": columns})
+        sheet.write_number(1, 0, 3.0)
+        sheet.write_formula(1, 1, "=Steps[[#This Row],[v old]]*2", None, 6)
+        sheet.write_formula(2, 1, "=Steps[@[v old]]+Steps[@x]", None, 0)
+    cells = read(tmp_path / "table.xlsx").sheets["Sheet1"]
+    assert cells[2, 2].formula == "=$A2*2"
+    assert cells[3, 2].formula == "=$A3+$B3"
+
+
+@pytest.mark.parametrize(
+    "declared",
+    [
+        b'<!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>',
+        b'<!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]>',
+        b'<!DOCTYPE x SYSTEM "http://127.0.0.1/x.dtd">',
+    ],
+)
+@pytest.mark.parametrize("part", [SHEET, "xl/workbook.xml", "xl/sharedStrings.xml"])
+def test_document_types_are_refused(shared: Path, part: str, declared: bytes) -> None:
+    def declare(data: bytes) -> bytes:
+        start = data.index(b"<", data.index(b"?>") + 2) if data.startswith(b"<?xml") else 0
+        return data[:start] + declared + data[start:]
+
+    assert "declares a document type" in refusal(spoiled(shared, {part: declare}))
+
+
+def test_what_unpacks_to_too_much_is_refused(plain: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = spoiled(plain, {SHEET: cells_of(b" " * 2**22)})
+    assert path.stat().st_size < 2**15
+    assert read(path)
+    monkeypatch.setattr(foreign, "MAX_UNPACKED", 2**20)
+    assert "too many bytes" in refusal(path)
+
+
+@pytest.mark.parametrize(
+    ("limit", "cell"), [("MAX_CELLS", b"<v>1</v>"), ("MAX_FORMULAS", b"<f>1+1</f><v>2</v>")]
+)
+def test_too_many_cells_are_refused(
+    plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, cell: bytes
+) -> None:
+    monkeypatch.setattr(foreign, limit, 500)
+    row = b"<row>" + 100 * (b"<c>" + cell + b"</c>") + b"</row>"
+    assert "too many cells" in refusal(spoiled(plain, {SHEET: cells_of(row * 20)}))
+
+
+@pytest.mark.parametrize("address", [b"XFE1", b"A1048577", b"A0", b"$", b"AAAA1", b"A99999999"])
+def test_cells_beyond_a_sheet_are_damage(plain: Path, address: bytes) -> None:
+    row = b'<row r="5"><c r="' + address + b'"><v>1</v></c></row>'
+    assert "is damaged" in refusal(spoiled(plain, {SHEET: cells_of(row)}))
+
+
+def test_merged_and_linked_ranges_cost_nothing(plain: Path) -> None:
+    merged = b'</sheetData><mergeCells><mergeCell ref="A1:XFD1048576"/></mergeCells>'
+    linked = b'<hyperlinks><hyperlink ref="A1:XFD1048576" location="A1"/></hyperlinks>'
+    path = spoiled(plain, {SHEET: lambda data: data.replace(b"</sheetData>", merged + linked)})
+    assert len(read(path).sheets["Sheet"]) == 6
+
+
+def test_a_lone_cell_in_the_last_corner_costs_nothing(plain: Path) -> None:
+    row = b'<row r="1048576"><c r="XFD1048576"><v>7</v></c></row>'
+    assert read(spoiled(plain, {SHEET: cells_of(row)})).sheets["Sheet"][1048576, 16384].value == 7
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: data[: len(data) // 2],
+        lambda data: data.replace(b"</sheetData>", b"</sheetdata>"),
+        lambda data: b"",
+        lambda data: data.replace(b"<v>2.5</v>", b"<v>two</v>"),
+        lambda data: data.replace(b'r="A1"', b'r="A1" t="s"'),
+    ],
+)
+def test_damaged_parts_are_named_so(plain: Path, damage: Callable[[bytes], bytes]) -> None:
+    changed = spoiled(plain, {SHEET: damage})
+    assert "is damaged" in refusal(changed)
+
+
+def test_shared_texts_are_read(shared: Path) -> None:
+    cells = read(shared).sheets["Sheet1"]
+    assert [cells[1, 1].value, cells[2, 1].value] == ["text", "<b>&amp;</b>"]
+    beyond = spoiled(shared, {SHEET: lambda data: data.replace(b"<v>1</v>", b"<v>99</v>")})
+    assert "is damaged" in refusal(beyond)
+
+
+def test_macros_and_links_are_mentioned(plain: Path) -> None:
+    extra = {"xl/vbaProject.bin": b"x", "xl/externalLinks/externalLink1.xml": b"<a/>"}
+    notes = read(spoiled(plain, extra=extra)).notes
+    assert [("macros" in note, "links" in note) for note in notes] == [(True, False), (False, True)]
+
+
+def test_what_is_no_workbook_is_said_to_be_none(tmp_path: Path) -> None:
+    for name, content, words in [
+        ("text.xlsx", b"hello", "is no workbook"),
+        ("empty.xlsx", b"", "is no workbook"),
+        ("sealed.xlsx", bytes.fromhex("D0CF11E0A1B11AE1") + bytes(999), "has a password"),
+    ]:
+        (tmp_path / name).write_bytes(content)
+        assert words in refusal(tmp_path / name)
+    with zipfile.ZipFile(tmp_path / "other.xlsx", "w") as archive:
+        archive.writestr("readme.txt", "x")
+    assert "is no workbook" in refusal(tmp_path / "other.xlsx")
+    assert "is a folder" in refusal(tmp_path)
+    assert "there is no such file" in refusal(tmp_path / "missing.xlsx")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "pipe.xlsx")
+        assert "is no regular file" in refusal(tmp_path / "pipe.xlsx")
+
+
+def test_a_cut_or_changed_archive_is_refused(plain: Path) -> None:
+    data = plain.read_bytes()
+    with zipfile.ZipFile(plain) as archive:
+        at = archive.getinfo(SHEET).header_offset + 80
+    for changed in (data[: len(data) // 2], data[:at] + bytes(8) + data[at + 8 :]):
+        plain.write_bytes(changed)
+        refusal(plain)
+
+
+@pytest.mark.parametrize(
+    ("formula", "reason"),
+    [
+        ('=WEBSERVICE("http://127.0.0.1/")', "it uses WEBSERVICE"),
+        ('=HYPERLINK("file:///etc/passwd")', "it uses HYPERLINK"),
+        ('=CALL("a","b")', "it uses CALL"),
+        ('=INDIRECT("A"&1)', "it uses INDIRECT"),
+        ('=REPT("a",1E9)', "it uses REPT"),
+        ("=[1]Sheet1!A1", "it refers outside the workbook"),
+        ("=nobody*2", "nothing is called nobody"),
+        ("=" + "(" * 65 + "1" + ")" * 65, "it is nested more than 64 levels deep"),
+        ("=" + "{" * 4000, "it is nested more than 64 levels deep"),
+        ("=" + "+".join(["A1"] * 4000), "it has more than 8,192 characters"),
+    ],
+)
+def test_what_no_engine_may_compute_keeps_its_stored_value(
+    plain: Path, formula: str, reason: str
+) -> None:
+    from xml.sax.saxutils import escape
+
+    cell = f'<row r="5"><c r="A5"><f>{escape(formula[1:])}</f><v>3</v></c></row>'
+    calculation = calculate(read(spoiled(plain, {SHEET: cells_of(cell.encode())})))
+    assert calculation.uncomputed == {("Sheet", 5, 1): reason}
+    assert calculation.values["Sheet", 5, 1] == 3.0
+    assert calculation.values["Sheet", 2, 2] == 0.2
+
+
+def test_formulas_that_read_too_much_are_left_alone(
+    plain: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("spreadsheets.recalculation.MAX_WORK", 10_000)
+    rows = b"".join(
+        b'<row r="%d"><c r="A%d"><f>SUMPRODUCT(A1:C90,A1:C90)</f><v>3</v></c></row>' % (r, r)
+        for r in range(100, 110)
+    )
+    calculation = calculate(read(spoiled(plain, {SHEET: cells_of(rows)})))
+    assert len(calculation.uncomputed) == 10
+    assert calculation.values["Sheet", 2, 2] == 0.2
+
+
+def test_circles_are_errors_and_have_an_order(plain: Path) -> None:
+    rows = (
+        b'<row r="5"><c r="A5"><f>B5+1</f></c><c r="B5"><f>A5</f></c><c r="C5"><f>B5</f></c></row>'
+    )
+    calculation = calculate(read(spoiled(plain, {SHEET: cells_of(rows)})))
+    assert calculation.error(("Sheet", 5, 1)) == "#CIRC!"
+    order = calculation.order
+    assert order["Sheet", 5, 2] < order["Sheet", 5, 3]
+    assert order.keys() == calculation.formulas.keys()
+
+
+def test_an_ods_file_without_libreoffice_says_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "book.ods").write_bytes(b"x")
+    monkeypatch.setattr("shutil.which", lambda _: None)
+    assert "LibreOffice, which is not installed; save it as .xlsx" in refusal(tmp_path / "book.ods")
