@@ -332,15 +332,19 @@ def test_any_plan(folder: Path, document: bytes) -> None:
 
 # Somebody's workbook
 
+FILES_OF_OTHERS = [
+    "empty.toml", "deep.toml", "zero.xlsx", "cut.xlsx", "bomb.xlsx", "nothing.xlsx", "entity.xlsx",
+    "deep.xlsx", "loop.xlsx", ".", "absent.xlsx", "/dev/zero", "/dev/full", 5000 * "n",
+    "pipe.csv/x", "\x1b[31m\n.xlsx",
+]  # fmt: skip
+MAPS = [
+    "", "=", "depth", "depth=", "depth=\x1b[31m", "depth=A1:A" + 5000 * "9", "depth=A1:A1048577",
+    "depth=" + 5000 * "A" + "1", "x\n=B4", 5000 * "k" + "=B4", "radius='no such'!B4",
+    "radius=B4:B3:B2", "depth=D0:D9",
+]  # fmt: skip
 WORKBOOKS = [
-    *(["check", name] for name in (
-        "empty.toml", "deep.toml", "zero.xlsx", "cut.xlsx", "bomb.xlsx", "nothing.xlsx",
-        "entity.xlsx", "deep.xlsx", "loop.xlsx", ".", "absent.xlsx", "/dev/zero", "/dev/full", 5000 * "n", "pipe.csv/x",
-        "\x1b[31m\n.xlsx")),
-    *(["check", "own.xlsx", "--map", text] for text in (
-        "", "=", "depth", "depth=", "depth=\x1b[31m", "depth=A1:A" + 5000 * "9",
-        "depth=A1:A1048577", "depth=" + 5000 * "A" + "1", "x\n=B4", 5000 * "k" + "=B4", "radius='no such'!B4",
-        "radius=B4:B3:B2", "depth=D0:D9")),
+    *(["check", name] for name in FILES_OF_OTHERS),
+    *(["check", "own.xlsx", "--map", text] for text in MAPS),
     ["check", "own.xlsx", "--html", "loop.xlsx"],
     ["check", "own.xlsx", "--junit", "/dev/full"],
     ["check", "own.xlsx", "--html", "x", "--junit", "x"],
@@ -353,7 +357,7 @@ WORKBOOKS = [
     ["diff", "own.xlsx", "own.xlsx", "--ulp", DIGITS],
     ["diff", "own.xlsx", "own.xlsx", "--digits", "-1"],
     ["diff", "own.xlsx"],
-]  # fmt: skip
+]
 
 
 @pytest.fixture(scope="module")
