@@ -440,7 +440,7 @@ class Audit:
     def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:
         try:
             computed = EVIDENCE[finding.id](known)
-        except (ArithmeticError, ValueError):  # in a report with a misprint
+        except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
             computed = {}
         evidence = []
         for name, assertion in finding.evidence.items():
