@@ -11,6 +11,8 @@ from replication.cli import main
 
 # No test may depend on how fast the machine is.
 settings.register_profile("unhurried", deadline=None)
+# Chosen by `pytest --hypothesis-profile thorough`.
+settings.register_profile("thorough", deadline=None, max_examples=2000, derandomize=True)
 settings.load_profile("unhurried")
 
 

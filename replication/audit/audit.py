@@ -438,11 +438,14 @@ class Audit:
         )
 
     def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:
-        computed = EVIDENCE[finding.id](known)
+        try:
+            computed = EVIDENCE[finding.id](known)
+        except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
+            computed = {}
         evidence = []
         for name, assertion in finding.evidence.items():
-            value = computed[name]
-            if not isinstance(value, bool):
+            value = computed.get(name)
+            if value is not None and not isinstance(value, bool):
                 value = Fraction(value) / to_si(assertion.unit)
             evidence.append(
                 r.EvidenceRecord(
@@ -450,8 +453,8 @@ class Audit:
                     means=assertion.means,
                     unit=assertion.unit,
                     asserted=assertion.says,
-                    computed=value if isinstance(value, bool) else float(value),
-                    holds=assertion.holds(value),
+                    computed=float(value) if isinstance(value, Fraction) else value,
+                    holds=value is not None and assertion.holds(value),
                 )
             )
         return r.FindingRecord(

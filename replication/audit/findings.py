@@ -259,8 +259,9 @@ def _resistance_for(known: Known, ratio: float, digits: int) -> float:
 def _middle(solved: list[BackSolved], entry: str) -> float:
     """The middle of the values of an entry that give the number, in the derived form."""
     (own,) = (b for b in solved if b.entry == entry and b.reading == _DERIVED)
-    (part,) = own.solutions.inner
-    return float(sum(part)) / 2
+    if not own.solutions.inner:
+        raise ArithmeticError(f"no value of {entry} gives the number")
+    return float(sum(own.solutions.inner[0])) / 2
 
 
 def _two_resistances(known: Known) -> Evidence:
@@ -357,7 +358,10 @@ def _middle_density(known: Known) -> Fraction:
     claim = ledger.claims["depth-beta-5"]
     function = ledger.function(claim, frozenset({_DENSITY}), centered=True)
     admitted = known.judge.inference(_DENSITY, centered=True).outer.ends
-    return solve(function, _DENSITY, admitted, claim.target()).outer[0][0]
+    outer = solve(function, _DENSITY, admitted, claim.target()).outer
+    if not outer:
+        raise ArithmeticError("no target density gives the depth")
+    return outer[0][0]
 
 
 def _first_difference(known: Known) -> tuple[int, float, float]:

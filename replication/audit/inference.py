@@ -44,8 +44,8 @@ class Inference:
 
     @cached_property
     def inputs(self) -> set[str]:
-        """What the evidence rests on besides."""
-        claims = (self.ledger.claims[name] for name in self.agreeing)
+        """What the evidence, and the header of Table A-1, rest on besides."""
+        claims = (self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing))
         return {name for claim in claims for name in claim.entries} - {self.name}
 
     @cached_property

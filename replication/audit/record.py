@@ -225,13 +225,16 @@ class EquationRecord(_Part, frozen=True):
 
 
 class EvidenceRecord(_Part, frozen=True):
-    """A number in a finding's text: as asserted, and as computed by this audit."""
+    """A number in a finding's text: as asserted, and as computed by this audit.
+
+    `computed` is null where it has no value, as it may in a report with a misprint.
+    """
 
     name: str
     means: str
     unit: str
     asserted: str
-    computed: float | bool
+    computed: float | bool | None
     holds: bool
 
 

@@ -145,6 +145,8 @@ def computed(piece: EvidenceRecord) -> str:
     >>> computed(piece)
     '1.14756'
     """
+    if piece.computed is None:
+        return "no value"
     if isinstance(piece.computed, bool):
         return "yes" if piece.computed else "no"
     safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)

@@ -205,6 +205,14 @@ def test_the_original_mends_what_a_misprint_spoils(name: str, text: str) -> None
     )
 
 
+@pytest.mark.parametrize(
+    ("name", "text"), [("elastic-modulus", "20"), ("yield-strength", "251"), ("flow-stress", "710")]
+)
+def test_a_number_that_nothing_computes_is_mended_in_its_own_place(name: str, text: str) -> None:
+    found = Explainer(Judge(LEDGER.misprint(name, text))).repairs(name)
+    assert [(r.entry, r.text) for r in found] == [(name, LEDGER.claims[name].text)]
+
+
 def repaired() -> Ledger:
     """The report with the factor of Eq. 16 and both values as derived."""
     return (

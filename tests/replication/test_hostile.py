@@ -8,6 +8,10 @@ import argparse
 import io
 import os
 import re
+import signal
+import subprocess
+import sys
+import zipfile
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
@@ -258,7 +262,7 @@ def arguments(draw: st.DrawFn, command: str) -> list[str]:
 
 
 @pytest.mark.parametrize("command", LIGHT)
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_any_arguments(command: str, folder: Path, data: st.DataObject) -> None:
     check(folder, *data.draw(arguments(command)))
@@ -282,8 +286,6 @@ ATOMS = st.one_of(
     ).map(lambda text: f'"{text}"'),
     st.tuples(NUMBERS, UNITS).map(lambda pair: f'"{"".join(pair)}"'),
 )
-TABLE_KEYS = ("from", "to", "points", "scale", "distribution", "mean", "deviation", "lower",
-              "average_mass", "average_velocity", "other")  # fmt: skip
 KEYS = st.sampled_from([
     *INPUTS, "from", "to", "points", "scale", "distribution", "mean", "deviation", "lower", "upper",
     "average_mass", "average_velocity", "other",
@@ -304,7 +306,7 @@ DOCUMENTS = st.one_of(
 )
 
 
-@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 @example(b"\xef\xbb\xbf[impact]\nradius = 1e-6")
 @example(b"[impact]\nradius = " + b"9" * 4299)
@@ -313,7 +315,7 @@ def test_any_case_file(folder: Path, document: bytes) -> None:
     check(folder, "depth", "--json", "--case-file", "any.toml")
 
 
-@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 def test_any_plan(folder: Path, document: bytes) -> None:
     from replication.sweep.read import read_plan
@@ -326,3 +328,146 @@ def test_any_plan(folder: Path, document: bytes) -> None:
     if count <= 10_000:  # a million cases are no fault
         (folder / "any.csv").unlink(missing_ok=True)
         check(folder, "sweep", "any.toml", "-o", "any.csv", "--quiet")
+
+
+# Somebody's workbook
+
+FILES_OF_OTHERS = [
+    "empty.toml", "deep.toml", "zero.xlsx", "cut.xlsx", "bomb.xlsx", "nothing.xlsx", "entity.xlsx",
+    "deep.xlsx", "loop.xlsx", ".", "absent.xlsx", "/dev/zero", "/dev/full", 5000 * "n",
+    "pipe.csv/x", "\x1b[31m\n.xlsx",
+]  # fmt: skip
+MAPS = [
+    "", "=", "depth", "depth=", "depth=\x1b[31m", "depth=A1:A" + 5000 * "9", "depth=A1:A1048577",
+    "depth=" + 5000 * "A" + "1", "x\n=B4", 5000 * "k" + "=B4", "radius='no such'!B4",
+    "radius=B4:B3:B2", "depth=D0:D9",
+]  # fmt: skip
+WORKBOOKS = [
+    *(["check", name] for name in FILES_OF_OTHERS),
+    *(["check", "own.xlsx", "--map", text] for text in MAPS),
+    ["check", "own.xlsx", "--html", "loop.xlsx"],
+    ["check", "own.xlsx", "--junit", "/dev/full"],
+    ["check", "own.xlsx", "--html", "x", "--junit", "x"],
+    ["check", "own.xlsx", "--html", "absent/x"],
+    ["check", "--map"],
+    ["diff", "own.xlsx", "cut.xlsx"],
+    ["diff", "bomb.xlsx", "own.xlsx"],
+    ["diff", "own.xlsx", "own.xlsx", "--relative", "nan"],
+    ["diff", "own.xlsx", "own.xlsx", "--relative", "1e400"],
+    ["diff", "own.xlsx", "own.xlsx", "--ulp", DIGITS],
+    ["diff", "own.xlsx", "own.xlsx", "--digits", "-1"],
+    ["diff", "own.xlsx"],
+]
+
+
+@pytest.fixture(scope="module")
+def workbooks(folder: Path) -> Path:
+    """Files that look like workbooks, and one that is."""
+    with chdir(folder):
+        assert run("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
+    whole = (folder / "own.xlsx").read_bytes()
+    (folder / "zero.xlsx").write_bytes(b"")
+    (folder / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
+    sheet = "xl/worksheets/sheet1.xml"
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    entity = b'<!DOCTYPE a [<!ENTITY b "' + b"c" * 100 + b'">]><a>' + b"&b;" * 100 + b"</a>"
+    for name, changed in {
+        "nothing.xlsx": {},
+        "entity.xlsx": {**parts, sheet: entity},
+        "deep.xlsx": {**parts, sheet: 100_000 * b"<a>"},
+    }.items():
+        with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for part, content in changed.items():
+                archive.writestr(part, content)
+    with zipfile.ZipFile(
+        folder / "bomb.xlsx", "w", zipfile.ZIP_DEFLATED, compresslevel=1
+    ) as archive:
+        for part, content in parts.items():
+            with archive.open(part, "w") as file:
+                for _ in range(1000 if part == sheet else 1):
+                    file.write(b" " * 2**19 if part == sheet else content)
+    return folder
+
+
+@pytest.mark.parametrize(
+    "arguments", WORKBOOKS, ids=lambda own: re.sub(r"\W+", " ", " ".join(own))[:40]
+)
+def test_a_workbook_that_is_none(arguments: list[str], workbooks: Path) -> None:
+    assert check(workbooks, *arguments) == 2
+
+
+# A disk that is full, a run that is killed
+
+PLAN = "[inputs]\nradius = {from=1e-6, to=2e-6, points=2000}\n"
+
+
+def limited() -> None:
+    """No file of this process may grow beyond 20,000 bytes: writing fails as on a full disk."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "target"),
+    [
+        (["workbook", "--velocity", "500", "--force", "-o", "target"], "target"),
+        (["sweep", "plan.toml", "-o", "target.csv"], "target.csv"),
+        (["sweep", "plan.toml", "-o", "new.parquet"], "target.csv"),
+        pytest.param(["audit", "--out", "."], "audit.json", marks=pytest.mark.slow),
+    ],
+    ids=["workbook", "csv", "parquet", "audit"],
+)
+def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
+    (tmp_path / "plan.toml").write_text(PLAN)
+    (tmp_path / target).write_text("as it was")
+    before = state(tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-m", "replication", *arguments],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=limited,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(rf"coldspray {arguments[0]}: .*File too large\n", done.stderr)
+    assert state(tmp_path) == before
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from spreadsheets.safely import write_bytes, write_folder
+left = int(sys.argv[1])
+def hook(event, arguments):
+    global left
+    if event in ("open", "os.rename", "os.mkdir", "os.remove", "os.rmdir"):
+        left -= 1
+        if left == 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+sys.addaudithook(hook)
+"""
+WRITERS = {
+    "write_bytes(Path('a'), b'new')": ["a"],
+    "write_folder(Path('.'), {'a': b'new', 'b': b'new', 'c/d': b'new'})": ["a", "b", "c/d"],
+}
+
+
+@pytest.mark.parametrize("writer", WRITERS, ids=["file", "folder"])
+def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) -> None:
+    """It is killed at its first file event, its second, and so on, until it comes to its end."""
+    (tmp_path / "c").mkdir()
+    for moment in range(1, 60):
+        for name in WRITERS[writer]:
+            (tmp_path / name).write_bytes(b"old")
+        command = [sys.executable, "-c", KILLED + writer, str(moment)]
+        done = subprocess.run(command, cwd=tmp_path, check=False)
+        contents = {(tmp_path / name).read_bytes() for name in WRITERS[writer]}
+        if done.returncode == 0:
+            break
+        assert done.returncode == -signal.SIGKILL
+        assert contents <= {b"old", b"new"}
+    assert contents == {b"new"}
+    assert 4 < moment < 59

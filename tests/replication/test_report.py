@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -214,18 +213,6 @@ def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record:
     text = files["audit.md"].decode()
     assert all(f"`{part.id}`" in text for part in (*record.claims, *record.findings))
     assert len({line.count("|") for line in text.splitlines() if line.startswith("| L/D = 1")}) == 1
-
-
-def test_another_process_writes_the_same_bytes(files: dict[str, bytes], tmp_path: Path) -> None:
-    program = (
-        "import sys; from pathlib import Path; from replication.audit.audit import audit\n"
-        "from replication.report.files import write\n"
-        f"write(audit(), Path(sys.argv[1]), {BESIDE!r})"
-    )
-    environment = {**os.environ, "TZ": "Asia/Kathmandu", "LC_ALL": "C", "PYTHONHASHSEED": "7"}
-    subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=True, env=environment)
-    found = {p.relative_to(tmp_path).as_posix(): p for p in tmp_path.rglob("*") if p.is_file()}
-    assert {name: path.read_bytes() for name, path in found.items()} == files
 
 
 def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -> None:
