@@ -581,7 +581,7 @@ def _solved_back(setting: Setting, calculation: Calculation, report: Report) -> 
             agreed = _tried(setting, tried, "report", rules, typed)
             if agreed is not None:
                 return agreed
-    solved = None if "radius" in unknown else solve(setting.rows, setting.case)
+    solved = solve(setting.rows, setting.case)  # with the report's particle, if no cell holds it
     if not unknown or solved is None:
         return setting
     stresses = dict(zip(("target_density", "resistance"), solved, strict=True))

@@ -140,6 +140,17 @@ def test_other_inputs_and_uncalculated_formulas_are_no_fault(
     assert record["claims"] == []
 
 
+def test_inputs_of_bare_numbers_are_solved_back(tmp_path: Path) -> None:
+    f = layouts.pasted(replace(BETA_5, beta=4.2, velocity=430.0))
+    found = check(written(f, tmp_path))
+    assert found.first is None
+    assert found.summary == {"other input": 2}
+    inputs = found.verdicts[0].setting.inputs
+    assert inputs["resistance"].si == pytest.approx(4.2 * 7e8, rel=1e-7)
+    assert inputs["target_density"].si == pytest.approx(7850, rel=1e-7)
+    assert inputs["resistance"].how == "rows"
+
+
 def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
     f = layouts.printed_digits(BETA_5)
     f.cells[f.where[BRAKE, 3]] = 1.55e9
