@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from foreign import layouts, writers
-from foreign.layouts import Foreign, letters, place
+from foreign.layouts import Foreign, moved
 
 from replication.cases import BETA_5
 from replication.check.diff import KINDS, Tolerance
@@ -30,21 +30,6 @@ def diff(coldspray: Run, tmp_path: Path) -> Diff:
         return status, json.loads(out)
 
     return run
-
-
-def moved(f: Foreign, rows: Callable[[int], int], columns: Callable[[int], int]) -> None:
-    """Move every cell as a spreadsheet does when rows or columns are inserted."""
-
-    def address(match: re.Match[str]) -> str:
-        _, row, column = place("", f"{match[2]}{match[4]}")
-        return f"{match[1]}{letters(columns(column))}{match[3]}{rows(row)}"
-
-    def content(c: str | float) -> str | float:
-        if isinstance(c, str) and c.startswith("="):
-            return re.sub(r"(\$?)\b([A-Z]{1,2})(\$?)(\d+)\b(?!\()", address, c)
-        return c
-
-    f.cells = {(s, rows(r), columns(c)): content(v) for (s, r, c), v in f.cells.items()}
 
 
 def kinds(record: dict) -> list[tuple[str, str, int]]:
