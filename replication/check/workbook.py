@@ -84,7 +84,11 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         *_unmet(holds, calculation, verdicts[0]),
         *_uncalculated(calculation),
     ]
-    once = {(d.place, d.kind, d.explanation): d for d in reversed(differences)}.values()
+    # Tables side by side see each other's cells; inputs in no cell share the table's first.
+    once = {
+        (d.place, d.kind, d.explanation if d.kind == "other input" else ""): d
+        for d in reversed(differences)
+    }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
     return Check(path, calculation, tuple(verdicts), ordered, tuple(holds))
 

@@ -47,7 +47,7 @@ class Foreign:
     def at(self, role: str, row: int) -> str | float:
         return self.cells[self.where[role, row]]
 
-    def table(self, sheet: str, row: int, columns: dict[str, str], numbered: str = "") -> None:
+    def table(self, sheet: str, row: int, columns: dict[str, str]) -> None:
         """Say that the table's row 0 stands in that row, and its columns under these letters."""
         for role, letter in columns.items():
             for k in range(self.steps + 1):

@@ -448,7 +448,7 @@ BASES = {f.name: f for f in (
     edits=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), min_size=1, max_size=6),
     heads=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=2),
 )
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     tmp_path_factory: pytest.TempPathFactory,
     name: str, edits: list[tuple[int, object]], heads: list[tuple[int, object]],

@@ -156,7 +156,7 @@ def test_text_page_and_junit_are_those_of_check(coldspray: Run, tmp_path: Path) 
     page, junit = tmp_path / "d.html", tmp_path / "d.xml"
     status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
     assert status == 1
-    assert "Données!C8, value\n    holds 450.0, should hold 500.0" in out
+    assert "Données!C8, value\n    was 500.0, is 450.0" in out
     assert "c0-C8" in page.read_text("utf-8")
     assert all(f'name="{kind}"' in junit.read_text("utf-8") for kind in KINDS)
 
