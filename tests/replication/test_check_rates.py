@@ -8,6 +8,8 @@ from foreign import rates
 from foreign.faults import FAULTS, Planted
 from foreign.writers import require_libreoffice
 
+pytestmark = pytest.mark.slow
+
 DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
 
 
