@@ -15,7 +15,6 @@ from spreadsheets.references import Area, Formula, parse
 
 __all__ = ["Calculation", "calculate"]
 
-ENGINE = "ironcalc"
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
 

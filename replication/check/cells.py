@@ -9,7 +9,7 @@ from fractions import Fraction
 from replication.check.findings import Findings, joined
 from replication.check.inputs import NEAR, Input
 from replication.check.lines import Line, address
-from replication.check.scheme import REPORT, Case, orders
+from replication.check.scheme import BRAKES, REPORT, Case, orders
 from replication.check.table import Table
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
@@ -26,7 +26,8 @@ def irregular(
 
     Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
     """
-    places = [line.place(table.zero + k) for k in range(2, table.steps + 1)]
+    rows = [table.zero + k for k in range(2, table.steps + 1)]
+    places = [line.place(at) for at in rows if line.follows(at)]
     formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
     if len(formulas) < max(3, 0.5 * len(places)):
         return
@@ -194,6 +195,10 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     return abs(found - expected) > NEAR * size
 
 
+def _near(found: float, wanted: float | None) -> bool:
+    return wanted is not None and math.isclose(found, wanted, rel_tol=NEAR)
+
+
 def _breaks(f: Findings, place: Position) -> bool:
     """Whether a cell gives an error that comes from no other cell of the table."""
     formula = f.calculation.formulas.get(place)
@@ -225,6 +230,9 @@ def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, 
         return "other scheme", "the times are those at the beginning of the rows"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
+    beyond = next(rule for rule in BRAKES if rule.name == "area beyond the radius")
+    if role == "deceleration" and _near(found, beyond.value(f.case, f.setting.rows, k)):
+        return "other scheme", f"{beyond.name}: {beyond.says}"
     power = power_of_ten(found / expected) if expected else None
     if power:
         return "unit", f"{what}: a factor of 1e{abs(power)}"

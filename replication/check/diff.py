@@ -8,6 +8,7 @@ inserted row is one, and each formula is compared with where its references have
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
 from difflib import SequenceMatcher
 from pathlib import Path
 
@@ -47,8 +48,20 @@ class Tolerance:
             return True
         if self.ulp and abs(a - b) <= self.ulp * math.ulp(max(abs(a), abs(b))):
             return True
-        places = self.digits
-        return places is not None and f"{a:.{places - 1}e}" == f"{b:.{places - 1}e}"
+        return self.digits is not None and _print_alike(a, b, self.digits)
+
+
+def _print_alike(a: float, b: float, digits: int) -> bool:
+    """Whether two numbers have the same digits, or one is the other rounded, ties either way.
+
+    >>> _print_alike(9.476105709802965e-07, 9.47610570980297e-07, 15)
+    True
+    """
+    texts = [f"{number:.{digits - 1}e}" for number in (a, b)]
+    half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - digits}")
+    rounded = float(texts[0]) == a or float(texts[1]) == b
+    near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half
+    return texts[0] == texts[1] or (rounded and near)
 
 
 @dataclass

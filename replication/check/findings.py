@@ -51,7 +51,7 @@ def rank(place: Position, setting: Setting, calculation: Calculation) -> tuple[f
         return (1, k, 9 if role == "time" else list(COLUMNS).index(role))
     for line in table.helpers:
         if line.covers(place):
-            return (1, (place[2] if line.across else place[1]) - table.zero, 2.5)
+            return (1, (line.index(place) or 0) - table.zero, 2.5)
     order = calculation.order.get(place, -1)
     return (0 if place in setting.read or order < 0 else 2, order)
 

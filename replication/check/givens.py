@@ -40,6 +40,8 @@ def other_inputs(f: Findings) -> None:
     for role, own in off.items():
         nearest = min(f.report[role], key=lambda value: abs(value - own.si))
         text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
+        if role == "radius" and math.isclose(own.si, 2 * nearest, rel_tol=1e-9):
+            text += ", whose diameter this is"
         if role == "target_density":
             text += ", inferred, since the report prints none"
         if own.how == "rows":

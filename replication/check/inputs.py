@@ -520,7 +520,8 @@ def _typed(calculation: Calculation) -> set[float]:
 
 def _step(columns: Mapping[str, Mapping[int, float]], report: Report) -> float:
     """The step that the rows have taken, as the shortest decimal that they agree with."""
-    steps = [t / k for k, t in columns.get("time", {}).items() if k and t]
+    times = columns.get("time", {})
+    steps = [t - times[k - 1] for k, t in times.items() if k - 1 in times]
     if not steps:
         speeds = columns.get("velocity_initial") or columns["velocity_final"]
         x = columns["depth"]
@@ -580,7 +581,7 @@ def _solved_back(setting: Setting, calculation: Calculation, report: Report) -> 
             agreed = _tried(setting, tried, "report", rules, typed)
             if agreed is not None:
                 return agreed
-    solved = None if "radius" in unknown else solve(setting.rows, setting.case)
+    solved = solve(setting.rows, setting.case)  # with the report's particle, if no cell holds it
     if not unknown or solved is None:
         return setting
     stresses = dict(zip(("target_density", "resistance"), solved, strict=True))

@@ -3,7 +3,7 @@
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -26,7 +26,8 @@ _ABOVE = 6
 class Line:
     """Numbers in one column (or row) of a sheet, from the row (or column) `first` on.
 
-    `values` are None where a cell has no number. `given` is the role that the user gave it.
+    `values` are None where a cell has no number. `given` is the role that the user gave it. Rows
+    are counted without those of `left_out`, which are blank and over which the formulas step.
     """
 
     sheet: str
@@ -38,6 +39,7 @@ class Line:
     unit: str | None = None
     unit_place: Position | None = None
     given: str | None = None
+    left_out: tuple[int, ...] = ()
 
     @property
     def last(self) -> int:
@@ -55,13 +57,27 @@ class Line:
 
     def place(self, at: int) -> Position:
         """The cell in a row, or column, of the sheet."""
+        for blank in self.left_out:
+            at += at >= blank
         return (self.sheet, self.number, at) if self.across else (self.sheet, at, self.number)
+
+    def index(self, place: Position) -> int | None:
+        """The row, or column, of a cell, as `place` takes it; None for a cell of another line."""
+        sheet, row, column = place
+        number, at = (row, column) if self.across else (column, row)
+        if (sheet, number) != (self.sheet, self.number) or at in self.left_out:
+            return None
+        return at - sum(blank < at for blank in self.left_out)
+
+    def follows(self, at: int) -> bool:
+        """Whether a cell stands right after the one before, with no blank between."""
+        before, here = self.place(at - 1), self.place(at)
+        return here[1] - before[1] + here[2] - before[2] == 1
 
     def covers(self, place: Position) -> bool:
         """Whether a cell is one of these."""
-        sheet, row, column = place
-        number, at = (row, column) if self.across else (column, row)
-        return sheet == self.sheet and number == self.number and self.first <= at <= self.last
+        at = self.index(place)
+        return at is not None and self.first <= at <= self.last
 
     def overlaps(self, other: "Line") -> bool:
         """Whether a cell is in both."""
@@ -129,23 +145,69 @@ def lines(calculation: Calculation) -> Iterator[Line]:
     for sheet, cells in numbers.items():
         for across in (False, True):
             turned = cells if across else {(c, r): value for (r, c), value in cells.items()}
+            blank = _left_out(sheet, across, turned, calculation)
+            turned = {
+                (line, at - sum(b < at for b in blank)): v for (line, at), v in turned.items()
+            }
             by_line: dict[int, list[int]] = {}
             for line, at in turned:
                 by_line.setdefault(line, []).append(at)
             filled = Counter(at for _, at in turned)
             for line, places in sorted(by_line.items()):
-                for first, last in _runs(sorted(places), filled):
+                whole = Line(sheet, line, 1, (), across, left_out=blank)
+                for first, last in _runs(sorted(places), filled, whole, calculation):
                     values = tuple(turned.get((line, at)) for at in range(first, last + 1))
                     if sum(value is not None for value in values) >= LEAST:
-                        yield headed(Line(sheet, line, first, values, across), calculation)
+                        yield headed(replace(whole, first=first, values=values), calculation)
 
 
-def _runs(places: Sequence[int], filled: Counter[int]) -> Iterator[tuple[int, int]]:
-    """First and last of each run; a few missing cells end it only where others are missing, too."""
+def _left_out(
+    sheet: str,
+    across: bool,
+    numbers: Mapping[tuple[int, int], object],
+    calculation: Calculation,
+) -> tuple[int, ...]:
+    """Blank rows (or columns) of a sheet in the midst of formulas that step over them."""
+    used = sorted({column if across else row for name, row, column in calculation.values
+                   if name == sheet})  # fmt: skip
+    by_row: dict[int, list[Line]] = {}
+    for line, at in numbers:
+        by_row.setdefault(at, []).append(Line(sheet, line, 1, (), across))
+    return tuple(
+        blank
+        for before, here in pairwise(used)
+        if 1 < here - before <= _GAP + 1
+        and any(
+            _reads(line, here, before, calculation)
+            and _reads(line, before, before - 1, calculation)
+            for line in by_row.get(here, ())
+        )
+        for blank in range(before + 1, here)
+    )
+
+
+def _reads(line: Line, at: int, other: int, calculation: Calculation) -> bool:
+    """Whether a formula of a line reads another cell of it."""
+    formula = calculation.formulas.get(line.place(at))
+    return formula is not None and formula.reads(line.place(other))
+
+
+def _runs(
+    places: Sequence[int], filled: Counter[int], line: Line, calculation: Calculation
+) -> Iterator[tuple[int, int]]:
+    """First and last of each run.
+
+    A few missing cells end it only where others are missing, too, and where the formula after them
+    is not the one before, filled on.
+    """
     first = places[0]
     for before, here in pairwise([*places, math.inf]):
         gap = range(int(before) + 1, int(here)) if here - before - 1 <= _GAP else None
-        if gap is None or any(filled[at] < 2 for at in gap):
+        ends = gap is None or any(filled[at] < 2 for at in gap)
+        if gap and ends:
+            left, right = (calculation.formulas.get(line.place(int(at))) for at in (before, here))
+            ends = left is None or right is None or left.shape != right.shape
+        if ends:
             if before - first + 1 >= LEAST:
                 yield first, int(before)
             first = int(here) if here < math.inf else 0

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 from reference.units import written
 from replication.check.findings import NO_FAULT, Difference
 from replication.check.lines import address
-from replication.check.record import safe
+from replication.check.record import held, safe
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -43,7 +43,7 @@ def html(
         loader=PackageLoader("replication.check", "."), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters |= {"safe": safe, "shown": _shown, "unit": written}
+    environment.filters |= {"safe": safe, "held": held, "unit": written}
     sheets = list(calculation.book.sheets)
     return environment.get_template("page.html.j2").render(
         record,
@@ -52,12 +52,6 @@ def html(
         anchors=[_anchor(d.place, sheets) for d in differences],
         sheets=list(_drawn(differences, calculation)),
     )
-
-
-def _shown(value: object) -> str:
-    if value is None:
-        return "nothing"
-    return repr(value) if isinstance(value, float) else safe(value, 300)
 
 
 def _anchor(place: Position, sheets: Sequence[str]) -> str:

@@ -3,10 +3,11 @@
 import math
 import unicodedata
 from collections import Counter
+from collections.abc import Mapping
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import Difference
+from replication.check.findings import KINDS, Difference
 from replication.check.judge import Verdict
 from replication.check.lines import address, area_of
 from replication.check.printed import Held
@@ -14,7 +15,7 @@ from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check
 from spreadsheets.foreign import Position
 
-__all__ = ["check_record", "diff_record", "safe"]
+__all__ = ["check_record", "diff_record", "held", "safe"]
 
 
 def check_record(check: Check) -> dict[str, Any]:
@@ -179,6 +180,26 @@ def _claim(number: Held) -> dict[str, Any]:
         "found": number.found,
         "met": number.met,
     }
+
+
+def held(difference: Mapping[str, Any]) -> str:
+    """What a cell holds and what it should hold; of `diff`, what it was and what it is.
+
+    >>> held({"kind": "value", "expected": 500.0, "found": None})
+    'was 500.0, is nothing'
+    """
+    expected, found = difference["expected"], difference["found"]
+    if difference["kind"] not in KINDS:
+        return f"was {_shown(expected)}, is {_shown(found)}"
+    if expected is not None:
+        return f"holds {_shown(found)}, should hold {_shown(expected)}"
+    return "" if found is None else f"holds {_shown(found)}"
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "nothing"
+    return repr(value) if isinstance(value, float) else safe(value, 120)
 
 
 def safe(text: object, limit: int = 90) -> str:

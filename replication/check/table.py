@@ -267,5 +267,7 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
         x, v = depth.at(at), speed.at(at)
         held = x == depth.at(at - 1) and v == speed.at(at - 1)
         if x is None or v is None or not (held or x == v == 0):
-            return at if at < last - 1 else last
+            fastest = max(abs(value) for value in speed.values if value is not None)
+            ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
+            return at if at < last - 1 and ended else last
     return last

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
-from replication.check.record import safe
+from replication.check.record import held, safe
 from replication.text import aligned
 
 __all__ = ["text"]
@@ -116,16 +116,14 @@ def _explained(depths: Sequence[Record]) -> Iterator[str]:
     for depth in depths:
         if depth["explained_by"]:
             cells = f"{depth['differing']:,} cells of its table differ from the right run"
-            yield f"    {safe(depth['explained_by'], 60)} alone explains the final depth; {cells}"
+            cell = safe(depth["explained_by"], 60)
+            yield _wrapped(f"{cell} alone explains the final depth; {cells}", "    ")
 
 
 def _difference(difference: Record) -> Iterator[str]:
     yield f"  {_where(difference)}, {difference['kind']}"
-    expected, found = difference["expected"], difference["found"]
-    if expected is not None:
-        yield f"    holds {_shown(found)}, should hold {_shown(expected)}"
-    elif found is not None:
-        yield f"    holds {_shown(found)}"
+    if line := held(difference):
+        yield f"    {line}"
     yield _wrapped(safe(difference["explanation"], 400), "    ")
 
 
@@ -136,12 +134,6 @@ def _wrapped(line: str, indent: str) -> str:
 def _where(difference: Record) -> str:
     more = f" ({difference['cells']})" if difference["count"] > 1 else ""
     return f"{safe(difference['sheet'], 40)}!{difference['cell']}{more}"
-
-
-def _shown(value: object) -> str:
-    if value is None:
-        return "nothing"
-    return repr(value) if isinstance(value, float) else safe(value, 120)
 
 
 def _claims(claims: Sequence[Record]) -> Iterator[str]:

@@ -2,14 +2,14 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from reference.units import same_dimension
 from replication.check.findings import NO_FAULT, Difference, rank
 from replication.check.inputs import find, numbers_beside
 from replication.check.judge import Verdict, judge
-from replication.check.lines import LEAST, Line, address, headed
+from replication.check.lines import LEAST, Line, address, headed, lines
 from replication.check.printed import Held, held, report_inputs
 from replication.check.table import tables
 from replication.check.words import COLUMNS, INPUTS, count
@@ -84,7 +84,11 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         *_unmet(holds, calculation, verdicts[0]),
         *_uncalculated(calculation),
     ]
-    once = {(d.place, d.kind): d for d in reversed(differences)}.values()
+    # Tables side by side see each other's cells; inputs in no cell share the table's first.
+    once = {
+        (d.place, d.kind, d.explanation if d.kind == "other input" else ""): d
+        for d in reversed(differences)
+    }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
     return Check(path, calculation, tuple(verdicts), ordered, tuple(holds))
 
@@ -104,12 +108,15 @@ def _mapped(
             area.right - area.left + 1,
         ):
             across = area.top == area.bottom
-            first = area.left if across else area.top
-            values = tuple(calculation.number(place) for place in area.places())
+            alike = (line for line in lines(calculation) if line.sheet == area.sheet)
+            blank = next((line.left_out for line in alike if line.across == across), ())
+            number, first = (area.top, area.left) if across else (area.left, area.top)
+            line = Line(area.sheet, number, 1, (), across, given=given, left_out=blank)
+            places = [place for place in area.places() if line.index(place) is not None]
+            values = tuple(calculation.number(place) for place in places)
             if sum(value is not None for value in values) < LEAST:
                 raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
-            number = area.top if across else area.left
-            line = Line(area.sheet, number, first, values, across, given=given)
+            line = replace(line, first=line.index(places[0]) or first, values=values)
             columns.append(_measuring(headed(line, calculation)))
         else:
             wanted = "one cell" if given in INPUTS else "one column or one row"

@@ -273,9 +273,10 @@ def wrong_head(f: Foreign, _: Values) -> Planted | None:
         if isinstance(text, str) and not text.startswith("="):
             for old, new in (("µm", "mm"), ("(m)", "(mm)"), ("[m]", "[mm]"), ("in m", "in mm"),
                              (" / m", " / mm"), ("nm", "µm"), ("mm", "µm")):  # fmt: skip
-                if old in text or (text == old.strip("()[]") == "m"):
+                said = re.compile(re.escape(old) + r"(?!\w)")
+                if said.search(text) or (text == old.strip("()[]") == "m"):
                     g = _copy(f)
-                    g.cells[here] = text.replace(old, new) if old in text else "mm"
+                    g.cells[here] = said.sub(new, text) if said.search(text) else "mm"
                     return Planted("unit in a head", "unit", g, (here,))
     return None
 

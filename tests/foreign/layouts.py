@@ -5,6 +5,7 @@ heads as somebody would type them, and where what stands. Rows are numbered as i
 is the impact, row 1 the first step. `faults.py` spoils them, `writers.py` makes files of them.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -46,7 +47,7 @@ class Foreign:
     def at(self, role: str, row: int) -> str | float:
         return self.cells[self.where[role, row]]
 
-    def table(self, sheet: str, row: int, columns: dict[str, str], numbered: str = "") -> None:
+    def table(self, sheet: str, row: int, columns: dict[str, str]) -> None:
         """Say that the table's row 0 stands in that row, and its columns under these letters."""
         for role, letter in columns.items():
             for k in range(self.steps + 1):
@@ -72,6 +73,21 @@ def letters(number: int) -> str:
         number, rest = divmod(number - 1, 26)
         text = chr(ord("A") + rest) + text
     return text
+
+
+def moved(f: Foreign, rows: Callable[[int], int], columns: Callable[[int], int]) -> None:
+    """Move every cell of a lone sheet as a spreadsheet does when rows or columns are inserted."""
+
+    def address(match: re.Match[str]) -> str:
+        _, row, column = place("", f"{match[2]}{match[4]}")
+        return f"{match[1]}{letters(columns(column))}{match[3]}{rows(row)}"
+
+    def content(c: str | float) -> str | float:
+        if isinstance(c, str) and c.startswith("="):
+            return re.sub(r"(\$?)\b([A-Z]{1,2})(\$?)(\d+)\b(?!\()", address, c)
+        return c
+
+    f.cells = {(s, rows(r), columns(c)): content(v) for (s, r, c), v in f.cells.items()}
 
 
 def table_a1(impact: Impact) -> Foreign:

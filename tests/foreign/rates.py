@@ -6,7 +6,7 @@
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -21,6 +21,8 @@ from replication.cases import BETA_3, BETA_5
 from replication.check.workbook import Check, check
 
 DRAWN = range(24)
+AFRESH = range(3000, 3040)
+"""Of the tests; and of `main` alone, which nobody looked at when the program was made."""
 CASES = (BETA_5, BETA_3)
 
 
@@ -65,20 +67,25 @@ def clean(f: Foreign, path: Path) -> bool:
 @cache
 def to_spoil() -> list[tuple[Foreign, writers.Values]]:
     """The workbooks that faults are planted in, with the values of their formulas."""
-    books = (*by_hand(BETA_5), *(drawn(seed, CASES[seed % 2]) for seed in DRAWN[:6]))
+    return _with_values((*by_hand(BETA_5), *(drawn(seed, CASES[seed % 2]) for seed in DRAWN[:6])))
+
+
+def _with_values(books: Iterable[Foreign]) -> list[tuple[Foreign, writers.Values]]:
     with tempfile.TemporaryDirectory() as folder:
         return [(f, writers.calculated(f, Path(folder, "plain.xlsx"))) for f in books]
 
 
 def planted(
-    plant: Callable[..., Planted | None], folder: Path
+    plant: Callable[..., Planted | None],
+    folder: Path,
+    books: Sequence[tuple[Foreign, writers.Values]] | None = None,
 ) -> tuple[str, list[tuple[str, bool, bool]]]:
     """One fault in every workbook that can have it: its name; each workbook, found, found alone.
 
     Found: named rightly, placed on the right cell, called the first; alone: nothing else accused.
     """
     fault, found = "", []
-    for f, values in to_spoil():
+    for f, values in books or to_spoil():
         spoiled = plant(f, values)
         if spoiled is not None:
             path = folder / "spoiled.xlsx"
@@ -129,6 +136,12 @@ def main() -> None:
         print("|---|---|---|---|")
         for plant in FAULTS:
             print(planted_row(plant, folder)[0], flush=True)
+        books = [drawn(seed, CASES[seed % 2]) for seed in AFRESH]
+        good = sum(clean(f, writers.with_openpyxl(f, folder / "drawn.xlsx")) for f in books)
+        some = _with_values(books[:10])
+        found = [entry for plant in FAULTS for entry in planted(plant, folder, some)[1]]
+        print(f"\nDrawn afresh: {good} of {len(books)} clean, "
+              f"{sum(entry[1] for entry in found)} of {len(found)} faults found")  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -10,7 +11,7 @@ import html5lib
 import pytest
 from foreign import layouts, writers
 from foreign.drawn import drawn
-from foreign.layouts import BRAKE, DEPTH, END, START, Foreign
+from foreign.layouts import BRAKE, DEPTH, END, START, Foreign, moved
 from foreign.writers import require_libreoffice
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -53,8 +54,6 @@ def spoiled(tmp_path: Path) -> Path:
 def test_the_rules_give_the_sheet_double_for_double(
     scheme: str, brake: object, velocity: float, radius: float, step: float, beta: float
 ) -> None:
-    from dataclasses import replace
-
     impact = Impact(
         velocity=velocity, radius=radius, particle_density=8900, target_density=7850,
         resistance=beta * 7e8, step=step,
@@ -133,14 +132,23 @@ def test_the_kinds_are_the_promised_ones() -> None:
 def test_other_inputs_and_uncalculated_formulas_are_no_fault(
     coldspray: Run, tmp_path: Path
 ) -> None:
-    from dataclasses import replace
-
     f = layouts.table_a1(replace(BETA_5, velocity=480.0))
     status, out, _ = coldspray("check", written(f, tmp_path), "--json")
     record = json.loads(out)
     assert (status, record["first"]) == (0, None)
     assert record["summary"] == {"other input": 1, "not calculated": 1}
     assert record["claims"] == []
+
+
+def test_inputs_of_bare_numbers_are_solved_back(tmp_path: Path) -> None:
+    f = layouts.pasted(replace(BETA_5, beta=4.2, velocity=430.0))
+    found = check(written(f, tmp_path))
+    assert found.first is None
+    assert found.summary == {"other input": 2}
+    inputs = found.verdicts[0].setting.inputs
+    assert inputs["resistance"].si == pytest.approx(4.2 * 7e8, rel=1e-7)
+    assert inputs["target_density"].si == pytest.approx(7850, rel=1e-7)
+    assert inputs["resistance"].how == "rows"
 
 
 def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
@@ -201,6 +209,56 @@ def test_errors_and_gaps_are_named_where_they_begin(
     assert first is not None
     assert first.place == place
     assert words in first.explanation
+
+
+def test_blank_rows_that_the_formulas_step_over_are_none(tmp_path: Path) -> None:
+    f = layouts.table_a1(BETA_5)
+    moved(f, lambda r: r + (r >= 50) + 2 * (r >= 90), lambda c: c)
+    found = check(written(f, tmp_path))
+    assert found.first is None
+    assert [verdict.setting.table.steps for verdict in found.verdicts] == [131]
+
+
+def test_a_row_that_is_gone_is_the_first_difference(tmp_path: Path) -> None:
+    f = layouts.table_a1(BETA_5)
+    f.cells = {place: content for place, content in f.cells.items() if place[1] != 50}
+    first = check(written(f, tmp_path)).first
+    assert first is not None
+    assert first.place == ("Sheet1", 50, 3)
+    assert "no number in the initial velocity of row 42" in first.explanation
+
+
+def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Path) -> None:
+    f, s = Foreign("middle", BETA_5), "run"
+    inputs = {"V0": 500, "R": 11e-6, "rho_p": 8900, "rho_t": 7850, "Rt": 3.5e9, "dt": 2e-10}
+    for c, (name, value) in enumerate(inputs.items(), 1):
+        f.cells[s, 1, c], f.cells[s, 2, c] = name, value
+    f.cells |= {(s, 1, 7): "m", (s, 2, 7): "=C2*4/3*PI()*B2^3"}
+    f.cells |= {(s, 5, c): head for c, head in enumerate(["t", "v", "x", "v_half", "a"], 1)}
+    f.cells |= {(s, 6, 1): 0, (s, 6, 2): "=A2", (s, 6, 3): 0}
+    for r in range(7, 137):
+        force = f"(0.5*D$2*%s^2+E$2)*PI()*(2*B$2*C{r}-C{r}^2)/G$2"
+        f.cells |= {
+            (s, r, 1): f"=A{r - 1}+F$2",
+            (s, r, 2): "=B6" if r == 7 else f"=B{r - 1}-E{r - 1}*F$2",
+            (s, r, 3): f"=B{r}*F$2/2" if r == 7 else f"=C{r - 1}+B{r}*F$2",
+            (s, r, 4): f"=B{r}-{force % f'B{r}'}*F$2/2",
+            (s, r, 5): f"={force % f'D{r}'}",
+        }
+    found = check(written(f, tmp_path))
+    (verdict,) = found.verdicts
+    assert END not in verdict.setting.table.lines
+    assert verdict.rules.name == "centered"
+    assert found.first is not None
+    assert found.first.place == (s, 7, 5)
+
+
+def test_a_contact_area_that_shrinks_beyond_the_radius_is_named(tmp_path: Path) -> None:
+    f = layouts.table_a1(replace(BETA_5, velocity=800.0))
+    first = check(written(f, tmp_path)).first
+    assert first is not None
+    assert first.kind == "other scheme"
+    assert "keeps pi R²" in first.explanation
 
 
 def test_two_faults_come_in_the_order_of_calculation(tmp_path: Path) -> None:
@@ -390,7 +448,7 @@ BASES = {f.name: f for f in (
     edits=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), min_size=1, max_size=6),
     heads=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=2),
 )
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     tmp_path_factory: pytest.TempPathFactory,
     name: str, edits: list[tuple[int, object]], heads: list[tuple[int, object]],
