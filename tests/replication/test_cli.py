@@ -142,7 +142,7 @@ WRONG = {
     "points and times": (["history", "--points", "3", "--times", "0"], "not allowed with"),
     "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
     "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
-    "file for a folder": (["audit", "--out", "taken"], "taken: is a file"),
+    "file for a folder": (["audit", "--out", "taken"], "taken: is no folder"),
     "unwritable folder": (["audit", "--out", "/proc/coldspray"], "/proc"),
 }
 

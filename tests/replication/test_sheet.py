@@ -66,8 +66,9 @@ def test_every_row_follows_from_the_one_before(impact: Impact) -> None:
 def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impact) -> None:
     reals = Reals(50)
     inputs = (*impact.motion.values(), impact.step)
-    rows = sheet_rows(reals, *(reals.number(Fraction(value)) for value in inputs))
     sheet = run(impact)
+    numbers = (reals.number(Fraction(value)) for value in inputs)
+    rows = sheet_rows(reals, *numbers, most_rows=sheet.steps)
     # A row has about a dozen roundings of 2^-53, each relative to a value of at most the impact's;
     # later rows amplify them by less than ten (cosh of the deceleration's growth over an impact).
     bound = 12 * 10 * sheet.steps * 2.0**-53
