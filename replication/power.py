@@ -9,6 +9,7 @@ import random
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib import resources
 
 import msgspec
 
@@ -19,7 +20,7 @@ from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Verdict
 
-__all__ = ["Counts", "Plant", "Power", "Trial", "planted", "plants", "power", "trial"]
+__all__ = ["Counts", "Plant", "Power", "Trial", "measured", "planted", "plants", "power", "trial"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +83,41 @@ class Power(Counts, kw_only=True):
     by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
     by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
+
+    def table(self) -> list[tuple[str, ...]]:
+        """Heads and rates in percent of what is visible: all, by kind of entry, by kind of edit."""
+        heads = (
+            "",
+            "planted",
+            "visible",
+            "noticed",
+            "text named",
+            "named first",
+            "accused wrongly",
+        )
+        kinds = [(f"in {name}", self.by_kind[name]) for name in sorted(self.by_kind)]
+        edits = [(f"by {name}", self.by_edit[name]) for name in sorted(self.by_edit)]
+        return [heads, *(_row(name, counts) for name, counts in [("all", self), *kinds, *edits])]
+
+
+def _row(name: str, counts: Counts) -> tuple[str, ...]:
+    shares = (counts.detected, counts.repaired, counts.repaired_first, counts.accused_wrongly)
+    return (
+        name,
+        str(counts.planted),
+        str(counts.visible),
+        *(f"{100 * share / counts.visible:.1f}" if counts.visible else "-" for share in shares),
+    )
+
+
+def measured() -> Power:
+    """What `coldspray power --json` last measured for this report; a test measures it again.
+
+    >>> measured().planted
+    500
+    """
+    file = resources.files("replication") / "power.json"
+    return msgspec.json.decode(file.read_bytes(), type=Power)
 
 
 def plants(ledger: Ledger) -> Iterator[Plant]:

@@ -6,9 +6,7 @@ from typing import TYPE_CHECKING
 from replication.cli import options as shared
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from replication.power import Counts, Power
+    from replication.power import Power
 
 HELP = "plant misprints in memory and measure what the audit notices"
 
@@ -55,26 +53,8 @@ def _text(result: "Power") -> str:
         "number still rounds as printed. Of the others, in percent:",
         "",
     ]
-    heads = ("", "planted", "visible", "noticed", "text named", "named first", "accused wrongly")
-    rows = [heads, _row("all", result)]
-    for title, counts in (("in", result.by_kind), ("by", result.by_edit)):
-        rows += _rows(title, counts)
-    lines += aligned(rows)
+    lines += aligned(result.table())
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]
         lines += [f"  {x['entry']}: {x['true']!r} as {x['text']!r}" for x in result.unnoticed]
     return "\n".join(lines)
-
-
-def _rows(title: str, counts: "Mapping[str, Counts]") -> list[tuple[str, ...]]:
-    return [_row(f"{title} {name}", counts[name]) for name in sorted(counts)]
-
-
-def _row(name: str, counts: "Counts") -> tuple[str, ...]:
-    shares = (counts.detected, counts.repaired, counts.repaired_first, counts.accused_wrongly)
-    return (
-        name,
-        str(counts.planted),
-        str(counts.visible),
-        *(f"{100 * share / counts.visible:.1f}" if counts.visible else "-" for share in shares),
-    )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
+from replication.power import measured
 from replication.report import facts as told
 from replication.report import tables
 from replication.report.figures import Drawing
@@ -37,6 +38,7 @@ SECTIONS = {
     "sources": "Numbers compared with public sources",
     "repeated": "Numbers that repeat or are chosen",
     "undecided": "Numbers that nothing in the report decides",
+    "power": "What this audit would notice",
     "symbols": "Symbols",
     "provenance": "Provenance",
 }
@@ -86,7 +88,7 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
 
 def _context(record: Record) -> dict[str, Any]:
     """What both templates show: the record, and its parts in the order in which they stand."""
-    groups, names = _groups(record), told.names_of(record)
+    groups, names, power = _groups(record), told.names_of(record), measured()
     return {
         "record": record,
         "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
@@ -103,6 +105,8 @@ def _context(record: Record) -> dict[str, Any]:
         "touching": _touching(record),
         "sources": _sources(record),
         "table": _table_a_1(groups["table-a-1"]),
+        "power": power,
+        "rates": tables.Table("Rates in percent", power.table()[0], power.table()[1:]),
     }
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from reference.ledger import load
 from replication.audit.audit import Audit
-from replication.power import Plant, planted, plants, power, trial
+from replication.power import Plant, measured, planted, plants, power, trial
 
 LEDGER = load()
 EVERYTHING = list(plants(LEDGER))
@@ -61,6 +61,12 @@ def test_one_wrong_cell_of_the_table_does_not_end_the_audit() -> None:
     assert inference.odd == ("a1-deceleration-2",)
     assert audit.assessment(ledger.claims["a1-deceleration-2"]).verdict == "not reproduced"
     assert audit.assessment(ledger.claims["depth-beta-5"]).verdict == "reproduced"
+
+
+@pytest.mark.slow
+def test_the_rates_on_the_page_are_measured_again() -> None:
+    rates = measured()
+    assert power(LEDGER, rates.planted, rates.seed, lambda plants: plants) == rates
 
 
 @pytest.mark.slow
