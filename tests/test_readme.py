@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from replication.cli import main
+from replication.power import measured
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
@@ -51,6 +52,18 @@ def test_the_two_commands_are_those_that_users_were_promised() -> None:
     assert "python -m pip install . && coldspray audit" in README
     assert "python -m pip install -e '.[test]' && python -m pytest" in README
     assert "python -m pip install --quiet -e '.[test]'" in (ROOT / ".ci" / "run").read_text()
+
+
+def test_the_rates_are_those_measured() -> None:
+    rates = measured()
+    shares = (rates.detected, rates.repaired, rates.repaired_first, rates.accused_wrongly)
+    found, named, first, accused = (f"{100 * share / rates.visible:.1f} %" for share in shares)
+    text = " ".join(README.split())
+    assert f"Of {rates.planted}, drawn with seed {rates.seed}, {rates.invisible} cannot" in text
+    assert (
+        f"the other {rates.visible} it notices {found}; it names the true text in {named}," in text
+    )
+    assert f"first of all in {first}, and another entry first in {accused}." in text
 
 
 @pytest.mark.parametrize(
