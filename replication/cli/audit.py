@@ -50,5 +50,5 @@ def run(options: argparse.Namespace) -> int:
         from replication.report.terminal import summary
 
         print(summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
-        print(f"Written: {options.out}/, of it audit.html first")
+        print(f"Written to {options.out}/; start with audit.html")
     return 1 if options.exit_code and record.counts.failing else 0
