@@ -69,7 +69,25 @@ class Arithmetic(Protocol):
         """A number that stands for all of them."""
 
 
-class Reals:
+class _Points:
+    """What arithmetics of numbers that are known, not enclosed, have in common."""
+
+    least, greatest = staticmethod(min), staticmethod(max)
+
+    def contact_share(self, y: Number) -> Number:
+        return y * (2 - y)
+
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        return bool(x < bound)
+
+    is_below = may_be_below
+
+    def hull(self, numbers: list[Number]) -> Number:
+        (only,) = numbers
+        return only
+
+
+class Reals(_Points):
     """mpmath numbers of a given number of decimal digits; no global precision is changed.
 
     >>> print(Reals(30).pi)
@@ -82,7 +100,6 @@ class Reals:
         self.context = mpmath.MPContext()
         self.context.dps = digits
         self.log = self.context.log
-        self.least, self.greatest = min, max
 
     @property
     def pi(self) -> Number:
@@ -94,36 +111,22 @@ class Reals:
     def power(self, x: Number, exponent: Fraction) -> Number:
         return self.context.root(x, exponent.denominator) ** exponent.numerator
 
-    def contact_share(self, y: Number) -> Number:
-        return y * (2 - y)
-
     def cap_root(self, c: Number) -> Number:
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
         root = self.context.sqrt(c)
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
-
-    def may_be_below(self, x: Number, bound: Number) -> bool:
-        return bool(x < bound)
-
-    is_below = may_be_below
-
-    def hull(self, numbers: list[Number]) -> Number:
-        (only,) = numbers
-        return only
 
 
 class InexactError(ArithmeticError):
     """A number is not rational, or not known to be."""
 
 
-class Rationals:
+class Rationals(_Points):
     """Exact fractions, for as long as a formula needs no other numbers.
 
     >>> Rationals().number(1) / 3
     Fraction(1, 3)
     """
-
-    least, greatest = staticmethod(min), staticmethod(max)
 
     @property
     def pi(self) -> Number:
@@ -140,23 +143,11 @@ class Rationals:
             raise InexactError("a root is no fraction")
         return x ** int(exponent)
 
-    def contact_share(self, y: Number) -> Number:
-        return y * (2 - y)
-
     def cap_root(self, c: Number) -> Number:
         raise InexactError(f"the root of y^2 - y^3/3 = {c} is no fraction")
 
-    def may_be_below(self, x: Number, bound: Number) -> bool:
-        return bool(x < bound)
 
-    is_below = may_be_below
-
-    def hull(self, numbers: list[Number]) -> Number:
-        (only,) = numbers
-        return only
-
-
-class Floats:
+class Floats(_Points):
     """IEEE doubles, for a quick look; what they tell is no proof.
 
     >>> f"{Floats().cap_root(0.08):.4f}"
@@ -165,7 +156,6 @@ class Floats:
 
     pi = math.pi
     log = staticmethod(math.log)
-    least, greatest = staticmethod(min), staticmethod(max)
 
     def number(self, value: Fraction | int) -> Number:
         return float(value)
@@ -173,21 +163,9 @@ class Floats:
     def power(self, x: Number, exponent: Fraction) -> Number:
         return x ** float(exponent)
 
-    def contact_share(self, y: Number) -> Number:
-        return y * (2 - y)
-
     def cap_root(self, c: Number) -> Number:
         third = math.asin(math.sqrt(3 * c) / 2) / 3
         return 2 * math.sin(third) ** 2 + math.sqrt(3) * math.sin(2 * third)
-
-    def may_be_below(self, x: Number, bound: Number) -> bool:
-        return bool(x < bound)
-
-    is_below = may_be_below
-
-    def hull(self, numbers: list[Number]) -> Number:
-        (only,) = numbers
-        return only
 
 
 class DiscontinuityError(ArithmeticError):
@@ -195,92 +173,95 @@ class DiscontinuityError(ArithmeticError):
 
 
 class Dual:
-    """A number with its derivatives by some variables, `slopes` in their order."""
+    """A number with its derivatives by the variables it depends on: `slopes` by their names."""
 
     __slots__ = ("slopes", "value")
 
-    def __init__(self, value: Number, slopes: tuple[Number, ...]) -> None:
+    def __init__(self, value: Number, slopes: Mapping[str, Number] = {}) -> None:
         self.value, self.slopes = value, slopes
 
+    def scaled(self, value: Number, outer: Number) -> "Dual":
+        """A function of this number, from its value and its derivative."""
+        return Dual(value, {name: outer * slope for name, slope in self.slopes.items()})
+
     def __neg__(self) -> "Dual":
-        return Dual(-self.value, tuple(-slope for slope in self.slopes))
+        return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return Dual(self.value + other, self.slopes)
-        pairs = zip(self.slopes, other.slopes, strict=True)
-        return Dual(self.value + other.value, tuple(a + b for a, b in pairs))
+        return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value - other, self.slopes)
-        pairs = zip(self.slopes, other.slopes, strict=True)
-        return Dual(self.value - other.value, tuple(a - b for a, b in pairs))
+        return self.__add__(-other)
 
     def __rsub__(self, other: Any) -> "Dual":
-        return Dual(other - self.value, tuple(-slope for slope in self.slopes))
+        return self.__neg__().__add__(other)
 
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
-            return Dual(self.value * other, tuple(slope * other for slope in self.slopes))
-        pairs = zip(self.slopes, other.slopes, strict=True)
-        u, v = self.value, other.value
-        return Dual(u * v, tuple(a * v + u * b for a, b in pairs))
+            return self.scaled(self.value * other, other)
+        product = other.scaled(self.value * other.value, self.value)
+        if self.slopes:
+            own = {name: slope * other.value for name, slope in self.slopes.items()}
+            product.slopes = _added(own, product.slopes)
+        return product
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
-            return Dual(self.value / other, tuple(slope / other for slope in self.slopes))
-        pairs = zip(self.slopes, other.slopes, strict=True)
+            return Dual(self.value / other, {name: x / other for name, x in self.slopes.items()})
         quotient = self.value / other.value
-        return Dual(quotient, tuple((a - quotient * b) / other.value for a, b in pairs))
+        slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
+        return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __rtruediv__(self, other: Any) -> "Dual":
         quotient = other / self.value
-        return Dual(quotient, tuple(-(quotient / self.value) * slope for slope in self.slopes))
+        return self.scaled(quotient, -(quotient / self.value))
 
     def __pow__(self, exponent: int) -> "Dual":
-        outer = self.value ** (exponent - 1) * exponent
-        return Dual(self.value**exponent, tuple(outer * slope for slope in self.slopes))
+        return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
+
+
+def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
+    total = {**first, **second}
+    for name in first.keys() & second.keys():
+        total[name] = first[name] + second[name]
+    return total
 
 
 class Duals:
     """Numbers of another arithmetic with their derivatives.
 
-    >>> ar = Duals(Reals(20), 1)
-    >>> x = Dual(ar.arithmetic.number(3), (1,))
-    >>> print(*(x * x + ar.log(x)).slopes)
+    >>> ar = Duals(Reals(20))
+    >>> x = ar.variable(ar.arithmetic.number(3), "x")
+    >>> print((x * x + ar.log(x)).slopes["x"])
     6.3333333333333333333
     """
 
-    def __init__(self, arithmetic: Any, variables: int) -> None:
-        self.arithmetic, self.variables = arithmetic, variables
+    def __init__(self, arithmetic: Any) -> None:
+        self.arithmetic = arithmetic
 
-    def constant(self, value: Number) -> Dual:
-        """A number that depends on no variable."""
-        return Dual(value, (self.arithmetic.number(0),) * self.variables)
-
-    def variable(self, value: Number, place: int) -> Dual:
-        """The variable with this place among the variables."""
-        ones = tuple(self.arithmetic.number(k == place) for k in range(self.variables))
-        return Dual(value, ones)
+    def variable(self, value: Number, name: str) -> Dual:
+        """A variable, by which derivatives are taken."""
+        return Dual(value, {name: self.arithmetic.number(1)})
 
     @property
     def pi(self) -> Number:
-        return self.constant(self.arithmetic.pi)
+        return Dual(self.arithmetic.pi)
 
     def number(self, value: Fraction | int) -> Number:
-        return self.constant(self.arithmetic.number(value))
+        return Dual(self.arithmetic.number(value))
 
     def log(self, x: Dual) -> Dual:
-        return self._applied(self.arithmetic.log(x.value), 1 / x.value, x)
+        return x.scaled(self.arithmetic.log(x.value), 1 / x.value)
 
     def power(self, x: Dual, exponent: Fraction) -> Dual:
         value = self.arithmetic.power(x.value, exponent)
-        return self._applied(value, value / x.value * self.arithmetic.number(exponent), x)
+        return x.scaled(value, value / x.value * self.arithmetic.number(exponent))
 
     def least(self, x: Dual, bound: Dual) -> Dual:
         return self._bent(self.arithmetic.least, x, bound)
@@ -289,11 +270,11 @@ class Duals:
         return self._bent(self.arithmetic.greatest, x, bound)
 
     def contact_share(self, y: Dual) -> Dual:
-        return self._applied(self.arithmetic.contact_share(y.value), 2 - 2 * y.value, y)
+        return y.scaled(self.arithmetic.contact_share(y.value), 2 - 2 * y.value)
 
     def cap_root(self, c: Dual) -> Dual:
         y = self.arithmetic.cap_root(c.value)
-        return self._applied(y, 1 / self.arithmetic.contact_share(y), c)
+        return c.scaled(y, 1 / self.arithmetic.contact_share(y))
 
     def may_be_below(self, x: Dual, bound: Dual) -> bool:
         below = self.arithmetic.is_below(x.value, bound.value)
@@ -307,9 +288,6 @@ class Duals:
         (only,) = numbers
         return only
 
-    def _applied(self, value: Number, outer: Number, x: Dual) -> Dual:
-        return Dual(value, tuple(outer * slope for slope in x.slopes))
-
     def _bent(self, choose: Callable[..., Number], x: Dual, bound: Dual) -> Dual:
         """The chosen one; where it cannot be told which, its slopes are anything between both."""
         value = choose(x.value, bound.value)
@@ -317,8 +295,12 @@ class Duals:
         above = not self.arithmetic.may_be_below(x.value, bound.value)
         if below or above:
             return Dual(value, (x if below == (choose == self.arithmetic.least) else bound).slopes)
-        pairs = zip(x.slopes, bound.slopes, strict=True)
-        return Dual(value, tuple(self.arithmetic.hull(list(pair)) for pair in pairs))
+        zero = self.arithmetic.number(0)
+        slopes = {
+            name: self.arithmetic.hull([x.slopes.get(name, zero), bound.slopes.get(name, zero)])
+            for name in {**x.slopes, **bound.slopes}
+        }
+        return Dual(value, slopes)
 
 
 class Ratio:
@@ -340,12 +322,10 @@ class Ratio:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Ratio":
-        other = self._ratio(other)
-        over = self.over * other.under - other.over * self.under
-        return Ratio(over, self.under * other.under)
+        return self.__add__(-other)
 
     def __rsub__(self, other: Any) -> "Ratio":
-        return self._ratio(other) - self
+        return self.__neg__().__add__(other)
 
     def __mul__(self, other: Any) -> "Ratio":
         other = self._ratio(other)

@@ -60,12 +60,12 @@ class _Algebra:
 
     def slope(self, node: Node, by: str, **put: Ratio | int) -> Ratio:
         """The derivative of an expression by one of its symbols."""
-        duals = Duals(self.field, 1)
-        values = {name: duals.constant(ratio) for name, ratio in self.field.symbols.items()}
-        values |= {name: duals.constant(self.field.number(0) + r) for name, r in put.items()}
-        values[by] = duals.variable(values[by].value, 0)
-        result: Dual = evaluate(node, duals, values)
-        return result.slopes[0]  # type: ignore[no-any-return]
+        zero, duals = self.field.number(0), Duals(self.field)
+        values = {name: Dual(ratio) for name, ratio in self.field.symbols.items()}
+        values |= {name: Dual(zero + ratio) for name, ratio in put.items()}
+        values[by] = duals.variable(values[by].value, by)
+        slope: Ratio = evaluate(node, duals, values).slopes.get(by, zero)
+        return slope
 
 
 def _equal(says: str, printed: Ratio, derived: Ratio | int) -> Check:

@@ -10,10 +10,9 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
-from reference.arithmetic import DiscontinuityError, Duals, Number
+from reference.arithmetic import DiscontinuityError, Dual, Duals, Number
 from reference.intervals import Intervals, Span
 from reference.ledger import Function
 from reference.printed import Interval
@@ -39,11 +38,7 @@ Part = dict[str, tuple[Fraction, Fraction]]
 
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
-
-
-@cache
-def _duals(variables: int) -> Duals:
-    return Duals(_INTERVALS, variables)
+_DUALS = Duals(_INTERVALS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,21 +124,18 @@ def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
 
 def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
     """What holds every derivative all over the box; nothing where the function may jump."""
-    duals = _duals(len(wide))
+    zero = _INTERVALS.number(0)
     with _INTERVALS.working():
         numbers = {}
         for name, ends in box.items():
             span = _INTERVALS.interval(*ends)
-            numbers[name] = (
-                duals.variable(span, wide.index(name)) if name in wide else duals.constant(span)
-            )
+            numbers[name] = _DUALS.variable(span, name) if name in wide else Dual(span)
         try:
-            value = function(duals, **numbers)
+            value = function(_DUALS, **numbers)
         except (DiscontinuityError, ZeroDivisionError):
             return {}
-        if isinstance(value, Fraction):
-            return dict.fromkeys(wide, _INTERVALS.number(0))
-        return dict(zip(wide, value.slopes, strict=True))
+    slopes = {} if isinstance(value, Fraction) else value.slopes
+    return {name: slopes.get(name, zero) for name in wide}
 
 
 def _sign(slope: Span) -> int:

@@ -52,10 +52,10 @@ class Span:
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        if self.low is self.high and low is high:
+            return _point(self.low * low)
         if self.low >= _ZERO and low >= _ZERO:
-            least = self.low * low
-            point = self.low is self.high and low is high
-            return Span(least, least if point else self.high * high)
+            return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 
