@@ -26,6 +26,7 @@ __all__ = [
     "enclose",
     "explore",
     "extent",
+    "holding",
     "satisfying",
     "solve",
 ]
@@ -404,12 +405,14 @@ def extent(
     for function, target in constraints:
         signs = enclose(function, box).signs
         for top in (0, 1) if all(signs.values()) else ():
-            beyond = solve(_at(function, _corner(box, name, signs, top)), name, box[name], target)
+            beyond = solve(
+                holding(function, _corner(box, name, signs, top)), name, box[name], target
+            )
             if beyond.outer:
                 bound = beyond.outer[-top][top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
             corner = _corner(inside, name, signs, top)
-            found = solve(_at(function, corner), name, box[name], target).inner
+            found = solve(holding(function, corner), name, box[name], target).inner
             value = found[-top][top] if found else start
             point = {**{key: (x, x) for key, x in corner.items()}, name: (value, value)}
             if _undecided(constraints, point) == []:
@@ -430,13 +433,21 @@ def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str
     }
 
 
-def _at(function: Function, corner: Mapping[str, Fraction]) -> Function:
-    """The function with some inputs fixed at rationals."""
+def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
+    """The function with some of its inputs held at rationals.
 
-    def fixed(ar: Any, **free: Number) -> Number | Fraction:
-        return function(ar, **{key: ar.number(x) for key, x in corner.items()}, **free)
+    >>> more = holding(lambda ar, x, y: x + y, {"x": Fraction(1)})
+    >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).lower
+    Fraction(3, 1)
+    """
+    known: dict[Any, dict[str, Number]] = {}
 
-    return fixed
+    def of_others(ar: Any, **others: Number) -> Number | Fraction:
+        if ar not in known:
+            known[ar] = {name: ar.number(number) for name, number in numbers.items()}
+        return function(ar, **known[ar], **others)
+
+    return of_others
 
 
 def satisfying(

@@ -7,7 +7,7 @@ does not exist or whose units do not fit, inputs that are missing or that go rou
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, cached_property, reduce
@@ -380,9 +380,9 @@ class Claim:
         """Those of them that it prints."""
         return [name for name in self.entries if not name.startswith(INFERRED)]
 
-    def resting_on(self, inputs: Mapping[str, tuple[str, ...]]) -> "Claim":
-        """The claim with other entries as its inputs."""
-        return replace(self, inputs=inputs)
+    def resting_on(self, **inputs: str) -> "Claim":
+        """The claim with other entries as some of its inputs."""
+        return replace(self, inputs={**self.inputs, **{k: (name,) for k, name in inputs.items()}})
 
     @property
     def by_scheme(self) -> bool:
@@ -432,24 +432,23 @@ class Ledger:
         """The dimension of every symbol."""
         return {name: unit_dimension(symbol.unit) for name, symbol in self.symbols.items()}
 
-    def equation_text(self, name: str) -> str:
-        """An equation as printed, with the constants that its claims have."""
-        return self._with_constants(self.equations[name])[0]
+    def printed_text(self, name: str) -> str:
+        """The text of a claim, or of an equation with the constants that its claims have."""
+        if name in self.equations:
+            return self._with_constants(self.equations[name])[0]
+        return self.claims[name].text
 
     def _with_constants(self, equation: Equation) -> tuple[str, dict[str, tuple[int, int]]]:
         """The text of an equation, and where in it the constants of its claims stand."""
-        text, at, spans = "", equation.place.start, {}
         if equation.id in self.misprinted:
             return self.misprinted[equation.id], {}
-        for claim in self._constants(equation):
+        text, at, spans = "", equation.place.start, {}
+        inside = [claim for claim in self.claims.values() if claim.within == equation.id]
+        for claim in sorted(inside, key=lambda claim: claim.place.start):
             text += self.text[at : claim.place.start]
             spans[claim.id] = (len(text), len(text) + len(claim.text))
             text, at = text + claim.text, claim.place.end
         return text + self.text[at : equation.place.end], spans
-
-    def _constants(self, equation: Equation) -> list[Claim]:
-        inside = [claim for claim in self.claims.values() if claim.within == equation.id]
-        return sorted(inside, key=lambda claim: claim.place.start)
 
     def constants_of(self, equation: str) -> dict[str, tuple[int, int]]:
         """The claims that are constants of an equation, and where in its text they stand."""
@@ -466,7 +465,7 @@ class Ledger:
 
     def _sides_of(self, equation: Equation) -> tuple[Node, ...]:
         try:
-            return self.read(self.equation_text(equation.id))
+            return self.read(self.printed_text(equation.id))
         except EquationError:
             return self.read(self.text[equation.place.start : equation.place.end])
 
@@ -476,15 +475,24 @@ class Ledger:
 
     # The entries as inputs
 
+    def entry(self, name: str) -> Claim | Inferred | EquationEntry:
+        """A claim, an inferred input, or what is said of an equation."""
+        if name.startswith(INFERRED):
+            return self.inferred[name.removeprefix(INFERRED)]
+        return self.equations[name].entry if name in self.equations else self.claims[name]
+
     def title(self, name: str) -> str:
         """What an entry is, in words."""
-        inferred = self._inferred(name)
-        return self.claims[name].title if inferred is None else inferred.title
+        return self.entry(name).title
 
     def unit(self, name: str) -> str:
-        """The unit of an entry."""
-        inferred = self._inferred(name)
-        return self.claims[name].unit if inferred is None else inferred.unit
+        """The unit of an input."""
+        return self._input(name).unit
+
+    def _input(self, name: str) -> Claim | Inferred:
+        entry = self.entry(name)
+        assert not isinstance(entry, EquationEntry)
+        return entry
 
     def value(self, name: str) -> Fraction:
         """An entry's value as printed, or the nominal one of an inferred input, in SI.
@@ -492,13 +500,12 @@ class Ledger:
         >>> float(load().value("flow-stress"))
         700000000.0
         """
-        inferred = self._inferred(name)
-        if inferred is not None:
-            return inferred.nominal * to_si(inferred.unit)
-        claim = self.claims[name]
-        if claim.printed is None:
+        entry = self._input(name)
+        if isinstance(entry, Inferred):
+            return entry.nominal * to_si(entry.unit)
+        if entry.printed is None:
             raise LedgerError(f"claim {name!r} is no number to rest on")
-        return claim.printed.value * claim.si
+        return entry.printed.value * entry.si
 
     def in_unit(self, name: str, unit: str) -> str:
         """An entry's value as printed, in another unit, as a decimal.
@@ -514,8 +521,8 @@ class Ledger:
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """The least and the greatest value of an entry, in SI, to search, and why these."""
-        inferred = self._inferred(name)
-        key = self.claims[name].entry.quantity if inferred is None else inferred.quantity
+        entry = self._input(name)
+        key = entry.quantity if isinstance(entry, Inferred) else entry.entry.quantity
         if key is None:
             value = self.value(name)
             ends = sorted((value / 10, value * 10)) if value else [Fraction(-1), Fraction(1)]
@@ -524,81 +531,55 @@ class Ledger:
         low, high = (end * to_si(quantity.unit) for end in quantity.search)
         return low, high, quantity.reason
 
-    def _inferred(self, name: str) -> Inferred | None:
-        return self.inferred[name.removeprefix(INFERRED)] if name.startswith(INFERRED) else None
-
     # Claims as functions of their entries
 
-    def function(
-        self,
-        claim: Claim,
-        free: frozenset[str] | None = None,
-        *,
-        reading: str = "",
-        centered: bool = False,
-        fixed: Mapping[str, Fraction] | None = None,
-    ) -> Function:
-        """A claim's computation as a function of an arithmetic and of its free entries by name.
+    def function(self, claim: Claim, *, reading: str = "", centered: bool = False) -> Function:
+        """A claim's computation as a function of an arithmetic and of the claim's entries by name.
 
-        All entries are free unless told; the others have their printed values. An entry that stands
-        in several inputs is one variable. `fixed` gives inputs that the claim does not name.
+        An entry that stands in several inputs is one variable.
         """
         computation = claim.computations[reading]
-        free = frozenset(claim.entries) if free is None else free
-        printed = {name: self.value(name) for name in claim.entries if name not in free}
         settings: dict[str, Any] = {"printed": self.sides}
         if computation.by_row:
             settings["row"] = claim.entry.row
         if computation.by_scheme:
             settings["centered"] = centered
-        exponents = {key for key, unit in computation.inputs.items() if unit == EXPONENT}
-        known: dict[Any, tuple[dict[str, Number], dict[str, Number]]] = {}
+        exponents = {
+            key: self.value(claim.inputs[key][0])
+            for key, unit in computation.inputs.items()
+            if unit == EXPONENT
+        }
+        inputs = {key: names for key, names in claim.inputs.items() if key not in exponents}
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            if ar not in known:
-                known[ar] = (
-                    {name: ar.number(number) for name, number in printed.items()},
-                    {name: ar.number(number) for name, number in (fixed or {}).items()},
-                )
-            numbers, inputs = known[ar]
-            numbers = {**numbers, **entries}
-            own = {
-                key: self.value(names[0])
-                if key in exponents
-                else reduce(mul, map(numbers.__getitem__, names))
-                for key, names in claim.inputs.items()
-            }
-            return computation.function(ar, **own, **inputs, **settings)
+            own = {key: reduce(mul, [entries[name] for name in names])
+                   for key, names in inputs.items()}  # fmt: skip
+            return computation.function(ar, **own, **exponents, **settings)
 
         return of_entries
 
     # Copies with a misprint
 
     def misprint(self, name: str, text: str) -> "Ledger":
-        """A copy with other text in the place of a claim's. Raises ValueError if no number."""
-        claim = self.claims[name]
-        printed = parse(text)
-        bound = None if claim.bound is None else printed.value
-        if claim.entry.against is not None:
-            bound = claim.bound
-        changed = replace(claim, text=text, printed=printed, bound=bound)
-        claims = {key: changed if key == name else other for key, other in self.claims.items()}
-        for key, other in claims.items():
-            if other.entry.against == name:
-                claims[key] = replace(other, bound=printed.value)
+        """A copy with other text in the place of a claim's or an equation's.
+
+        Raises ValueError if a claim's text is no number.
+        """
+        claims, equation = dict(self.claims), name
+        if name not in self.equations:
+            claim, printed = claims[name], parse(text)
+            claims[name] = replace(claim, text=text, printed=printed)
+            if claim.bound is not None and claim.entry.against is None:
+                claims[name] = replace(claims[name], bound=printed.value)
+            for key, other in self.claims.items():
+                if other.entry.against == name:
+                    claims[key] = replace(other, bound=printed.value)
+            equation = claim.within or ""
         copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
-        return copy._rereading(self.sides, claim.within)
-
-    def misprint_equation(self, name: str, text: str) -> "Ledger":
-        """A copy with another text of an equation."""
-        copy = replace(self, misprinted={**self.misprinted, name: text})
-        return copy._rereading(self.sides, name)
-
-    def _rereading(self, sides: Sides, equation: str | None) -> "Ledger":
-        """The copy itself, with the equations as they were read, but for one."""
-        changed = {} if equation is None else {equation: self._sides_of(self.equations[equation])}
-        self.__dict__["sides"] = {**sides, **changed}
-        return self
+        # All other equations are as they were read.
+        again = [self.equations[equation]] if equation else []
+        copy.__dict__["sides"] = {**self.sides, **{e.id: copy._sides_of(e) for e in again}}
+        return copy
 
     # Coverage
 
@@ -765,19 +746,15 @@ def _claim(entry: ClaimEntry, tables: _Document, text: str, equations: Any) -> C
         printed = parse(words) if numbers else None
     except ValueError as error:
         raise LedgerError(f"{who}: {error}") from error
-    named = [entry.computed_by, *entry.readings.values()] if entry.computed_by else []
-    if unknown := next((name for name in named if name not in COMPUTATIONS), None):
-        raise LedgerError(f"{who}: there is no computation {unknown!r}")
+    readings = entry.readings.values() if entry.computed_by else ()
+    _refuse_unknown(who, "computation", [entry.computed_by, *readings], COMPUTATIONS)
     if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
         raise LedgerError(f"{who}: kind {entry.kind!r} needs a relation")
-    if entry.given is not None and entry.given not in tables.reasons:
-        raise LedgerError(f"{who}: there is no reason {entry.given!r}")
-    if not (within or entry.kind == "remark") and (entry.computed_by is None) == (
-        entry.given is None
-    ):
+    _refuse_unknown(who, "reason", [entry.given], tables.reasons)
+    decided = (entry.computed_by is None) != (entry.given is None)
+    if not (decided or within or entry.kind == "remark"):
         raise LedgerError(f"{who}: needs either computed_by or given")
-    if entry.quantity is not None and entry.quantity not in tables.quantities:
-        raise LedgerError(f"{who}: there is no quantity {entry.quantity!r}")
+    _refuse_unknown(who, "quantity", [entry.quantity], tables.quantities)
     return Claim(
         entry=entry,
         text=words,
@@ -793,13 +770,20 @@ def _claim(entry: ClaimEntry, tables: _Document, text: str, equations: Any) -> C
     )
 
 
+def _refuse_unknown(
+    who: str, what: str, names: Iterable[str | None], known: Container[str]
+) -> None:
+    for name in names:
+        if name is not None and name not in known:
+            raise LedgerError(f"{who}: there is no {what} {name!r}")
+
+
 def _inputs(
     entry: ClaimEntry, groups: Mapping[str, Mapping[str, str]]
 ) -> dict[str, tuple[str, ...]]:
     rests_on = dict(entry.rests_on)
     group = rests_on.pop("group", None)
-    if group is not None and group not in groups:
-        raise LedgerError(f"claim {entry.id!r}: there is no group {group!r}")
+    _refuse_unknown(f"claim {entry.id!r}", "group", [group], groups)
     if rests_on and entry.computed_by is None:
         raise LedgerError(f"claim {entry.id!r}: rests_on needs computed_by")
     merged = {**groups.get(group or "", {}), **rests_on}
@@ -828,14 +812,16 @@ def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
 def _check(ledger: Ledger) -> None:
     """Refuse what does not fit between entries."""
     for claim in ledger.claims.values():
-        _check_claim(claim, ledger)
+        for computation in claim.computations.values():
+            _check_units(claim, computation, ledger)
+        for name in claim.entry.shown_by:
+            if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
+                raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
     for name, inferred in ledger.inferred.items():
         own = (inferred.mass, inferred.radius, inferred.density)
-        named = (*inferred.evidence, *inferred.header, *inferred.results, *own)
-        if unknown := set(named) - set(ledger.claims):
-            raise LedgerError(f"inferred {name!r}: there is no claim {min(unknown)!r}")
-        if inferred.quantity not in ledger.quantities:
-            raise LedgerError(f"inferred {name!r}: there is no quantity {inferred.quantity!r}")
+        named = {*inferred.evidence, *inferred.header, *inferred.results, *own}
+        _refuse_unknown(f"inferred {name!r}", "claim", sorted(named), ledger.claims)
+        _refuse_unknown(f"inferred {name!r}", "quantity", [inferred.quantity], ledger.quantities)
     for source in ledger.sources.values():
         _check_source(source, ledger)
     _check_equations(ledger)
@@ -843,14 +829,6 @@ def _check(ledger: Ledger) -> None:
         TopologicalSorter({c.id: c.entries for c in ledger.claims.values()}).prepare()
     except CycleError as error:
         raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
-
-
-def _check_claim(claim: Claim, ledger: Ledger) -> None:
-    for computation in claim.computations.values():
-        _check_units(claim, computation, ledger)
-    for name in claim.entry.shown_by:
-        if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
-            raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
 
 
 def _check_equations(ledger: Ledger) -> None:
@@ -864,10 +842,9 @@ def _check_equations(ledger: Ledger) -> None:
         if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
             raise LedgerError(f"equation {equation.id!r}: nothing derives it")
     for slip in ledger.slips:
-        if slip.equation not in ledger.equations:
-            raise LedgerError(f"slip {slip.name!r}: there is no equation {slip.equation!r}")
-        if unknown := set(slip.inputs.values()) - set(ledger.claims):
-            raise LedgerError(f"slip {slip.name!r}: there is no number {min(unknown)!r}")
+        who = f"slip {slip.name!r}"
+        _refuse_unknown(who, "equation", [slip.equation], ledger.equations)
+        _refuse_unknown(who, "number", sorted(slip.inputs.values()), ledger.claims)
 
 
 def _check_source(source: Source, ledger: Ledger) -> None:

@@ -127,15 +127,13 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
             for text, kind in edits(claim.text):
                 yield Plant(claim.id, claim.text, text, kind)
     for name in ledger.equations:
-        true = ledger.equation_text(name)
+        true = ledger.printed_text(name)
         for text, kind in equation_edits(true, ledger.written, ledger.dimensions):
             yield Plant(name, true, text, kind)
 
 
 def planted(ledger: Ledger, plant: Plant) -> Ledger:
     """A copy of the ledger with the misprint."""
-    if plant.entry in ledger.equations:
-        return ledger.misprint_equation(plant.entry, plant.text)
     return ledger.misprint(plant.entry, plant.text)
 
 

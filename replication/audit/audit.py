@@ -19,7 +19,7 @@ from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.equations import EquationAssessment, assess_equation
-from replication.audit.explain import BackSolved, Explainer, Repair
+from replication.audit.explain import BackSolved, Explainer
 from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
 from replication.models import sheet
@@ -52,7 +52,7 @@ class Audit:
         self.explainer = Explainer(self.judge)
         self._equations: dict[str, EquationAssessment] = {}
         self._assessments: dict[str, Assessment] = {}
-        self._repairs: dict[str, list[Repair]] = {}
+        self._repairs: dict[str, list[r.RepairRecord]] = {}
         self._shown_values: dict[str, tuple[float, float] | None] = {}
 
     def equation(self, name: str) -> EquationAssessment:
@@ -198,17 +198,12 @@ class Audit:
                 self._back_solved(solved)
                 for solved in (self.explainer.back_solved(claim) if fails and first else [])
             ],
-            repairs=[self._repair(repair) for repair in (self.repairs(claim.id) if fails else [])],
-            slips=[
-                r.SlipRecord(
-                    name=t.slip.name, reason=t.slip.reason, value=float(t.lower), fits=t.fits
-                )
-                for t in (self.explainer.slips(claim) if fails and first else [])
-            ],
+            repairs=self.repairs(claim.id) if fails else [],
+            slips=self.explainer.slips(claim) if fails and first else [],
             workbook=claim.entry.workbook,
         )
 
-    def repairs(self, name: str) -> list[Repair]:
+    def repairs(self, name: str) -> list[r.RepairRecord]:
         """The misprints that would explain a claim or an equation that fails."""
         if name not in self._repairs:
             within = None if name in self.ledger.equations else self.ledger.claims[name].within
@@ -381,31 +376,11 @@ class Audit:
             prints_alike=solved.prints_alike,
         )
 
-    def _repair(self, repair: Repair) -> r.RepairRecord:
-        equations = self.ledger.equations
-        title = (
-            equations[repair.entry].entry.title
-            if repair.entry in equations
-            else self.ledger.title(repair.entry)
-        )
-        return r.RepairRecord(
-            entry=repair.entry,
-            title=title,
-            reading=repair.reading,
-            printed=repair.printed,
-            text=repair.text,
-            kind=repair.kind,
-            failing=list(repair.failing),
-        )
-
     def _culprit(self) -> r.CulpritRecord | None:
         verdicts = {name: a.verdict for name, a in self._assessments.items()}
         verdicts |= {name: a.verdict for name, a in self._equations.items()}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
-        culprit = self.explainer.culprit(failing)
-        if culprit is None:
-            return None
-        return r.CulpritRecord(repair=self._repair(culprit.repair), explains=list(culprit.explains))
+        return self.explainer.culprit(failing)
 
     # Equations and findings
 
@@ -420,7 +395,7 @@ class Audit:
             number=place.equation,
             title=entry.title,
             where=str(place),
-            text=self.ledger.equation_text(name),
+            text=self.ledger.printed_text(name),
             mathml=_math("<mo>=</mo>".join(sides)),
             kind=entry.kind,
             follows_from=entry.follows_from,
@@ -434,7 +409,7 @@ class Audit:
                 for c in assessed.constants.values()
             ],
             explanation=wording.equation_explanation(self.ledger, assessed),
-            repairs=[self._repair(repair) for repair in repairs],
+            repairs=repairs,
         )
 
     def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:

@@ -61,7 +61,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     """
     equation = ledger.equations[name]
     try:
-        ledger.read(ledger.equation_text(name))
+        ledger.read(ledger.printed_text(name))
     except EquationError as error:
         check = Check(str(error), holds=False)
         return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})

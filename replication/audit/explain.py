@@ -1,21 +1,21 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from reference.arithmetic import Arithmetic, Number
 from reference.derivations import PREMISES
-from reference.enclosure import Solutions, enclose, solve
+from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
 from replication.audit.equations import assess_equation
+from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Judge
 
-__all__ = ["BackSolved", "Culprit", "Explainer", "Repair", "TriedSlip"]
+__all__ = ["BackSolved", "Explainer"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,55 +32,29 @@ class BackSolved:
     prints_alike: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """A text one edit away, of an entry or an equation, with which a claim would agree.
-
-    `failing` are the claims that would not agree then, this one's fellow sufferers included;
-    `reading` is the reading of the claim that then gives its number.
-    """
-
-    entry: str
-    reading: str
-    printed: str
-    text: str
-    kind: str
-    failing: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Culprit:
-    """The one repair that would make every failing claim and equation agree."""
-
-    repair: Repair
-    explains: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class TriedSlip:
-    """What a slip makes of one claim: its proven range (in the claim's unit), and whether it fits.
-
-    `fits` is "as printed", "not excluded within rounding" or "".
-    """
-
-    slip: Slip
-    lower: Fraction
-    upper: Fraction
-    fits: str
-
-
 class Explainer:
     """Explanations for the failing claims of one ledger."""
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
         self._solved: dict[str, list[BackSolved]] = {}
-        self._tries: dict[str, list[TriedSlip]] = {}
+        self._tries: dict[str, list[SlipRecord]] = {}
+        self._found: dict[tuple[str, str], list[RepairRecord]] = {}
+
+    def _screens(self, ledger: Ledger) -> list[Screen]:
+        """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
+        nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
+        each = [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
+        return [Screen(ledger, assumed) for assumed in each]
 
     @cached_property
+    def _as_printed(self) -> list[Screen]:
+        return self._screens(self.ledger)
+
+    @property
     def screen(self) -> Screen:
         """A quick look at the ledger as it stands."""
-        return Screen(self.ledger, self.judge.assumed)
+        return self._as_printed[-1]
 
     # Single inputs
 
@@ -135,41 +109,51 @@ class Explainer:
     def solved(self, claim: Claim, reading: str, name: str) -> Solutions:
         """The values of one entry, the others as printed, for which a claim agrees."""
         low, high, _ = self.ledger.search(name)
-        fixed = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = self.ledger.function(claim, frozenset(claim.entries), reading=reading)
-
-        def of_one(ar: Arithmetic, **free: Number) -> Number | Fraction:
-            return function(ar, **{key: ar.number(x) for key, x in fixed.items()}, **free)
-
-        return solve(of_one, name, (low, high), claim.target(), _BUDGET)
+        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = holding(self.ledger.function(claim, reading=reading), others)
+        return solve(function, name, (low, high), claim.target(), _BUDGET)
 
     # Misprints
 
-    def repairs(self, name: str) -> list[Repair]:
+    def repairs(self, name: str) -> list[RepairRecord]:
         """Texts one edit away with which a claim or an equation agrees; the likeliest first.
 
         A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
         ones the likelier slip of a typist comes first.
         """
-        suspects = self._suspects(name)
-        return self._sorted([r for e in suspects for r in self._repairs_in(name, e)], name)
+        return self._sorted(name, self._suspects(name))
 
-    def _sorted(self, repairs: list[Repair], name: str) -> list[Repair]:
+    def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
+        """The edits of some entries with which a claim or an equation agrees."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
+        for entry in entries:
+            if (name, entry) not in self._found:
+                self._found[name, entry] = list(self._repairs(name, entry))
         return sorted(
-            repairs,
+            (repair for entry in entries for repair in self._found[name, entry]),
             key=lambda r: (
                 r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
             ),
         )[:_SHOWN]  # fmt: skip
 
-    def _repairs_in(self, name: str, entry: str) -> Iterator[Repair]:
-        """The edits of one entry with which a claim or an equation agrees."""
-        for text, kind in self._edits(entry):
+    def _repairs(self, name: str, entry: str) -> Iterator[RepairRecord]:
+        ledger, printed = self.ledger, self.ledger.printed_text(entry)
+        if entry in ledger.equations:
+            texts = equation_edits(printed, ledger.written, ledger.dimensions)
+        else:
+            texts = edits(printed) if ledger.claims[entry].printed is not None else iter(())
+        for text, kind in texts:
             reading = self._mends(name, entry, text)
             if reading is not None:
-                failing = tuple(sorted(self._failing(entry, text)))
-                yield Repair(entry, reading, self._text(entry), text, kind, failing)
+                yield RepairRecord(
+                    entry=entry,
+                    title=ledger.title(entry),
+                    reading=reading,
+                    printed=printed,
+                    text=text,
+                    kind=kind,
+                    failing=sorted(self._failing(entry, text)),
+                )
 
     def _suspects(self, name: str) -> list[str]:
         """The claim or equation itself, its entries, and what its equations hold."""
@@ -190,41 +174,22 @@ class Explainer:
         constants = [c for e in sorted(used) for c in self.ledger.constants_of(e)]
         return list(dict.fromkeys([name, *entries, *against, *within, *sorted(used), *constants]))
 
-    def _text(self, entry: str) -> str:
-        if entry in self.ledger.equations:
-            return self.ledger.equation_text(entry)
-        return self.ledger.claims[entry].text
-
-    def _edits(self, entry: str) -> Iterable[tuple[str, str]]:
-        if entry in self.ledger.equations:
-            text = self.ledger.equation_text(entry)
-            return equation_edits(text, self.ledger.written, self.ledger.dimensions)
-        claim = self.ledger.claims[entry]
-        return edits(claim.text) if claim.printed is not None else ()
-
-    def _changed(self, entry: str, text: str) -> Ledger:
-        """The ledger with the edit."""
-        if entry in self.ledger.equations:
-            return self.ledger.misprint_equation(entry, text)
-        return self.ledger.misprint(entry, text)
-
     def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
         within = name if name in self.ledger.equations else self.ledger.claims[name].within
         if within is not None:
-            changed = self._changed(entry, text)
+            changed = self.ledger.misprint(entry, text)
             fails = assess_equation(changed, within, constants=False).verdict.is_failure
             return None if fails else ""
-        claim, ledger, values = self.ledger.claims[name], self.ledger, {}
+        claim, screens, values = self.ledger.claims[name], self._as_printed, {}
         if claim.computation is None:
             return self._suits(claim, text) if entry == name else None
         of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
         if entry in (name, claim.entry.against) or of_equation:
-            ledger = self._changed(entry, text)
+            changed = self.ledger.misprint(entry, text)
+            claim, screens = changed.claims[name], self._screens(changed)
         else:
             values[entry] = parse(text).value * self.ledger.claims[entry].si
-        claim = ledger.claims[name]
-        screens = [Screen(ledger, assumed) for assumed in self._assumed]
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
 
@@ -234,35 +199,22 @@ class Explainer:
         sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
         if sources and not any(changed.target().meets(source.interval) for source in sources):
             return None
-        value = {claim.id: self._value(changed)}
+        assert changed.printed is not None
+        value = {claim.id: changed.printed.value * changed.si}
         shown = (self.ledger.claims[result] for result in claim.entry.shown_by)
         return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
 
-    @staticmethod
-    def _value(claim: Claim) -> Fraction:
-        assert claim.printed is not None
-        return claim.printed.value * claim.si
-
-    @cached_property
-    def _assumed(self) -> list[Mapping[str, Fraction]]:
-        """The values of inferred inputs to try: as assumed, and as the ledger takes them."""
-        nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
-        return [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
-
     def _failing(self, entry: str, text: str) -> set[str]:
         """The claims and equations that fail with the edit; those it does not touch, as before."""
-        changed = self._changed(entry, text)
+        changed = self.ledger.misprint(entry, text)
         touched = dependents(self.ledger, entry)
         others = self._failing_now - touched
-        tried = [Screen(changed, assumed).failing(touched) for assumed in self._assumed]
-        return others | min(tried, key=len) | self._failing_equations(entry, changed)
-
-    def _failing_equations(self, entry: str, changed: Ledger) -> set[str]:
+        failing = others | min((s.failing(touched) for s in self._screens(changed)), key=len)
         within = entry if entry in self.ledger.equations else self.ledger.claims[entry].within
         if within is None:
-            return self._bad_equations
+            return failing | self._bad_equations
         fails = assess_equation(changed, within, constants=False).verdict.is_failure
-        return (self._bad_equations - {within}) | ({within} if fails else set())
+        return failing | (self._bad_equations - {within}) | ({within} if fails else set())
 
     @cached_property
     def _failing_now(self) -> set[str]:
@@ -275,7 +227,7 @@ class Explainer:
 
     # One culprit for all that fails
 
-    def ranked(self, names: Collection[str]) -> list[Repair]:
+    def ranked(self, names: Collection[str]) -> list[RepairRecord]:
         """The repairs that may explain all that fails at once, the best first.
 
         If one misprint is behind several failures, it stands in an entry that all of them rest on:
@@ -290,15 +242,8 @@ class Explainer:
         quickest = min(names, key=self._cost)
         suspects = [set(self._suspects(name)) for name in names]
         common = set.intersection(*suspects) or suspects[0]
-        found = [
-            repair
-            for entry in self._suspects(quickest)
-            if entry in common
-            for repair in self._repairs_in(quickest, entry)
-        ]
-        if not found and len(names) > 1:
-            return self.ranked([quickest])
-        return self._sorted(found, quickest)
+        found = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
+        return found if found or len(names) == 1 else self.ranked([quickest])
 
     def _is_only_shown(self, name: str) -> bool:
         claim = self.ledger.claims.get(name)
@@ -313,16 +258,16 @@ class Explainer:
             return 0 if claim.within is None else 2, name
         return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.entry.row is None), name
 
-    def culprit(self, names: Collection[str]) -> Culprit | None:
+    def culprit(self, names: Collection[str]) -> CulpritRecord | None:
         """The one repair that makes everything agree that fails, if there is one."""
         repairs = self.ranked(names) if len(names) > 1 else []
         if not repairs or repairs[0].failing:
             return None
-        return Culprit(repairs[0], tuple(names))
+        return CulpritRecord(repair=repairs[0], explains=list(names))
 
     # Slips
 
-    def slips(self, claim: Claim) -> list[TriedSlip]:
+    def slips(self, claim: Claim) -> list[SlipRecord]:
         """What the slips of the claim's equations make of it."""
         if claim.id not in self._tries:
             used = {e for c in claim.computations.values() for e in c.equations}
@@ -330,23 +275,21 @@ class Explainer:
             self._tries[claim.id] = [self._tried(claim, slip) for slip in slips]
         return self._tries[claim.id]
 
-    def _tried(self, claim: Claim, slip: Slip) -> TriedSlip:
+    def _tried(self, claim: Claim, slip: Slip) -> SlipRecord:
         ledger = self.ledger
         if slip.text is not None:
-            ledger = ledger.misprint_equation(slip.equation, slip.text)
-        inputs = {key: (slip.inputs.get(key, ""),) if key in slip.inputs else names
-                  for key, names in claim.inputs.items()}  # fmt: skip
-        changed = claim.resting_on(inputs)
+            ledger = ledger.misprint(slip.equation, slip.text)
+        replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
+        changed = claim.resting_on(**replaced)
         function = ledger.function(changed)
-        printed = {name: (self.judge.value(name),) * 2 for name in changed.entries}
-        at_print = enclose(function, printed).ends
+        at_print = enclose(function, self.judge.printed(changed)).ends
         target, rounded = claim.target(), Convention(choices_exact=False)
         fits = "as printed" if target.encloses(*at_print) else ""
         everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
         if not fits and not target.excludes(*everywhere):
             fits = "not excluded within rounding"
-        low, high = (end / claim.si for end in at_print)
-        return TriedSlip(slip, low, high, fits)
+        value = float(at_print[0] / claim.si)
+        return SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
 
 
 _BISECTIONS = 40

@@ -8,7 +8,7 @@ from statistics import NormalDist
 from typing import Any
 
 from reference.arithmetic import Number
-from reference.enclosure import enclose, solve
+from reference.enclosure import enclose, holding, solve
 from reference.ledger import INFERRED, Convention
 from reference.units import to_si
 from replication.audit.equations import EquationAssessment
@@ -356,7 +356,8 @@ def _middle_density(known: Known) -> Fraction:
     """The least target density at which the drag at the middle velocity gives the depth."""
     ledger = known.judge.ledger
     claim = ledger.claims["depth-beta-5"]
-    function = ledger.function(claim, frozenset({_DENSITY}), centered=True)
+    printed = {name: ledger.value(name) for name in claim.stated}
+    function = holding(ledger.function(claim, centered=True), printed)
     admitted = known.judge.inference(_DENSITY, centered=True).outer.ends
     outer = solve(function, _DENSITY, admitted, claim.target()).outer
     if not outer:
@@ -639,7 +640,7 @@ def _minimum_velocity(known: Known) -> Evidence:
 
 def _wrong_reference(known: Known) -> Evidence:
     return {
-        "stress": "Sigma" in known.judge.ledger.equation_text("eq1"),
+        "stress": "Sigma" in known.judge.ledger.printed_text("eq1"),
         "follows": known.equations["eq6"].verdict is Verdict.REPRODUCED,
         "times": _times(known, "equation 1 reduces"),
         "caption": _times(known, "500-m/s steel"),

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Box, Constraint, Solutions, extent, satisfying, solve
+from reference.enclosure import Box, Constraint, Solutions, extent, holding, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
@@ -51,8 +51,7 @@ class Inference:
     @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
-        mass = {"mass": self.ledger.value(self.entry.mass)}
-        return _infer(self.ledger, self.name, self.centered, self.entry.evidence, mass).inner
+        return infer(self.ledger, self.name, centered=self.centered, by_mass=True).inner
 
     def admitted(self, convention: Convention) -> tuple[Interval, Interval]:
         """The values that serve the evidence where inputs are rounded as a convention says.
@@ -104,12 +103,13 @@ class Inference:
     def _joint(
         self, convention: Convention, *, by_mass: bool, also: Sequence[Constraint] = ()
     ) -> list[Constraint]:
-        free = frozenset(self._box(convention, by_mass=False))
+        free = self._box(convention, by_mass=False)
         claims = [self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing)]
-        constraints: list[Constraint] = [
-            (self.ledger.function(claim, free, centered=self.centered), claim.target())
-            for claim in claims
-        ]
+        constraints: list[Constraint] = []
+        for claim in claims:
+            function = self.ledger.function(claim, centered=self.centered)
+            printed = {name: self.ledger.value(name) for name in claim.entries if name not in free}
+            constraints.append((holding(function, printed), claim.target()))
         constraints += also
         if not by_mass:
             return constraints
@@ -164,27 +164,19 @@ class Inference:
         return words[satisfying(self._joint(usual, by_mass=True), box)[0]]
 
 
-def infer(ledger: Ledger, name: str, *, centered: bool = False) -> Inference:
+def infer(ledger: Ledger, name: str, *, centered: bool = False, by_mass: bool = False) -> Inference:
     """Infer one input from its evidence, by proof (see `reference.enclosure`).
 
-    `name` is its id with "inferred:" before it. Evidence that no value serves together with the
-    rest is left out; the Inference names it. If none of it admits any value, the nominal one stays.
+    `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
+    sphere's. Evidence that no value serves together with the rest is left out; the Inference names
+    it. If none of it admits any value, the nominal one stays.
     """
-    evidence = ledger.inferred[name.removeprefix(INFERRED)].evidence
-    return _infer(ledger, name, centered, evidence, {})
-
-
-def _infer(
-    ledger: Ledger,
-    name: str,
-    centered: bool,
-    evidence: list[str],
-    fixed: Mapping[str, Fraction],
-) -> Inference:
-    search = ledger.inferred[name.removeprefix(INFERRED)].search
-    each = {}
-    for claim in (ledger.claims[name] for name in evidence):
-        function = ledger.function(claim, frozenset({name}), centered=centered, fixed=fixed)
+    entry = ledger.inferred[name.removeprefix(INFERRED)]
+    search, each = entry.search, {}
+    for claim in (ledger.claims[evidence] for evidence in entry.evidence):
+        own = claim.resting_on(mass=entry.mass) if by_mass else claim
+        printed = {other: ledger.value(other) for other in own.entries if other != name}
+        function = holding(ledger.function(own, centered=centered), printed)
         each[claim.id] = solve(function, name, search, claim.target())
     agreeing = _agreeing(each)
     if not agreeing:

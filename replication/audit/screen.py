@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from reference.arithmetic import Floats
-from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.printed import Interval
 
 __all__ = ["Screen", "dependents", "restates"]
 
@@ -22,29 +23,36 @@ class Screen:
 
     def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
         self.ledger, self.assumed = ledger, assumed
+        self._prepared: dict[tuple[Claim, str], tuple[Function, dict[str, float], Interval]] = {}
 
     def agrees(
         self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
     ) -> bool:
         """Whether a claim with a computation agrees, with some entries changed (SI)."""
-        computation = claim.computations[reading]
-        if computation.restates:
+        if claim.computations[reading].restates:
             return restates(self.ledger, claim, changed or {})
-        values = {name: self._value(name, changed or {}) for name in claim.entries}
-        function = self.ledger.function(claim, reading=reading)
+        function, values, target = self._claim(claim, reading)
+        if changed:
+            values = {name: float(changed.get(name, value)) for name, value in values.items()}
         try:
-            value = Fraction(function(_FLOATS, **{k: float(v) for k, v in values.items()}))
+            value = Fraction(function(_FLOATS, **values))
         except (ArithmeticError, ValueError, TypeError):
             return False  # no such input has a result, or only a complex one
-        target = claim.target()
         if target.is_point and target.lower is not None:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
 
-    def _value(self, name: str, changed: Mapping[str, Fraction]) -> Fraction:
-        if name in changed:
-            return changed[name]
-        return self.assumed[name] if name in self.assumed else self.ledger.value(name)
+    def _claim(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
+        """What an agreement takes that no change of an entry changes."""
+        if (claim, reading) not in self._prepared:
+            known = self.assumed
+            values = {
+                name: float(known[name] if name in known else self.ledger.value(name))
+                for name in claim.entries
+            }
+            function = self.ledger.function(claim, reading=reading)
+            self._prepared[claim, reading] = function, values, claim.target()
+        return self._prepared[claim, reading]
 
     def failing(self, names: Iterable[str]) -> set[str]:
         """Those of the claims that do not agree."""

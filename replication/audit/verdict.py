@@ -198,7 +198,7 @@ class Judge:
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
         target = claim.target(convention.rounding)
-        printed = {entry: (self.value(entry),) * 2 for entry in claim.entries}
+        printed = self.printed(claim)
         at_print = self._range(claim, name, convention, printed)
         if target.excludes(*at_print):
             return None
@@ -237,6 +237,10 @@ class Judge:
             never = found.never and explore(function, box, around, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         return _judgement(claim, convention, verdict, (found.lower, found.upper))
+
+    def printed(self, claim: Claim) -> Box:
+        """The inputs of a claim as printed, or as assumed where they are inferred."""
+        return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
     def box(self, claim: Claim, convention: Convention) -> tuple[Box, Box]:
         """Inputs that print like the report's: a narrow box, to search first, and one with all.

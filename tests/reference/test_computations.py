@@ -121,8 +121,8 @@ def test_a_computation_uses_the_equations_that_it_names_and_no_others(claim: Cla
     for reading, computation in claim.computations.items():
         value = LEDGER.function(claim, reading=reading)(Floats(), **point)
         for equation in LEDGER.equations:
-            left, _, right = LEDGER.equation_text(equation).rpartition("=")
-            changed = LEDGER.misprint_equation(equation, f"{left}= 3 ({right})")
+            left, _, right = LEDGER.printed_text(equation).rpartition("=")
+            changed = LEDGER.misprint(equation, f"{left}= 3 ({right})")
             other = changed.function(claim, reading=reading)(Floats(), **point)
             if value:
                 assert (other != value) == (equation in computation.equations), equation

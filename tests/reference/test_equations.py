@@ -92,7 +92,7 @@ def test_no_equation_is_left_out() -> None:
 
 @pytest.mark.parametrize("name", SIDES)
 def test_a_printed_equation_is_read_as_it_is_meant(name: str) -> None:
-    sides = LEDGER.read(LEDGER.equation_text(name))
+    sides = LEDGER.read(LEDGER.printed_text(name))
     assert [value(side) for side in sides] == pytest.approx(
         [side(AT) for side in SIDES[name]], rel=1e-14
     )
@@ -211,7 +211,7 @@ def test_any_expression_reads_back_as_it_is_shown(tree: Node) -> None:
 
 
 def test_a_number_is_replaced_where_it_is_written() -> None:
-    text = LEDGER.equation_text("eq11")
+    text = LEDGER.printed_text("eq11")
     (_, right) = LEDGER.read(text)
     for claim, expected in (
         ("eq11-numerator", "(5E_t/3Y_t)^{1/3}"),

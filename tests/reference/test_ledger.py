@@ -169,8 +169,9 @@ def test_inputs_come_from_products_groups_and_inference() -> None:
     assert set(claim.stated) | set(claim.inferred) == set(claim.entries)
     reals = Reals(20)
     row = LEDGER.claims["a1-depth-1"]
-    function = LEDGER.function(row, frozenset({"a-step"}))
-    assert float(function(reals, **{"a-step": reals.number(F(4, 10**10))})) == pytest.approx(1e-7)
+    numbers = {name: reals.number(LEDGER.value(name)) for name in row.entries}
+    numbers["a-step"] = reals.number(F(4, 10**10))
+    assert float(LEDGER.function(row)(reals, **numbers)) == pytest.approx(1e-7)
 
 
 def test_public_sources_are_read_from_their_words() -> None:
@@ -200,12 +201,12 @@ def test_a_misprint_reaches_all_that_reads_the_number() -> None:
 
 def test_a_misprinted_constant_is_in_its_equation_and_only_there() -> None:
     copy = LEDGER.misprint("eq3-factor", "5/3")
-    assert copy.equation_text("eq3") == r"PV = 5/3 \pi R^3"
+    assert copy.printed_text("eq3") == r"PV = 5/3 \pi R^3"
     assert copy.sides["eq3"] == LEDGER.read(r"PV = 5/3 \pi R^3")
     assert {k for k in LEDGER.sides if copy.sides[k] != LEDGER.sides[k]} == {"eq3"}
-    again = copy.misprint_equation("eq3", r"PV = 4/3 \pi R^3")
+    again = copy.misprint("eq3", r"PV = 4/3 \pi R^3")
     assert again.sides == LEDGER.sides
-    unreadable = LEDGER.misprint_equation("eq3", "PV = (")
+    unreadable = LEDGER.misprint("eq3", "PV = (")
     assert unreadable.sides == LEDGER.sides
     assert LEDGER.misprinted == {}
 

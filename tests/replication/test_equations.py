@@ -32,11 +32,11 @@ UNSEEN = {
 
 @pytest.mark.parametrize("name", LEDGER.equations)
 def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
-    text = LEDGER.equation_text(name)
+    text = LEDGER.printed_text(name)
     edits = {edit for edit, _ in equation_edits(text, LEDGER.written, LEDGER.dimensions)}
     assert len(edits) >= 11
     printed = state(LEDGER, name)
-    unseen = {e for e in edits if state(LEDGER.misprint_equation(name, e), name) == printed}
+    unseen = {e for e in edits if state(LEDGER.misprint(name, e), name) == printed}
     assert unseen == set(UNSEEN.get(name, []))
 
 
@@ -45,7 +45,7 @@ def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
 )
 def test_what_is_computed_with_an_equation_sees_the_rest(name: str, claim: str) -> None:
     for edit in UNSEEN[name]:
-        ledger = LEDGER.misprint_equation(name, edit)
+        ledger = LEDGER.misprint(name, edit)
         assert claim in Screen(ledger, ASSUMED).failing([claim]), edit
 
 
@@ -53,7 +53,7 @@ def test_only_the_power_of_equation_1_hangs_on_nothing_else() -> None:
     """The finding on Eq. 1 has it as evidence; no number of the report is computed with it."""
     as_printed = Screen(LEDGER, ASSUMED).failing(LEDGER.claims)
     for edit in UNSEEN["eq1"]:
-        changed = LEDGER.misprint_equation("eq1", edit)
+        changed = LEDGER.misprint("eq1", edit)
         assert Screen(changed, ASSUMED).failing(LEDGER.claims) == as_printed
 
 
@@ -81,7 +81,7 @@ MISREAD = {
 @pytest.mark.parametrize("fault", MISREAD)
 def test_known_misreadings_are_seen(fault: str) -> None:
     name, text = MISREAD[fault]
-    changed = assess_equation(LEDGER.misprint_equation(name, text), name)
+    changed = assess_equation(LEDGER.misprint(name, text), name)
     assert changed.verdict.is_failure
 
 
@@ -91,12 +91,12 @@ def test_equation_16_would_follow_for_a_depth_in_diameters_or_without_the_2() ->
         r"X/R = ((L/D \rho_p/\rho_t + k_1)/kt)\ln(1+k_t\rho_t V^2/R_t)",
         r"X/R = ((2L/D \rho_p/\rho_t + 2k_1)/2kt)\ln((R_t + k_t\rho_t V^2)/R_t)",
     ):
-        changed = LEDGER.misprint_equation("eq16", text)
+        changed = LEDGER.misprint("eq16", text)
         assert all(check.holds for check in derive("eq16", changed.sides, LEDGER.symbols)), text
 
 
 def test_a_premise_that_is_misprinted_is_missed_by_what_follows_from_it() -> None:
-    changed = LEDGER.misprint_equation("eq6", r"\Sigma = \frac{1}{2} \rho_t v^3 + R_t")
+    changed = LEDGER.misprint("eq6", r"\Sigma = \frac{1}{2} \rho_t v^3 + R_t")
     for name in ("eq13-shallow", "eq13-deep", "eqA-1"):
         assert assess_equation(changed, name).verdict.is_failure
     assert not assess_equation(changed, "eq12").verdict.is_failure

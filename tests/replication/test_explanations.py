@@ -149,9 +149,9 @@ def test_edits_of_words_and_of_the_reports_powers() -> None:
 
 
 def test_edits_of_an_equation() -> None:
-    found = dict(equation_edits(LEDGER.equation_text("eq16"), LEDGER.written, LEDGER.dimensions))
+    found = dict(equation_edits(LEDGER.printed_text("eq16"), LEDGER.written, LEDGER.dimensions))
     assert set(found.values()) == set(EQUATION_EDITS)
-    sides = {text: LEDGER.misprint_equation("eq16", text).sides["eq16"] for text in found}
+    sides = {text: LEDGER.misprint("eq16", text).sides["eq16"] for text in found}
     same = {text for text in found if sides[text] == LEDGER.sides["eq16"]}
     for text in same:  # only where the edit leaves no equation
         with pytest.raises(EquationError):
@@ -255,7 +255,7 @@ def test_a_slip_that_fits_is_said_to() -> None:
     ):
         ledger = LEDGER.misprint(PAIR[0], text)
         tried = Explainer(Judge(ledger)).slips(ledger.claims[PAIR[0]])
-        assert next(t.fits for t in tried if t.slip.name == "L/D = 1") == fits
+        assert next(t.fits for t in tried if t.name == "L/D = 1") == fits
     assert all(slip.reason for slip in LEDGER.slips)
 
 

@@ -225,7 +225,7 @@ KNOWN = {"frank-zook-rha", "frank-zook-stainless", "eq16"}
 @pytest.mark.parametrize(("name", "text"), PLANTED)
 def test_a_planted_misprint_is_noticed_where_it_should_be(name: str, text: str) -> None:
     of_equation = name in LEDGER.equations
-    ledger = (LEDGER.misprint_equation if of_equation else LEDGER.misprint)(name, text)
+    ledger = LEDGER.misprint(name, text)
     judge, touched = Judge(ledger), dependents(LEDGER, name)
     judged = {
         claim.id
