@@ -8,6 +8,7 @@ rational coefficients, in which two forms of an equation are equal exactly or no
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from typing import Any, Protocol
 
 __all__ = [
@@ -380,13 +381,7 @@ class Ratios:
     """
 
     def __init__(self, names: Sequence[str]) -> None:
-        self._names = [*names, "pi", *(f"other_{k}" for k in range(8))]
-        from flint import Ordering, fmpq_mpoly_ctx
-
-        self._context = fmpq_mpoly_ctx.get(self._names, Ordering.lex)
-        one = self._context.constant(1)
-        ratios = [Ratio(generator, one) for generator in self._context.gens()]
-        self._named = dict(zip(self._names, ratios, strict=True))
+        self._context, self._named = _polynomials((*names, "pi", *(f"other_{k}" for k in range(8))))
         self.symbols: Mapping[str, Ratio] = {name: self._named[name] for name in names}
         self._others: list[tuple[str, Ratio, Fraction]] = []
 
@@ -417,3 +412,14 @@ class Ratios:
                 return self._named[f"other_{number}"]
         self._others.append((kind, x, exponent))
         return self._named[f"other_{len(self._others) - 1}"]
+
+
+@cache
+def _polynomials(names: tuple[str, ...]) -> tuple[Any, dict[str, Ratio]]:
+    """The polynomials in some symbols, and the symbols among them."""
+    from flint import Ordering, fmpq_mpoly_ctx
+
+    context = fmpq_mpoly_ctx.get(names, Ordering.lex)
+    one = context.constant(1)
+    ratios = [Ratio(generator, one) for generator in context.gens()]
+    return context, dict(zip(names, ratios, strict=True))

@@ -41,7 +41,7 @@ def _reals() -> Reals:
 class _Algebra:
     """Expressions of the report as quotients of polynomials in all their symbols."""
 
-    def __init__(self, sides: Sides, names: list[str]) -> None:
+    def __init__(self, sides: Sides, names: tuple[str, ...]) -> None:
         self.sides = sides
         self.field = Ratios(names)
 
@@ -279,11 +279,10 @@ PREMISES: Mapping[str, tuple[str, ...]] = {
 """The printed equations that others are derived from."""
 
 
-def derive(number: str, sides: Sides, symbols: Iterable[str]) -> list[Check]:
-    """Every check of one equation, given the sides of all and the symbols in them.
+def derive(number: str, sides: Sides, symbols: Iterable[str]) -> Iterator[Check]:
+    """Every check of one equation, given the sides of all and the symbols in them, one by one.
 
     Raises ZeroDivisionError or EquationError where what is printed makes no sense there.
     """
-    if number not in DERIVATIONS:
-        return []
-    return list(DERIVATIONS[number](_Algebra(sides, [name for name in symbols if name != "pi"])))
+    if number in DERIVATIONS:
+        yield from DERIVATIONS[number](_Algebra(sides, tuple(s for s in symbols if s != "pi")))

@@ -434,7 +434,7 @@ def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str
 
 
 def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
-    """The function with some of its inputs held at rationals.
+    """The function with some of its inputs held at rationals, unless they are given.
 
     >>> more = holding(lambda ar, x, y: x + y, {"x": Fraction(1)})
     >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).lower
@@ -445,7 +445,7 @@ def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
     def of_others(ar: Any, **others: Number) -> Number | Fraction:
         if ar not in known:
             known[ar] = {name: ar.number(number) for name, number in numbers.items()}
-        return function(ar, **known[ar], **others)
+        return function(ar, **{**known[ar], **others})
 
     return of_others
 

@@ -1,6 +1,6 @@
 """The verdict on each printed equation, and on the constants in it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -77,7 +77,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) -> list[Check]:
+def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) -> Iterator[Check]:
     """The check of dimensions, and those of the derivation."""
     exponents = {
         key: ledger.value(symbol.value)
@@ -87,12 +87,12 @@ def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) ->
     says = "both sides have the same dimensions"
     try:
         own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
-        same = all(unit == own[0] for unit in own)
-        return [Check(says, same), *derive(name, sides, ledger.symbols)]
+        yield Check(says, all(unit == own[0] for unit in own))
+        yield from derive(name, sides, ledger.symbols)
     except DimensionError as error:
-        return [Check(f"{says}: {error}", holds=False)]
+        yield Check(f"{says}: {error}", holds=False)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
-        return [Check(f"it can be derived: {error}", holds=False)]
+        yield Check(f"it can be derived: {error}", holds=False)
 
 
 def _constants(

@@ -50,7 +50,8 @@ class Judgement:
     `lower`, `upper`: a proven range of the value, in the claim's unit: over all admitted values of
     the inferred inputs where the printed inputs give the number, else over all inputs that print
     like the report's. `witness` holds entries (SI) that give the number where the printed ones do
-    not.
+    not. `against_evidence`: values in the range print so, but only for inputs that are proven not
+    to give the numbers from which an input is inferred.
     """
 
     convention: Convention
@@ -58,6 +59,7 @@ class Judgement:
     lower: Fraction
     upper: Fraction
     witness: Mapping[str, Fraction] | None = None
+    against_evidence: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,7 +238,8 @@ class Judge:
         else:
             never = found.never and explore(function, box, around, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        return _judgement(claim, convention, verdict, (found.lower, found.upper))
+        judgement = _judgement(claim, convention, verdict, (found.lower, found.upper))
+        return replace(judgement, against_evidence=never and found.inside is not None)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""

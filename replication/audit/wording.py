@@ -62,6 +62,13 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
             return [f"Inputs that print like the report's give it, for instance {found}."]
         case Verdict.NOT_REPRODUCED if low == high:
             return ["No rounded input enters, so none could change it."]
+        case Verdict.NOT_REPRODUCED if judgement.against_evidence:
+            titles = " and ".join(judge.ledger.title(name) for name in claim.inferred)
+            return [
+                f"Inputs that print like the report's give values in {outward(low, high)}, some of "
+                f"them as printed. But proven: no input that does agrees with the numbers from "
+                f"which the {titles} is inferred."
+            ]
         case Verdict.NOT_REPRODUCED:
             side = _side(claim.interval(), low, high)
             proven = f"it lies in {outward(low, high)}, {side}"

@@ -105,7 +105,7 @@ def test_a_premise_that_is_misprinted_is_missed_by_what_follows_from_it() -> Non
 def test_every_derived_equation_has_a_derivation_and_each_check_speaks() -> None:
     assert {e.id for e in LEDGER.equations.values()} - set(DERIVATIONS) == {"eq8"}
     for name in DERIVATIONS:
-        checks = derive(name, LEDGER.sides, LEDGER.symbols)
+        checks = list(derive(name, LEDGER.sides, LEDGER.symbols))
         assert len({check.says for check in checks}) == len(checks) >= 1
 
 
