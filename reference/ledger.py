@@ -269,7 +269,7 @@ class Place:
         return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Claim:
     """One printed number, and what is claimed of it.
 
@@ -311,10 +311,17 @@ class Claim:
         """Its text as a page shows it, without the marks of LaTeX."""
         return shown(self.text)
 
-    @property
+    @cached_property
     def si(self) -> Fraction:
         """The factor from the claim's unit to SI."""
         return to_si(self.unit)
+
+    @cached_property
+    def value(self) -> Fraction:
+        """The number as printed, in SI. Raises LedgerError for a remark."""
+        if self.printed is None:
+            raise LedgerError(f"claim {self.id!r} is no number to rest on")
+        return self.printed.value * self.si
 
     @property
     def is_exact(self) -> bool:
@@ -324,11 +331,10 @@ class Claim:
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
         if self.bound is not None:
-            match self.entry.relation:
-                case ">" | ">=":
-                    return Interval(self.bound, None, self.entry.relation == ">=", False)
-                case _:
-                    return Interval(None, self.bound, False, self.entry.relation == "<=")
+            closed = self.entry.relation in ("<=", ">=")
+            if self.entry.relation in (">", ">="):
+                return Interval(self.bound, None, closed, False)
+            return Interval(None, self.bound, False, closed)
         if self.printed is None:
             raise ValueError(f"claim {self.id!r} prints no number")
         if self.is_exact:
@@ -339,33 +345,32 @@ class Claim:
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
-        return self.interval(rounding).scaled(self.si)
+        return self._targets[rounding]
+
+    @cached_property
+    def _targets(self) -> dict[Rounding, Interval]:
+        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
         assert self.printed is not None
-        number = self.printed
         in_header = self.entry.cell is not None and self.entry.cell.startswith("B")
         if (
             self.is_exact
-            or number.quantum == 0
+            or self.printed.quantum == 0
             or self.bound is not None
             or (self.chosen and convention.choices_exact)
             or (in_header and convention.header_exact)
         ):
-            own = Interval.point(number.value)
-        elif self.entry.kind == "approximation":
-            own = number.about()
-        else:
-            own = number.interval(convention.rounding)
-        return own.scaled(self.si)
+            return Interval.point(self.value)
+        return self.target(convention.rounding)
 
     @property
     def computations(self) -> dict[str, Computation]:
         """The computation as printed, under the name "", and each other reading."""
         return {} if self.computation is None else {"": self.computation, **self.readings}
 
-    @property
+    @cached_property
     def entries(self) -> list[str]:
         """The entries that it rests on, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
@@ -384,7 +389,7 @@ class Claim:
         """The claim with other entries as some of its inputs."""
         return replace(self, inputs={**self.inputs, **{k: (name,) for k, name in inputs.items()}})
 
-    @property
+    @cached_property
     def by_scheme(self) -> bool:
         """Whether it depends on the scheme of the sheet."""
         return any(computation.by_scheme for computation in self.computations.values())
@@ -501,11 +506,7 @@ class Ledger:
         700000000.0
         """
         entry = self._input(name)
-        if isinstance(entry, Inferred):
-            return entry.nominal * to_si(entry.unit)
-        if entry.printed is None:
-            raise LedgerError(f"claim {name!r} is no number to rest on")
-        return entry.printed.value * entry.si
+        return entry.nominal * to_si(entry.unit) if isinstance(entry, Inferred) else entry.value
 
     def in_unit(self, name: str, unit: str) -> str:
         """An entry's value as printed, in another unit, as a decimal.

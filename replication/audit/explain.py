@@ -199,8 +199,7 @@ class Explainer:
         sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
         if sources and not any(changed.target().meets(source.interval) for source in sources):
             return None
-        assert changed.printed is not None
-        value = {claim.id: changed.printed.value * changed.si}
+        value = {claim.id: changed.value}
         shown = (self.ledger.claims[result] for result in claim.entry.shown_by)
         return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
 
