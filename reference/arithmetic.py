@@ -11,20 +11,6 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, Protocol
 
-__all__ = [
-    "Arithmetic",
-    "DiscontinuityError",
-    "Dual",
-    "Duals",
-    "Floats",
-    "InexactError",
-    "Number",
-    "Ratio",
-    "Rationals",
-    "Ratios",
-    "Reals",
-]
-
 Number = Any
 """A number of the arithmetic in use; all of them have the operators + - * /."""
 

@@ -19,8 +19,6 @@ from reference.equations import evaluate
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.units import unit_dimension
 
-__all__ = ["COMPUTATIONS", "EXPONENT", "SAME", "Computation"]
-
 SAME = "same"
 """In place of a unit: whatever the unit is, inputs and result share its dimension."""
 

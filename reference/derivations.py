@@ -14,8 +14,6 @@ from functools import cache
 from reference.arithmetic import Dual, Duals, Ratio, Ratios, Reals
 from reference.equations import Node, evaluate, symbols_in
 
-__all__ = ["DERIVATIONS", "PREMISES", "Check", "Sides", "derive"]
-
 Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 

@@ -17,20 +17,6 @@ from reference.intervals import Intervals, Span
 from reference.ledger import Function
 from reference.printed import Interval
 
-__all__ = [
-    "Box",
-    "Constraint",
-    "Exploration",
-    "Range",
-    "Solutions",
-    "enclose",
-    "explore",
-    "extent",
-    "holding",
-    "satisfying",
-    "solve",
-]
-
 Box = Mapping[str, tuple[Fraction, Fraction]]
 """Inputs by name: lower and upper end, rationals in SI units."""
 

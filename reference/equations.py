@@ -17,22 +17,6 @@ from typing import Any
 
 from reference.arithmetic import Number
 
-__all__ = [
-    "MATHML",
-    "PLAIN",
-    "Dimension",
-    "DimensionError",
-    "EquationError",
-    "Node",
-    "dimension",
-    "evaluate",
-    "read_equation",
-    "read_expression",
-    "rendered",
-    "replaced",
-    "symbols_in",
-]
-
 
 class EquationError(ValueError):
     """Text that cannot be read as an equation; says where it ends to make sense."""

@@ -23,8 +23,6 @@ from reference.ledger import load as load_ledger
 from reference.printed import parse
 from reference.units import to_si
 
-__all__ = ["Assertion", "Finding", "Findings", "load", "read"]
-
 _REALS = Reals(30)
 _RELATIONS = ("=", ">=", "<=", ">", "<")
 

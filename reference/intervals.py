@@ -15,8 +15,6 @@ from flint import arb, ctx, fmpq
 
 from reference.arithmetic import Number
 
-__all__ = ["Intervals", "Span"]
-
 
 class Span:
     """All numbers from the least in the ball `low` to the greatest in the ball `high`."""

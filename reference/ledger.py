@@ -25,25 +25,6 @@ from reference.equations import Dimension, EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, decimal_text, parse
 from reference.units import same_dimension, to_si, unit_dimension
 
-__all__ = [
-    "INFERRED",
-    "Claim",
-    "Convention",
-    "Equation",
-    "Function",
-    "Inferred",
-    "Ledger",
-    "LedgerError",
-    "Place",
-    "Quantity",
-    "Slip",
-    "Source",
-    "Symbol",
-    "load",
-    "read",
-    "shown",
-]
-
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
 

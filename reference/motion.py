@@ -12,15 +12,6 @@ from typing import NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
 
-__all__ = [
-    "Row",
-    "Trajectory",
-    "contact_share",
-    "final_depth",
-    "sheet_depth",
-    "sheet_rows",
-]
-
 
 def contact_share(ar: Arithmetic, y: Number) -> Number:
     """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond."""

@@ -11,8 +11,6 @@ from decimal import Context, Decimal
 from enum import Enum
 from fractions import Fraction
 
-__all__ = ["Interval", "Printed", "Rounding", "decimal_text", "parse"]
-
 
 class Rounding(Enum):
     """How a value becomes printed text; the ends of the interval follow from it."""

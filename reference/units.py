@@ -11,8 +11,6 @@ from functools import cache
 
 from reference.equations import Dimension
 
-__all__ = ["UnitError", "quantity", "same_dimension", "to_si", "unit_dimension", "written"]
-
 
 class UnitError(ValueError):
     """An unknown unit, or one of another dimension than is asked for."""

@@ -20,8 +20,6 @@ from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Verdict
 
-__all__ = ["Counts", "Plant", "Power", "Trial", "measured", "planted", "plants", "power", "trial"]
-
 
 @dataclass(frozen=True, slots=True)
 class Plant:

@@ -25,8 +25,6 @@ from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Ver
 from replication.models import sheet
 from replication.text import number, powers_of_ten, rounded
 
-__all__ = ["Audit", "audit", "audit_claim"]
-
 
 def audit(ledger: Ledger | None = None) -> r.Record:
     """Audit every number and equation of the report, or of a copy of its ledger with a misprint.

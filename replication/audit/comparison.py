@@ -21,8 +21,6 @@ from replication.models import depth, motion, sheet, stream
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
 
-__all__ = ["approaches", "curves", "ladders", "scatter", "sensitivity", "velocity_curve"]
-
 BETAS = (3, 5)
 
 

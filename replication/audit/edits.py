@@ -7,8 +7,6 @@ from itertools import pairwise
 from reference.equations import Dimension
 from reference.printed import Printed, parse
 
-__all__ = ["EQUATION_EDITS", "NUMBER_EDITS", "edits", "equation_edits"]
-
 NUMBER_EDITS = (
     "digit dropped",
     "digits swapped",

@@ -9,8 +9,6 @@ from reference.equations import DimensionError, EquationError, Node, dimension, 
 from reference.ledger import Equation, Ledger
 from replication.audit.verdict import Verdict
 
-__all__ = ["Constant", "EquationAssessment", "assess_equation"]
-
 
 @dataclass(frozen=True, slots=True)
 class Constant:

@@ -15,8 +15,6 @@ from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Judge
 
-__all__ = ["BackSolved", "Explainer"]
-
 
 @dataclass(frozen=True, slots=True)
 class BackSolved:

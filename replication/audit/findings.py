@@ -17,8 +17,6 @@ from replication.audit.verdict import Assessment, Judge, Reading, Verdict
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact
 
-__all__ = ["EVIDENCE", "Evidence", "Known", "case"]
-
 Evidence = Mapping[str, Fraction | float | bool]
 """Evidence by name, in SI units."""
 

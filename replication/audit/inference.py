@@ -10,8 +10,6 @@ from reference.enclosure import Box, Constraint, Solutions, extent, holding, sat
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
-__all__ = ["Inference", "infer"]
-
 
 @dataclass(frozen=True, eq=False)
 class Inference:

@@ -9,32 +9,6 @@ from typing import Any
 
 import msgspec
 
-__all__ = [
-    "SCHEMA",
-    "Approach",
-    "BackSolvedRecord",
-    "ClaimRecord",
-    "ConstantRecord",
-    "Curve",
-    "Effect",
-    "EquationRecord",
-    "EvidenceRecord",
-    "Figure",
-    "FindingRecord",
-    "InferredRecord",
-    "Judged",
-    "Level",
-    "Record",
-    "RepairRecord",
-    "Scatter",
-    "ScatterPoint",
-    "Sensitivity",
-    "SlipRecord",
-    "SourceRecord",
-    "VelocityCurve",
-    "schema",
-]
-
 SCHEMA = "coldspray-audit-2"
 """Name and version of the record's keys."""
 

@@ -10,8 +10,6 @@ from collections.abc import Callable, Mapping
 from replication.models import crater, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact, particle_mass
 
-__all__ = ["REPLICA", "replica"]
-
 
 def replica(name: str, inputs: Mapping[str, float], **settings: object) -> float:
     """What the models answer to a computation; SI units.

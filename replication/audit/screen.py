@@ -11,8 +11,6 @@ from reference.arithmetic import Floats
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval
 
-__all__ = ["Screen", "dependents", "restates"]
-
 _FLOATS = Floats()
 _CLOSE = Fraction(1, 10**9)
 """How near to exact text, such as 2/3, a double must come."""

@@ -18,8 +18,6 @@ from replication.audit.inference import Inference, infer
 from replication.audit.replica import replica
 from replication.audit.screen import restates
 
-__all__ = ["Assessment", "Judge", "Judgement", "Reading", "Verdict"]
-
 _REALS, _RATIONALS = Reals(50), Rationals()
 
 

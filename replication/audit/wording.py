@@ -11,16 +11,6 @@ from replication.audit.record import SourceRecord
 from replication.audit.verdict import Judge, Judgement, Reading, Verdict
 from replication.text import inward, number, outward
 
-__all__ = [
-    "assumptions",
-    "constant_explanation",
-    "equation_explanation",
-    "explanation",
-    "holds",
-    "quantity",
-    "sources",
-]
-
 
 def quantity(text: str, unit: str) -> str:
     """Text with its unit, as a page shows it.

@@ -15,8 +15,6 @@ from replication.audit.verdict import Verdict
 from replication.report.prose import Named
 from replication.text import number, rounded
 
-__all__ = ["OPEN", "VERDICTS", "between", "facts", "names_of", "printed", "quantity", "shown_range"]
-
 VERDICTS = {
     Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the printed one, "
     "for every admitted value of an input that the report does not print",

@@ -12,8 +12,6 @@ from typing import NamedTuple
 from replication.audit.record import Approach, Effect, Level, Record
 from replication.report.facts import shown_range
 
-__all__ = ["Drawing", "draw"]
-
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
 """The color of the text around, and two of Okabe and Ito's, which stand out from white and from
 near-black, and from each other for the color-blind."""

@@ -13,8 +13,6 @@ from replication.audit.record import ClaimRecord, Record
 from replication.plain import json_text
 from spreadsheets.safely import check_folder, write_folder
 
-__all__ = ["check", "contents", "write"]
-
 
 def check(folder: Path) -> None:
     """Raise OSError, naming the path, where the audit's files could not be written."""

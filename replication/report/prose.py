@@ -12,8 +12,6 @@ from replication.text import powers_of_ten
 if TYPE_CHECKING:
     from markupsafe import Markup
 
-__all__ = ["Named", "Prose", "quoted"]
-
 
 class Named(NamedTuple):
     """What an id between backticks names, where a page shows it, and its value as printed."""

@@ -20,8 +20,6 @@ from replication.text import number
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-__all__ = ["counted", "environment", "markdown", "page"]
-
 SECTIONS = {
     "summary": "Summary",
     "open": "What does not follow",

@@ -18,19 +18,6 @@ from replication.report.facts import OPEN, between, printed, quantity, shown_ran
 from replication.report.prose import quoted
 from replication.text import number, rounded
 
-__all__ = [
-    "Table",
-    "approaches",
-    "evidence",
-    "failing",
-    "ladders",
-    "proven",
-    "repairs",
-    "scatter",
-    "sensitivity",
-    "tried",
-]
-
 
 class Table(NamedTuple):
     """A table; the first cell of a row is its head."""

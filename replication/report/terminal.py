@@ -15,8 +15,6 @@ from replication.report.render import counted, environment
 from replication.report.tables import Table, failing, tried
 from replication.text import number
 
-__all__ = ["columns", "ledger_table", "proof", "summary"]
-
 MAIN = (
     "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
     "walker-anderson-beta",
