@@ -9,6 +9,7 @@ rational numbers is a Fraction.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from inspect import signature
 from itertools import islice
 from typing import Any
@@ -94,6 +95,18 @@ FRANK_ZOOK = {
     "resistance": "Pa",
     "velocity": "m/s",
 }
+SYMBOLS = {
+    "length_ratio": "L",
+    "particle_density": "rho_p",
+    "target_density": "rho_t",
+    "k_1": "k_1",
+    "k_t": "k_t",
+    "resistance": "R_t",
+    "velocity": "V",
+    "elastic_modulus": "E_t",
+    "flow_stress": "Y_t",
+}
+"""The symbol of an equation that an input stands for."""
 
 
 # Restatements and plain arithmetic
@@ -214,34 +227,28 @@ def goodier_beta(ar: Arithmetic, printed: Sides, q: Number, power: Fraction) -> 
 
 
 @_computes("1", "eq11", elastic_modulus="Pa", flow_stress="Pa")
-def walker_anderson_alpha(
-    ar: Arithmetic, printed: Sides, elastic_modulus: Number, flow_stress: Number
-) -> Number:
+def walker_anderson_alpha(ar: Arithmetic, printed: Sides, **inputs: Number) -> Number:
     """extent of the plastic zone, Eq. 11"""
-    return evaluate(printed["eq11"][1], ar, {"E_t": elastic_modulus, "Y_t": flow_stress})
+    return evaluate(printed["eq11"][1], ar, {SYMBOLS[name]: x for name, x in inputs.items()})
 
 
 @_computes("1", "eq10", "eq11", elastic_modulus="Pa", flow_stress="Pa")
-def walker_anderson_beta(
-    ar: Arithmetic, printed: Sides, elastic_modulus: Number, flow_stress: Number
-) -> Number:
+def walker_anderson_beta(ar: Arithmetic, printed: Sides, **inputs: Number) -> Number:
     """beta from Eqs. 10 and 11"""
-    alpha = walker_anderson_alpha(ar, printed, elastic_modulus, flow_stress)
+    alpha = walker_anderson_alpha(ar, printed, **inputs)
     return evaluate(printed["eq10"][1], ar, {"alpha": alpha})
 
 
 @_computes("1", goodier="1", walker_anderson="1", brinell="1")
 def least_beta(ar: Arithmetic, printed: Sides, **betas: Number) -> Number:
     """the least of the three estimates of beta"""
-    first, second, third = betas.values()
-    return ar.least(first, ar.least(second, third))
+    return reduce(ar.least, betas.values())
 
 
 @_computes("1", goodier="1", walker_anderson="1", brinell="1")
 def greatest_beta(ar: Arithmetic, printed: Sides, **betas: Number) -> Number:
     """the greatest of the three estimates of beta"""
-    first, second, third = betas.values()
-    return ar.greatest(first, ar.greatest(second, third))
+    return reduce(ar.greatest, betas.values())
 
 
 @_computes("1/s", velocity="m/s", length="m")
@@ -301,19 +308,12 @@ def row_velocity_final(
 
 @_computes("m/s^2", "eqA-3", **IMPACT, depth="m")
 def deceleration_at_start(
-    ar: Arithmetic,
-    printed: Sides,
-    velocity: Number,
-    radius: Number,
-    particle_density: Number,
-    target_density: Number,
-    resistance: Number,
-    depth: Number,
+    ar: Arithmetic, printed: Sides, radius: Number, depth: Number, **inputs: Number
 ) -> Number:
     """deceleration at the depth of the start, where the contact area vanishes"""
-    stress = target_density * velocity**2 / 2 + resistance
+    stress = inputs["target_density"] * inputs["velocity"] ** 2 / 2 + inputs["resistance"]
     area = evaluate(printed["eqA-3"][1], ar, {"D": 2 * radius, "x": depth})
-    return stress * area / particle_mass(ar, printed, radius, particle_density)
+    return stress * area / particle_mass(ar, printed, radius, inputs["particle_density"])
 
 
 @_computes("m", stop_velocity="m/s", **SHEET)
@@ -332,45 +332,20 @@ def _row(ar: Arithmetic, row: int, centered: bool, inputs: Mapping[str, Number])
 
 
 @_computes("1", "eq16", **FRANK_ZOOK)
-def frank_zook_as_printed(
-    ar: Arithmetic,
-    printed: Sides,
-    length_ratio: Number,
-    particle_density: Number,
-    target_density: Number,
-    k_1: Number,
-    k_t: Number,
-    resistance: Number,
-    velocity: Number,
-) -> Number:
+def frank_zook_as_printed(ar: Arithmetic, printed: Sides, **inputs: Number) -> Number:
     """the right side of Eq. 16, taken as X/R as it is printed"""
-    values = {
-        "L": length_ratio,
-        "D": ar.number(1),
-        "R": ar.number(Fraction(1, 2)),
-        "rho_p": particle_density,
-        "rho_t": target_density,
-        "k_1": k_1,
-        "k_t": k_t,
-        "R_t": resistance,
-        "V": velocity,
-    }
-    return evaluate(printed["eq16"][1], ar, values)
+    values = {SYMBOLS[name]: x for name, x in inputs.items()}
+    diameter = {"D": ar.number(1), "R": ar.number(Fraction(1, 2))}
+    return evaluate(printed["eq16"][1], ar, {**values, **diameter})
 
 
 @_computes("1", **FRANK_ZOOK)
 def frank_zook_derived(
-    ar: Arithmetic,
-    printed: Sides,
-    length_ratio: Number,
-    particle_density: Number,
-    target_density: Number,
-    k_1: Number,
-    k_t: Number,
-    resistance: Number,
-    velocity: Number,
+    ar: Arithmetic, printed: Sides, velocity: Number, resistance: Number, **inputs: Number
 ) -> Number:
     """X/R that follows from Eqs. 14 and 15"""
+    length_ratio, k_1, k_t = inputs["length_ratio"], inputs["k_1"], inputs["k_t"]
+    particle_density, target_density = inputs["particle_density"], inputs["target_density"]
     # (L rho_p + k_1 rho_t D) v dv/dx = -(k_t rho_t v^2 + R_t), integrated from V to rest, over R
     inertia = length_ratio * particle_density / target_density + k_1
     return inertia / k_t * ar.log(1 + k_t * target_density * velocity**2 / resistance)

@@ -7,11 +7,13 @@ from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
+from itertools import product
 from math import inf, isclose, nextafter
 
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
+from reference.computations import SYMBOLS
 from reference.equations import MATHML, PLAIN, EquationError, Node, Notation, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
 from reference.printed import Interval
@@ -50,8 +52,7 @@ class Audit:
         self.explainer = Explainer(self.judge)
         self._equations: dict[str, EquationAssessment] = {}
         self._assessments: dict[str, Assessment] = {}
-        self._repairs: dict[str, list[r.RepairRecord]] = {}
-        self._shown_values: dict[str, tuple[float, float] | None] = {}
+        self._shown_values: dict[str, r.Shown | None] = {}
 
     def equation(self, name: str) -> EquationAssessment:
         """The verdict on one equation."""
@@ -92,7 +93,9 @@ class Audit:
         known = Known(self.judge, self.explainer, self._assessments, self._equations)
         findings = [self._finding(known, finding) for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
-        failing = sum(Verdict(claim.verdict).is_failure for claim in claims)
+        verdicts = [(c.id, c.verdict) for c in claims] + [(e.id, e.verdict) for e in equations]
+        wrong = [name for name, verdict in verdicts if Verdict(verdict).is_failure]
+        failing = len(self.ledger.claims.keys() & wrong)
         report = self.ledger.report
         return r.Record(
             schema=r.SCHEMA,
@@ -100,7 +103,7 @@ class Audit:
             report=r.ReportRecord(title=report.title, author=report.author, year=report.year),
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=self._counts(claims, equations),
-            culprit=self._culprit(),
+            culprit=self.explainer.culprit(wrong),
             claims=claims,
             equations=equations,
             findings=[finding for finding in findings if finding is not headline],
@@ -150,7 +153,7 @@ class Audit:
         fails = assessment.verdict.is_failure or any(
             reading.verdict is not Verdict.REPRODUCED for reading in assessment.readings[:1]
         )
-        judgement = None if first is None else first.judgements[0]
+        own = self._reading(claim, first) if first else None
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         formula, mathml, by_hand = self._formula(claim, first)
         restates = claim.computation is not None and claim.computation.restates
@@ -166,30 +169,28 @@ class Audit:
             printed=claim.text,
             unit=claim.unit,
             kind=claim.entry.kind,
-            interval=None if interval is None else _ends(interval),
-            interval_exact=None if interval is None else _exact(interval.lower, interval.upper),
-            interval_text=None if interval is None else str(interval),
+            interval=_ends(interval) if interval else None,
+            interval_exact=_exact(interval.lower, interval.upper) if interval else None,
+            interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
             computed_by=claim.entry.computed_by,
-            computed=None if first is None else first.computed,
-            reference=None if first is None else first.reference,
-            enclosure=None if judgement is None else _outward(judgement.lower, judgement.upper),
-            enclosure_exact=None if judgement is None else _exact(judgement.lower, judgement.upper),
-            witness=None if judgement is None else _doubles(judgement.witness),
+            computed=own.computed if own else None,
+            reference=own.reference if own else None,
+            enclosure=own.enclosure if own else None,
+            enclosure_exact=own.enclosure_exact if own else None,
+            witness=own.witness if own else None,
             error_in_last_digit=_error(claim, first),
-            holds="" if first is None else wording.holds(claim, first),
-            otherwise=[] if first is None else [_judged(j) for j in first.otherwise],
-            readings=[_reading(claim, reading) for reading in assessment.readings[1:]],
+            holds=own.holds if own else "",
+            otherwise=own.otherwise if own else [],
+            readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(
-                self.judge, claim, None if first is None else first.computed
-            ),
+            assumes=wording.assumptions(self.judge, claim, own.computed if own else None),
             explanation=self._explanation(claim, assessment),
             formula=formula,
             mathml=mathml,
             by_hand=by_hand,
-            shown_by=self._shown_record(claim),
+            shown_by=self._shown(claim),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
             back_solved=[
@@ -201,13 +202,27 @@ class Audit:
             workbook=claim.entry.workbook,
         )
 
+    @staticmethod
+    def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
+        judgement = reading.judgements[0]
+        witness = judgement.witness
+        return r.ReadingRecord(
+            name=reading.name,
+            summary=reading.summary,
+            verdict=reading.verdict,
+            computed=reading.computed,
+            reference=reading.reference,
+            enclosure=_outward(judgement.lower, judgement.upper),
+            enclosure_exact=_exact(judgement.lower, judgement.upper),
+            witness={k: float(value) for k, value in witness.items()} if witness else None,
+            holds=wording.holds(claim, reading),
+            otherwise=[_judged(j) for j in reading.otherwise],
+        )
+
     def repairs(self, name: str) -> list[r.RepairRecord]:
         """The misprints that would explain a claim or an equation that fails."""
-        if name not in self._repairs:
-            within = None if name in self.ledger.equations else self.ledger.claims[name].within
-            # A constant is mended with its equation.
-            self._repairs[name] = self.repairs(within) if within else self.explainer.repairs(name)
-        return self._repairs[name]
+        within = None if name in self.ledger.equations else self.ledger.claims[name].within
+        return self.explainer.repairs(within or name)  # a constant is mended with its equation
 
     def _explanation(self, claim: Claim, assessment: Assessment) -> str:
         if assessment.readings:
@@ -225,12 +240,12 @@ class Audit:
         if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
             return wording.sources(self._sources(claim.id, claim.target()))
         if claim.entry.shown_by:
-            ends = self._shown(claim)
-            if ends is None:
+            shown = self._shown(claim)
+            if shown is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            low = rounded(Fraction(ends[0]), 4, ROUND_CEILING)
-            high = rounded(Fraction(ends[1]), 4, ROUND_FLOOR)
-            text = wording.quantity(f"{low} to {high}", claim.unit)
+            low, high = map(Fraction, shown.interval)
+            ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
+            text = wording.quantity(ends, claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
         return f"Nothing in the report decides it: {claim.given}."
 
@@ -241,93 +256,84 @@ class Audit:
         (name,) = claim.inputs["value"]
         other = self.ledger.claims[name]
         text = wording.quantity(other.shown, other.unit)
-        if assessment.verdict is Verdict.CONSISTENT:
-            return f"It repeats or compares with {text} ({other.title})."
-        return f"It repeats or compares with {text} ({other.title}), which does not agree."
+        but = "" if assessment.verdict is Verdict.CONSISTENT else ", which does not agree"
+        return f"It repeats or compares with {text} ({other.title}){but}."
 
-    def _formula(
-        self, claim: Claim, reading: Reading | None
-    ) -> tuple[str, str, str] | tuple[None, None, None]:
+    def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, ...]:
         """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand.
 
         None where it takes more than one equation of the report.
         """
+        nothing, computation = (None, None, None), claim.computation
         if reading is None or reading.verdict is not Verdict.NOT_REPRODUCED:
-            return None, None, None
-        computation = claim.computations[""]
-        if not computation.equations:
-            return None, None, None
+            return nothing
+        if computation is None or not computation.equations:
+            return nothing
         (left, right) = self.ledger.sides[computation.equations[-1]]
         values = {
-            _SYMBOLS[key]: self.judge.value(*names)
+            SYMBOLS[key]: self.judge.value(*names)
             for key, names in claim.inputs.items()
-            if key in _SYMBOLS and len(names) == 1
+            if key in SYMBOLS and len(names) == 1
         } | {"D": Fraction(1)}  # L is given in diameters
         try:
             value = evaluate(right, Floats(), {key: float(x) for key, x in values.items()})
         except EquationError:
-            return None, None, None
+            return nothing
         if not isclose(value, reading.computed, rel_tol=1e-9):
-            return None, None, None
+            return nothing
         names = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
         put = names | {key: _short(value) for key, value in values.items()}
-        marked = [
-            {key: _mathml_symbol(text) for key, text in texts.items()} for texts in (names, put)
-        ]
         result = f"{reading.computed:#.3g}"
         texts = (
             rendered(left, names), rendered(right, names), rendered(right, put, _NUMBERS), result,
         )  # fmt: skip
-        rows = (
-            (rendered(left, marked[0], MATHML), rendered(right, marked[0], MATHML)),
-            ("", rendered(right, marked[1], _MATHML_NUMBERS)),
-            ("", f"<mn>{result}</mn>"),
+        marked_names, marked_put = (
+            {key: _mathml_symbol(text) for key, text in shown.items()} for shown in (names, put)
         )
-        return " = ".join(texts), _lines(rows), _by_hand(right, put, values, result)
+        cells = (
+            rendered(left, marked_names, MATHML), rendered(right, marked_names, MATHML),
+            "", rendered(right, marked_put, _MATHML_NUMBERS),
+            "", f"<mn>{result}</mn>",
+        )  # fmt: skip
+        row = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
+        table = _math(f"<mtable>{(3 * row).format(*cells)}</mtable>")
+        return " = ".join(texts), table, _by_hand(right, put, values, result)
 
     # What a choice is shown to be
 
-    def _shown(self, claim: Claim) -> tuple[float, float] | None:
+    def _shown(self, claim: Claim) -> r.Shown | None:
         """The values, in its unit, around a chosen number for which what it shows is as printed.
 
-        None if the number itself puts one of those claims wrong.
+        None if it shows nothing, or if the number itself puts one of those claims wrong.
         """
+        claims = claim.entry.shown_by
         if claim.id not in self._shown_values:
-            ends = self.explainer.admitted(claim.id, claim.entry.shown_by)
-            self._shown_values[claim.id] = ends and (
-                float(ends[0] / claim.si), float(ends[1] / claim.si),
-            )  # fmt: skip
+            ends = self.explainer.admitted(claim.id, claims) if claims else None
+            self._shown_values[claim.id] = ends and r.Shown(
+                claims=list(claims),
+                interval=(float(ends[0] / claim.si), float(ends[1] / claim.si)),
+                unit=claim.unit,
+            )
         return self._shown_values[claim.id]
-
-    def _shown_record(self, claim: Claim) -> r.Shown | None:
-        ends = self._shown(claim) if claim.entry.shown_by else None
-        if ends is None:
-            return None
-        return r.Shown(claims=list(claim.entry.shown_by), interval=ends, unit=claim.unit)
 
     def _figures(self, claim: Claim) -> list[r.Figure]:
         """For a remark: the final depths at both steps, in both schemes."""
         if claim.entry.kind != "remark":
             return []
-        known = Known(self.judge, self.explainer, {}, {})
-        found = []
-        for beta in comparison.BETAS:
-            for scheme in sheet.SCHEMES:
-                where = "initial" if scheme == "published" else "middle"
-                depths = {
-                    name: sheet.run(case(known, beta, step=known[name]), scheme).final_depth
-                    for name in ("a-step", "coarse-step")
-                }
-                for name, depth in depths.items():
-                    step = wording.quantity(self.ledger.claims[name].shown, "ns")
-                    means = f"final depth at {step}, beta = {beta}, drag at the {where} velocity"
-                    found.append(r.Figure(means=means, value=depth * 1e6, unit="um"))
-                change = 100 * (depths["coarse-step"] / depths["a-step"] - 1)
-                found.append(
-                    r.Figure(means=f"change, beta = {beta}, drag at the {where} velocity",
-                             value=change, unit="percent")
-                )  # fmt: skip
-        return found
+        known, figures = Known(self.judge, self.explainer, {}, {}), []
+        for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
+            where = "initial" if scheme == "published" else "middle"
+            with_what = f"beta = {beta}, drag at the {where} velocity"
+            depths = []
+            for name in ("a-step", "coarse-step"):
+                impact = case(known, beta, step=known[name])
+                depths.append(sheet.run(impact, scheme).final_depth)
+                step = wording.quantity(self.ledger.claims[name].shown, "ns")
+                means = f"final depth at {step}, {with_what}"
+                figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
+            change = 100 * (depths[1] / depths[0] - 1)
+            figures.append(r.Figure(means=f"change, {with_what}", value=change, unit="percent"))
+        return figures
 
     def _sources(self, name: str, target: Interval | None) -> list[r.SourceRecord]:
         return [
@@ -373,12 +379,6 @@ class Audit:
             proof=proof,
             prints_alike=solved.prints_alike,
         )
-
-    def _culprit(self) -> r.CulpritRecord | None:
-        verdicts = {name: a.verdict for name, a in self._assessments.items()}
-        verdicts |= {name: a.verdict for name, a in self._equations.items()}
-        failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
-        return self.explainer.culprit(failing)
 
     # Equations and findings
 
@@ -475,20 +475,6 @@ class Audit:
         )
 
 
-_SYMBOLS = {
-    "length_ratio": "L",
-    "particle_density": "rho_p",
-    "target_density": "rho_t",
-    "k_1": "k_1",
-    "k_t": "k_t",
-    "resistance": "R_t",
-    "velocity": "V",
-    "elastic_modulus": "E_t",
-    "flow_stress": "Y_t",
-}
-"""Input of a computation -> the symbol of the equation that it stands for."""
-
-
 def _short(value: Fraction) -> str:
     """A number as it is put into a formula.
 
@@ -528,12 +514,6 @@ def _by_hand(
     return "; ".join(steps) + "."
 
 
-def _lines(rows: Iterable[tuple[str, str]]) -> str:
-    """Left and right sides of equations below each other, as MathML."""
-    cells = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
-    return _math(f"<mtable>{''.join(cells.format(*row) for row in rows)}</mtable>")
-
-
 def _math(inner: str) -> str:
     return f'<math display="block">{inner}</math>'
 
@@ -544,22 +524,6 @@ def _mathml_symbol(shown: str) -> str:
         return f"<mn>{shown}</mn>"
     name, _, below = shown.partition("_")
     return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
-
-
-def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
-    judgement = reading.judgements[0]
-    return r.ReadingRecord(
-        name=reading.name,
-        summary=reading.summary,
-        verdict=reading.verdict,
-        computed=reading.computed,
-        reference=reading.reference,
-        enclosure=_outward(judgement.lower, judgement.upper),
-        enclosure_exact=_exact(judgement.lower, judgement.upper),
-        witness=_doubles(judgement.witness),
-        holds=wording.holds(claim, reading),
-        otherwise=[_judged(j) for j in reading.otherwise],
-    )
 
 
 def _judged(judgement: Judgement) -> r.Judged:
@@ -582,10 +546,6 @@ def _error(claim: Claim, reading: Reading | None) -> float | None:
         return None
     quantum = printed.quanta[-1] if claim.entry.kind == "approximation" else printed.quantum
     return float((Fraction(reading.computed) - printed.value) / quantum)
-
-
-def _doubles(point: Mapping[str, Fraction] | None) -> dict[str, float] | None:
-    return None if point is None else {name: float(value) for name, value in point.items()}
 
 
 def _ends(interval: Interval) -> r.Ends:
