@@ -16,44 +16,28 @@ Number = Any
 
 
 class Arithmetic(Protocol):
-    """What the formulas need of numbers, beyond the operators."""
+    """What the formulas need of numbers, beyond the operators.
 
-    def __hash__(self) -> int:
-        """As of any object: what was computed in an arithmetic is kept by it."""
+    `power` takes x > 0 unless the exponent is a whole number. `contact_share` is y (2 - y), which
+    increases on its domain, 0 <= y <= 1; `cap_root` is the y in [0, 1] with y^2 - y^3/3 = c, for c
+    in [0, 2/3]. `may_be_below` asks whether x < bound is possible, `is_below` whether it is
+    certain. `hull` is a number that stands for all of them. What was computed in an arithmetic is
+    kept by its hash.
+    """
 
+    def __hash__(self) -> int: ...
     @property
-    def pi(self) -> Number:
-        """The ratio of a circle's circumference to its diameter."""
-
-    def number(self, value: Fraction | int) -> Number:
-        """The rational in this arithmetic."""
-
-    def log(self, x: Number) -> Number:
-        """The natural logarithm."""
-
-    def power(self, x: Number, exponent: Fraction) -> Number:
-        """x to a rational power; x > 0 unless the exponent is a whole number."""
-
-    def least(self, x: Number, bound: Number) -> Number:
-        """min(x, bound)."""
-
-    def greatest(self, x: Number, bound: Number) -> Number:
-        """max(x, bound)."""
-
-    def contact_share(self, y: Number) -> Number:
-        """y (2 - y), which increases on its domain, 0 <= y <= 1."""
-
-    def cap_root(self, c: Number) -> Number:
-        """The y in [0, 1] with y^2 - y^3/3 = c; c in [0, 2/3]."""
-
-    def may_be_below(self, x: Number, bound: Number) -> bool:
-        """Whether x < bound is possible."""
-
-    def is_below(self, x: Number, bound: Number) -> bool:
-        """Whether x < bound is certain."""
-
-    def hull(self, numbers: list[Number]) -> Number:
-        """A number that stands for all of them."""
+    def pi(self) -> Number: ...
+    def number(self, value: Fraction | int) -> Number: ...
+    def log(self, x: Number) -> Number: ...
+    def power(self, x: Number, exponent: Fraction) -> Number: ...
+    def least(self, x: Number, bound: Number) -> Number: ...
+    def greatest(self, x: Number, bound: Number) -> Number: ...
+    def contact_share(self, y: Number) -> Number: ...
+    def cap_root(self, c: Number) -> Number: ...
+    def may_be_below(self, x: Number, bound: Number) -> bool: ...
+    def is_below(self, x: Number, bound: Number) -> bool: ...
+    def hull(self, numbers: list[Number]) -> Number: ...
 
 
 class _Points:

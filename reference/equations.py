@@ -13,6 +13,8 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import reduce
+from operator import add, mul
 from typing import Any
 
 from reference.arithmetic import Number
@@ -250,38 +252,27 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
         match node.kind:
             case "number":
                 return ar.number(node.value)
+            case "symbol" if node.name == "pi":
+                return ar.pi
+            case "symbol" if node.name in values:
+                return values[node.name]
             case "symbol":
-                return _symbol(node.name, ar, values)
-            case "negative":
-                return -value(node.parts[0])
-            case "sum":
-                return _folded(lambda a, b: a + b, map(value, node.parts))
-            case "product":
-                return _folded(lambda a, b: a * b, map(value, node.parts))
-            case "quotient":
-                return value(node.parts[0]) / value(node.parts[1])
+                raise EquationError(f"the symbol {node.name} has no value here")
             case "power":
                 return _power(node, ar, values, value)
-            case "ln":
-                return ar.log(value(node.parts[0]))
-        return ar.log(value(node.parts[0])) / ar.log(ar.number(10))
+        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
 
     return value(node)
 
 
-def _symbol(name: str, ar: Any, values: Mapping[str, Number]) -> Number:
-    if name == "pi":
-        return ar.pi
-    if name not in values:
-        raise EquationError(f"the symbol {name} has no value here")
-    return values[name]
-
-
-def _folded(operation: Callable[[Any, Any], Any], numbers: Any) -> Any:
-    total = next(numbers)
-    for number in numbers:
-        total = operation(total, number)
-    return total
+_OPERATIONS: Mapping[str, Callable[..., Number]] = {
+    "negative": lambda _, x: -x,
+    "sum": lambda _, *terms: reduce(add, terms),
+    "product": lambda _, *factors: reduce(mul, factors),
+    "quotient": lambda _, x, y: x / y,
+    "ln": lambda ar, x: ar.log(x),
+    "log": lambda ar, x: ar.log(x) / ar.log(ar.number(10)),
+}
 
 
 def _power(node: Node, ar: Any, values: Mapping[str, Number], value: Callable[[Node], Any]) -> Any:
@@ -354,7 +345,7 @@ def dimension(
         case "negative":
             return parts[0]
         case "product":
-            return _folded(lambda a, b: a * b, iter(parts))  # type: ignore[no-any-return]
+            return reduce(mul, parts)
         case "quotient":
             return parts[0] / parts[1]
         case "power":

@@ -26,7 +26,7 @@ BETAS = (3, 5)
 
 def approaches(known: Known) -> list[Approach]:
     """Every approach to X/R [1] of the report, and one that prices the target's inertia."""
-    claims = known.judge.ledger.claims
+    claims = known.ledger.claims
 
     def computed(kind: str, name: str, claim: str, reading: str = "") -> Approach:
         value = known.reading(claim, reading).computed
@@ -104,7 +104,7 @@ def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
     """What each input's own uncertainty does, as far as the report or its evidence states one."""
     density = "inferred:target-density"
     possible = known.judge.inference(density).admitted(Convention())[1].ends
-    rounding = known.judge.ledger.claims["a1-density"].target().ends
+    rounding = known.target("a1-density").ends
     spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
     yield _effect(impact, "velocity", impact.velocity - spread, impact.velocity + spread,
                   "mean deviation in the stream")  # fmt: skip
@@ -190,7 +190,7 @@ def curves(known: Known) -> list[Curve]:
                 sheet_depth=[row.depth for row in rows],
                 exact_time=times,
                 exact_depth=depths,
-                printed=known.judge.ledger.claims[f"depth-beta-{beta}"].shown,
+                printed=known.ledger.claims[f"depth-beta-{beta}"].shown,
             )
         )
     return found

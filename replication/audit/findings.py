@@ -9,7 +9,8 @@ from typing import Any
 
 from reference.arithmetic import Number
 from reference.enclosure import enclose, holding, solve
-from reference.ledger import INFERRED, Convention
+from reference.ledger import INFERRED, Convention, Ledger
+from reference.printed import Interval
 from reference.units import to_si
 from replication.audit.equations import EquationAssessment
 from replication.audit.explain import BackSolved, Explainer
@@ -35,10 +36,19 @@ class Known:
     assessments: Mapping[str, Assessment]
     equations: Mapping[str, EquationAssessment]
 
+    @property
+    def ledger(self) -> Ledger:
+        """What is audited."""
+        return self.judge.ledger
+
+    def target(self, claim: str) -> Interval:
+        """What agrees with a claim, in SI."""
+        return self.ledger.claims[claim].target()
+
     def exact(self, name: str) -> Fraction:
         """A claim as printed, an inferred input as assumed, or a source's number, in SI."""
-        ledger = self.judge.ledger
-        return ledger.sources[name].value if name in ledger.sources else self.judge.value(name)
+        sources = self.ledger.sources
+        return sources[name].value if name in sources else self.judge.value(name)
 
     def __getitem__(self, name: str) -> float:
         """The same as a double."""
@@ -50,12 +60,7 @@ class Known:
 
     def computed(self, claim: str, reading: str = "") -> float:
         """What a reading makes of a claim, in SI."""
-        si = self.judge.ledger.claims[claim].si
-        return self.reading(claim, reading).computed * float(si)
-
-    def prints(self, claim: str, computed: float) -> bool:
-        """Whether a number, in SI, agrees with what a claim prints."""
-        return self.judge.ledger.claims[claim].target().contains(Fraction(computed))
+        return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
 
 
 def case(known: Known, beta: int, **changed: float) -> Impact:
@@ -122,10 +127,8 @@ def _derived(known: Known, strength: float, length_ratio: float | None = None) -
 
 def _printed_ratio(known: Known) -> tuple[Fraction, Fraction]:
     """Least and greatest ratio of two numbers that print like the report's pair."""
-    (low, high), (least, greatest) = (
-        known.judge.ledger.claims[f"frank-zook-{name}"].target().ends
-        for name in ("rha", "stainless")
-    )
+    low, high = known.target("frank-zook-rha").ends
+    least, greatest = known.target("frank-zook-stainless").ends
     return least / high, greatest / low
 
 
@@ -148,7 +151,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
         "stainless": "fz-resistance-stainless",
     }
     rounded = Convention(choices_exact=choices_exact)
-    claims = known.judge.ledger.claims
+    claims = known.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
     box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
     return enclose(ratio, box).lower
@@ -193,7 +196,7 @@ def _equation_16(known: Known) -> Evidence:
 
 
 def _values(known: Known) -> Evidence:
-    explainer, ledger = known.explainer, known.judge.ledger
+    explainer, ledger = known.explainer, known.ledger
     claims = {name: ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")}
     solved = {name: explainer.back_solved(claim) for name, claim in claims.items()}
     stainless = known.reading("frank-zook-stainless", _DERIVED).judgements
@@ -241,11 +244,11 @@ def _least_admitted(known: Known) -> Fraction:
 
     All inputs are rounded but the velocity; the density is one that the header as printed admits.
     """
-    claim = known.judge.ledger.claims["frank-zook-stainless"]
+    claim = known.ledger.claims["frank-zook-stainless"]
     box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
     box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
     box[_DENSITY] = known.judge.inference(_DENSITY).outer.ends
-    return enclose(known.judge.ledger.function(claim, reading=_DERIVED), box).lower
+    return enclose(known.ledger.function(claim, reading=_DERIVED), box).lower
 
 
 def _resistance_for(known: Known, ratio: float, digits: int) -> float:
@@ -293,7 +296,7 @@ def _target_density(known: Known) -> Evidence:
         interval.ends for interval in (inference.inner, inference.admitted(Convention())[1])
     )
     centered = known.judge.inference(_DENSITY, centered=True).inner.ends
-    sources = known.judge.ledger.sources
+    sources = known.ledger.sources
     said = {name: inference.admits(sources[name].value, sources[name].interval)
             for name in ("304-density-793", "304-density-mill", "304-density-kinslow",
                          "carbon-steel-density")}  # fmt: skip
@@ -307,7 +310,7 @@ def _target_density(known: Known) -> Evidence:
         "centered_greatest": centered[1],
         "mass_greatest": inference.with_mass.ends[1],
         "assumed": known.exact(_DENSITY),
-        "edge": known.judge.ledger.claims["a1-deceleration-1"].target().ends[1],
+        "edge": known.target("a1-deceleration-1").ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
         "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",
         "kinslow": said["304-density-kinslow"] == "admitted only if the other inputs are rounded",
@@ -352,7 +355,7 @@ def _two_schemes(known: Known) -> Evidence:
 
 def _middle_density(known: Known) -> Fraction:
     """The least target density at which the drag at the middle velocity gives the depth."""
-    ledger = known.judge.ledger
+    ledger = known.ledger
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
     function = holding(ledger.function(claim, centered=True), printed)
@@ -391,14 +394,10 @@ def _order(known: Known, scheme: str) -> float:
 def _table_columns(known: Known) -> Evidence:
     x, v = 0.0, known["a1-initial-velocity"]
     impact = case(known, 5)
+    fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     for row in range(3):
         x += v * impact.step * (1 if row else 0.5)
-        v += (
-            sheet.deceleration(
-                x, v, impact.radius, impact.mass, impact.target_density, impact.target_resistance
-            )
-            * impact.step
-        )
+        v += sheet.deceleration(x, v, *fixed) * impact.step
     return {
         "exact": known["a1-initial-velocity"] * known["a1-time-1"],
         "plus": v,
@@ -421,7 +420,7 @@ def _dynamic_pressure(known: Known) -> float:
 def _observed_beta(known: Known) -> Evidence:
     p = _pressure_for(known, known["observed-ratio"])
     needed = _dynamic_pressure(known) / p
-    ends = known.judge.ledger.claims["observed-ratio"].target().ends
+    ends = known.target("observed-ratio").ends
     betas = [
         _dynamic_pressure(known) / _pressure_for(known, float(y)) / known["flow-stress"]
         for y in ends
@@ -566,7 +565,7 @@ def _compared_velocity(known: Known) -> Evidence:
 
 def _observed_digits(known: Known) -> Evidence:
     line = crater.depth_from_volume_ratio(known["volume-ratio-line"])
-    least, greatest = known.judge.ledger.claims["volume-ratio"].target().ends
+    least, greatest = known.target("volume-ratio").ends
     depth_ratio = known["profile-depth"] / (known["mean-diameter"] / 2)
     return {
         "line": line,
@@ -626,7 +625,7 @@ def _faster_particles(known: Known) -> Evidence:
 
 def _times(known: Known, words: str) -> Fraction:
     """How often the report says so, line breaks aside."""
-    return Fraction(" ".join(known.judge.ledger.text.split()).count(words))
+    return Fraction(" ".join(known.ledger.text.split()).count(words))
 
 
 def _minimum_velocity(known: Known) -> Evidence:
@@ -638,7 +637,7 @@ def _minimum_velocity(known: Known) -> Evidence:
 
 def _wrong_reference(known: Known) -> Evidence:
     return {
-        "stress": "Sigma" in known.judge.ledger.printed_text("eq1"),
+        "stress": "Sigma" in known.ledger.printed_text("eq1"),
         "follows": known.equations["eq6"].verdict is Verdict.REPRODUCED,
         "times": _times(known, "equation 1 reduces"),
         "caption": _times(known, "500-m/s steel"),

@@ -9,9 +9,9 @@ from fractions import Fraction
 from math import isclose
 
 from reference.ledger import shown
-from reference.units import written
 from replication.audit.record import ClaimRecord, Effect, Record
 from replication.audit.verdict import Verdict
+from replication.audit.wording import quantity
 from replication.report.prose import Named
 from replication.text import number, rounded
 
@@ -39,15 +39,6 @@ OPEN = {
     Verdict.WITHIN_ROUNDING,
 }
 """The verdicts of claims that do not plainly come out as printed."""
-
-
-def quantity(text: str, unit: str) -> str:
-    """A number's text with its unit.
-
-    >>> quantity("7.67", "um"), quantity("0.70", "1")
-    ('7.67 µm', '0.70')
-    """
-    return f"{text} {written(unit)}".strip()
 
 
 def printed(claim: ClaimRecord) -> str:

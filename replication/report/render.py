@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
+from replication.audit.wording import quantity
 from replication.power import measured
 from replication.report import facts as told
 from replication.report import tables
@@ -96,7 +97,7 @@ def _context(record: Record) -> dict[str, Any]:
         "verdicts": told.VERDICTS,
         "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
         "inferred": _inferred(record),
-        "quantity": told.quantity,
+        "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
         "tables": tables,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
@@ -172,17 +173,17 @@ def _inferred(record: Record) -> dict[str, str]:
     velocities = {"published": "velocity with which a row begins", "centered": "middle velocity"}
     texts = {
         one.id: f"The {one.title} is printed nowhere. The audit computes with "
-        f"{told.quantity(number(one.assumed), one.unit)}: {one.nominal_source}."
+        f"{quantity(number(one.assumed), one.unit)}: {one.nominal_source}."
         for one in record.inferred
     }
     for one in record.inferred:
-        ends = told.quantity(told.between(one.interval, 7, inward=True), one.unit)
+        ends = quantity(told.between(one.interval, 7, inward=True), one.unit)
         texts[one.id] += (
             f" With the drag at the {velocities[one.scheme]} the header of Table A-1 exactly as "
             f"printed admits {ends}"
         )
         if one.possible_with_rounded_inputs:
-            ends = told.quantity(told.between(one.possible_with_rounded_inputs, 7), one.unit)
+            ends = quantity(told.between(one.possible_with_rounded_inputs, 7), one.unit)
             texts[one.id] += f"; if its numbers are themselves rounded, none outside {ends} does"
         texts[one.id] += "."
     return texts

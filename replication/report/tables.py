@@ -14,7 +14,8 @@ from replication.audit.record import (
     Record,
     RepairRecord,
 )
-from replication.report.facts import OPEN, between, printed, quantity, shown_range
+from replication.audit.wording import quantity
+from replication.report.facts import OPEN, between, printed, shown_range
 from replication.report.prose import quoted
 from replication.text import number, rounded
 

@@ -9,6 +9,7 @@ from typing import Any
 from reference.findings import load
 from reference.ledger import INFERRED, Claim, Ledger
 from replication.audit.record import ClaimRecord, Record
+from replication.audit.wording import quantity
 from replication.report import facts as told
 from replication.report.prose import Named, Prose
 from replication.report.render import counted, environment
@@ -28,7 +29,7 @@ FINDINGS = 3
 def summary(record: Record, width: int, strong: bool = False) -> str:
     """The audit on one screen: what it found, the counts, all that fails, the main results."""
     rows = [
-        (claim.title, told.printed(claim), told.quantity(number(claim.computed), claim.unit),
+        (claim.title, told.printed(claim), quantity(number(claim.computed), claim.unit),
          claim.verdict)
         for claim in record.claims
         if claim.id in MAIN and claim.computed is not None
@@ -56,9 +57,9 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
     """One claim with all that its verdict rests on; the ledger names what it refers to."""
     names = (
         {name: Named(e.entry.title) for name, e in ledger.equations.items()}
-        | {f"{INFERRED}{name}": Named(e.title, "", told.quantity(number(e.nominal), e.unit))
+        | {f"{INFERRED}{name}": Named(e.title, "", quantity(number(e.nominal), e.unit))
            for name, e in ledger.inferred.items()}
-        | {name: Named(c.title, "", told.quantity(c.shown, c.unit))
+        | {name: Named(c.title, "", quantity(c.shown, c.unit))
            for name, c in ledger.claims.items()}
     )  # fmt: skip
     return _rendered(
@@ -130,5 +131,5 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
 
 def ledger_table(claims: Iterable[Claim], width: int) -> str:
     """The ledger, a line for each claim."""
-    rows = [(c.id, told.quantity(c.shown, c.unit), c.entry.kind, str(c.place)) for c in claims]
+    rows = [(c.id, quantity(c.shown, c.unit), c.entry.kind, str(c.place)) for c in claims]
     return columns(rows, width)
