@@ -39,9 +39,8 @@ def final_depth(
 
 
 class Row(NamedTuple):
-    """One time step of the sheet: the columns of Table A-1, in SI units."""
+    """One time step of the sheet: the columns of Table A-1 but its time, in SI units."""
 
-    time: Number
     velocity_initial: Number
     depth: Number
     deceleration: Number
@@ -81,14 +80,13 @@ def sheet_rows(
     def deceleration(x: Number, v: Number) -> Number:
         return (drag * v**2 + push) * contact_share(ar, x * per_radius)
 
-    time, x, v = ar.number(0), velocity * half_step, velocity
+    x, v = velocity * half_step, velocity
     for _ in range(most_rows):
-        time = time + step
         a = deceleration(x, v)
         if centered:
             a = deceleration(x, v - a * half_step)
         v_final = v - a * step
-        yield Row(time, v, x, a, v_final)
+        yield Row(v, x, a, v_final)
         v = v_final
         if stop_velocity is not None and ar.may_be_below(v, stop_velocity):
             if ar.is_below(v, stop_velocity):

@@ -7,18 +7,6 @@ from itertools import pairwise
 from reference.equations import Dimension
 from reference.printed import Printed, parse
 
-NUMBER_EDITS = (
-    "digit dropped",
-    "digits swapped",
-    "decimal point moved",
-    "exponent changed",
-    "other word",
-    "digit doubled",
-    "digit changed",
-    "digit inserted",
-)
-"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
-
 EQUATION_EDITS = (
     "number dropped",
     "symbol changed",
@@ -44,8 +32,8 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
     """
     seen = {text}
     original = _number(text)
-    for kind in NUMBER_EDITS:
-        for edited in _EDITS[kind](text):
+    for kind, edit in _EDITS.items():
+        for edited in edit(text):
             if edited in seen or _LEADING_ZERO.match(edited):
                 continue
             seen.add(edited)
@@ -139,15 +127,17 @@ def _words(text: str) -> Iterator[str]:
 
 
 _EDITS = {
-    "digits swapped": _swapped,
-    "digit doubled": _doubled,
-    "digit changed": _changed,
     "digit dropped": _dropped,
-    "digit inserted": _inserted,
+    "digits swapped": _swapped,
     "decimal point moved": _moved,
     "exponent changed": _shifted,
     "other word": _words,
+    "digit doubled": _doubled,
+    "digit changed": _changed,
+    "digit inserted": _inserted,
 }
+NUMBER_EDITS = tuple(_EDITS)
+"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
 
 
 def equation_edits(
@@ -164,11 +154,11 @@ def equation_edits(
     ...  if kind == "number dropped"]
     ['D = R']
     """
-    seen = {text}
+    found: dict[str, str] = {}
     for edited, kind in _equation_edits(text, written, dimensions):
-        if edited not in seen:
-            seen.add(edited)
-            yield edited, kind
+        if edited != text:
+            found.setdefault(edited, kind)
+    return iter(found.items())
 
 
 def _equation_edits(

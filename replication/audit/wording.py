@@ -55,9 +55,9 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:
             titles = " and ".join(judge.ledger.title(name) for name in claim.inferred)
             return [
-                f"Inputs that print like the report's give values in {outward(low, high)}, some of "
-                f"them as printed. But proven: no input that does agrees with the numbers from "
-                f"which the {titles} is inferred."
+                f"Proven for inputs that print like the report's: it lies in {outward(low, high)}, "
+                "some of which prints so, but no inputs that give the printed number also give the "
+                f"numbers from which the {titles} is inferred."
             ]
         case Verdict.NOT_REPRODUCED:
             side = _side(claim.interval(), low, high)

@@ -37,7 +37,7 @@ def rows_by_hand(count: int, centered: bool, case: tuple[F, ...]) -> list[tuple[
             first = (target * v**2 / 2 + resistance) * area_over_pi / mass_over_pi
             middle = v - first * STEP / 2
         a = (target * middle**2 / 2 + resistance) * area_over_pi / mass_over_pi
-        rows.append((k * STEP, v, x, a, v - a * STEP))
+        rows.append((v, x, a, v - a * STEP))
         v -= a * STEP
     return rows
 

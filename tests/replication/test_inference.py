@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from reference.ledger import Convention, Ledger, load
+from replication.audit import wording
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Judge, Verdict
 from replication.models import sheet
@@ -161,6 +162,21 @@ def test_a_wrong_cell_is_named_and_the_rest_is_judged(text: str) -> None:
     assert judge.assess(ledger.claims["a1-deceleration-3"]).verdict is Verdict.NOT_REPRODUCED
     for name in ("a1-deceleration-2", "a1-velocity-final-4", "depth-beta-5"):
         assert judge.assess(ledger.claims[name]).verdict is Verdict.REPRODUCED
+
+
+def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_range() -> None:
+    """Some density gives 2.17E+09 in row 4, but not the other cells."""
+    ledger = misprinted("a1-deceleration-4", "2.17E+09")
+    judge, claim = Judge(ledger, every_convention=False), ledger.claims["a1-deceleration-4"]
+    readings = judge.assess(claim).readings
+    judgement = readings[0].judgements[0]
+    assert judgement.verdict is Verdict.NOT_REPRODUCED
+    assert judgement.against_evidence
+    assert not claim.interval().excludes(judgement.lower, judgement.upper)
+    said = wording.explanation(judge, claim, readings)
+    assert "no inputs that give the printed number also give the numbers" in said
+    assert "all of it" not in said
+    assert "none of it" not in said
 
 
 def test_evidence_that_moves_the_density_is_followed() -> None:
