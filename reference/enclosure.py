@@ -61,11 +61,11 @@ def enclose(function: Function, box: Box) -> Range:
     """
     wide = [name for name, (low, high) in box.items() if low != high]
     slopes = _slopes(function, box, wide) if wide else {}
-    signs = {name: _sign(slope) for name, slope in slopes.items()}
+    signs = {name: _sign(slopes.get(name)) for name in wide}
     idle = frozenset(name for name, slope in slopes.items() if slope.low == 0 == slope.high)
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(*_best(function, box, slopes), signs or dict.fromkeys(wide, 0))
+        return Range(*_best(function, box, slopes), signs)
     lower, upper = (
         _points({
             name: ends if name not in fixed else ends[_end(fixed[name], top)]
@@ -125,7 +125,10 @@ def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
     return {name: slopes.get(name, zero) for name in wide}
 
 
-def _sign(slope: Span) -> int:
+def _sign(slope: Span | None) -> int:
+    """Whether a function is proven to rise or fall; no slope is known where it may jump."""
+    if slope is None:
+        return 0
     return 1 if slope.low >= 0 else -1 if slope.high <= 0 else 0
 
 
@@ -388,8 +391,10 @@ def extent(
         else (low, high)
         for key, (low, high) in box.items()
     }
+    wide = [key for key, (low, high) in box.items() if low != high]
     for function, target in constraints:
-        signs = enclose(function, box).signs
+        slopes = _slopes(function, box, wide)
+        signs = {key: _sign(slopes.get(key)) for key in wide}
         for top in (0, 1) if all(signs.values()) else ():
             beyond = solve(
                 holding(function, _corner(box, name, signs, top)), name, box[name], target

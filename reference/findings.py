@@ -5,9 +5,10 @@ of evidence that the audit computes anew, or a step of arithmetic that is calcul
 no longer agrees, the finding says so.
 """
 
+import operator
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -20,11 +21,13 @@ from reference.arithmetic import Reals
 from reference.equations import evaluate, read_expression
 from reference.ledger import Ledger, LedgerError
 from reference.ledger import load as load_ledger
-from reference.printed import parse
+from reference.printed import decimal_text, parse
 from reference.units import to_si
 
 _REALS = Reals(30)
-_RELATIONS = ("=", ">=", "<=", ">", "<")
+_RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
+    "=": operator.eq, ">=": operator.ge, "<=": operator.le, ">": operator.gt, "<": operator.lt,
+}  # fmt: skip
 
 
 class Assertion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -59,23 +62,27 @@ class Assertion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         """
         if self.text in ("yes", "no"):
             return computed is (self.text == "yes")
-        printed = parse(self.text)
-        value = Fraction(computed)
-        match self.relation:
-            case "=":
-                return value == printed.value
-            case ">=":
-                return value >= printed.value
-            case "<=":
-                return value <= printed.value
-            case ">":
-                return value > printed.value
-            case "<":
-                return value < printed.value
+        printed, value = parse(self.text), Fraction(computed)
+        if self.relation:
+            return _RELATIONS[self.relation](value, printed.value)
         return printed.interval().contains(value)
 
 
-class _Texts(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One line of arithmetic in a text: what is calculated, and what it must print like."""
+
+    text: str
+    holds: bool
+
+
+class Finding(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One finding as asserted, its texts with the printed and the asserted numbers in them.
+
+    `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
+    open; `steps`: the arithmetic in its texts, calculated again.
+    """
+
     id: str
     title: str
     kind: Literal[
@@ -89,39 +96,12 @@ class _Texts(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         "wording",
     ]
     status: Literal["explained", "open"]
-    claims: list[str]
+    claims: tuple[str, ...]
     statement: str
     by_hand: str = ""
     settle: str = ""
     evidence: dict[str, Assertion]
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One line of arithmetic in a text: what is calculated, and what it must print like."""
-
-    text: str
-    holds: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One finding as asserted, its texts with the printed and the asserted numbers in them.
-
-    `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
-    open; `steps`: the arithmetic in its texts, calculated again.
-    """
-
-    id: str
-    title: str
-    kind: str
-    status: str
-    claims: tuple[str, ...]
-    statement: str
-    by_hand: str
-    settle: str
-    evidence: Mapping[str, Assertion]
-    steps: tuple[Step, ...]
+    steps: tuple[Step, ...] = ()
 
 
 Findings = Mapping[str, Finding]
@@ -147,7 +127,7 @@ def load() -> Findings:
 def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
     """Build and check the findings from parsed TOML; LedgerError names what is wrong."""
     try:
-        texts = msgspec.convert(document.get("finding", []), list[_Texts])
+        texts = msgspec.convert(document.get("finding", []), list[Finding])
     except msgspec.ValidationError as error:
         raise LedgerError(f"findings.toml: {error}") from error
     if not texts:
@@ -163,7 +143,7 @@ def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
     return findings
 
 
-def _finding(entry: _Texts, ledger: Ledger) -> Finding:
+def _finding(entry: Finding, ledger: Ledger) -> Finding:
     for name in entry.claims:
         if name not in ledger.claims and name not in ledger.equations:
             raise ValueError(f"there is no claim {name!r}")
@@ -177,10 +157,9 @@ def _finding(entry: _Texts, ledger: Ledger) -> Finding:
     filled = [_filled(" ".join(text.split()), entry.evidence, ledger) for text in raw]
     steps = tuple(_step(text) for part in filled for text in re.findall("`(.*?)`", part))
     title, statement, by_hand, settle = (text.replace("`", "") for text in filled)
-    return Finding(
-        entry.id, title, entry.kind, entry.status, tuple(entry.claims), statement, by_hand, settle,
-        entry.evidence, steps,
-    )  # fmt: skip
+    return msgspec.structs.replace(
+        entry, title=title, statement=statement, by_hand=by_hand, settle=settle, steps=steps
+    )
 
 
 _PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
@@ -197,7 +176,7 @@ def _filled(text: str, evidence: Mapping[str, Assertion], ledger: Ledger) -> str
             return ledger.claims[name].shown if unit is None else ledger.in_unit(name, unit)
         if name in ledger.sources:
             source = ledger.sources[name]
-            return source.says if unit is None else ledger.number_in(source.value, unit)
+            return source.says if unit is None else decimal_text(source.value / to_si(unit))
         raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
 
     return _PLACE.sub(number, text)

@@ -7,6 +7,7 @@ does not exist or whose units do not fit, inputs that are missing or that go rou
 
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -495,11 +496,7 @@ class Ledger:
         >>> load().in_unit("fz-resistance-rha", "GPa")
         '9.13'
         """
-        return self.number_in(self.value(name), unit)
-
-    def number_in(self, value: Fraction, unit: str) -> str:
-        """A value in SI as a decimal of its unit."""
-        return decimal_text(value / to_si(unit))
+        return decimal_text(self.value(name) / to_si(unit))
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """The least and the greatest value of an entry, in SI, to search, and why these."""
@@ -614,17 +611,14 @@ def read(
     tables = _converted(document, _Document, "ledger.toml")
     if not tables.claim:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
-    equations = {}
-    for entry in tables.equation:
-        if entry.id in equations:
-            raise LedgerError(f"{entry.id!r} stands in the ledger twice")
-        place = _place(text, f"equation {entry.id!r}", entry.quote)
-        equations[entry.id] = Equation(entry, place)
-    claims: dict[str, Claim] = {}
-    for claim_entry in tables.claim:
-        if claim_entry.id in claims or claim_entry.id in equations:
-            raise LedgerError(f"{claim_entry.id!r} stands in the ledger twice")
-        claims[claim_entry.id] = _claim(claim_entry, tables, text, equations.values())
+    names = Counter(entry.id for entry in (*tables.equation, *tables.claim))
+    if twice := next((name for name, times in names.items() if times > 1), None):
+        raise LedgerError(f"{twice!r} stands in the ledger twice")
+    equations = {
+        entry.id: Equation(entry, _place(text, f"equation {entry.id!r}", entry.quote))
+        for entry in tables.equation
+    }
+    claims = {entry.id: _claim(entry, tables, text, equations.values()) for entry in tables.claim}
     claims = {name: _completed(claim, claims) for name, claim in claims.items()}
     ordered = dict(sorted(claims.items(), key=lambda item: _order(item[1])))
     ledger = Ledger(

@@ -336,11 +336,8 @@ class Audit:
         return figures
 
     def _sources(self, name: str, target: Interval | None) -> list[r.SourceRecord]:
-        return [
-            self._source(source, target)
-            for source in self.ledger.sources.values()
-            if name in source.claims
-        ]
+        sources = self.ledger.sources.values()
+        return [self._source(source, target) for source in sources if name in source.claims]
 
     def _source(self, source: Source, target: Interval | None) -> r.SourceRecord:
         return r.SourceRecord(
@@ -357,24 +354,26 @@ class Audit:
     # Explanations
 
     def _back_solved(self, solved: BackSolved) -> r.BackSolvedRecord:
-        si = to_si(self.ledger.unit(solved.entry))
-        inner, outer = solved.solutions.inner, solved.solutions.outer
+        si, solutions = to_si(self.ledger.unit(solved.entry)), solved.solutions
         proof = "proven inside, and none beyond"
-        if not outer:
+        if not solutions.outer:
             proof = "proven: none in the range does"
-        elif not inner:
+        elif not solutions.inner:
             proof = "undecided"
-        elif solved.solutions.reaches_an_end:
+        elif solutions.reaches_an_end:
             proof = "proven, up to an end of the range"
-        low, high = solved.solutions.search
+
+        def in_unit(ends: tuple[Fraction, Fraction]) -> tuple[float, float]:
+            return float(ends[0] / si), float(ends[1] / si)
+
         return r.BackSolvedRecord(
             reading=solved.reading,
             entry=solved.entry,
             title=self.ledger.title(solved.entry),
             unit=self.ledger.unit(solved.entry),
             printed=float(self.judge.value(solved.entry) / si),
-            intervals=[(float(low / si), float(high / si)) for low, high in inner],
-            search=(float(low / si), float(high / si)),
+            intervals=[in_unit(ends) for ends in solutions.inner],
+            search=in_unit(solutions.search),
             search_reason=solved.reason,
             proof=proof,
             prints_alike=solved.prints_alike,
