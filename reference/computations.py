@@ -17,7 +17,7 @@ from typing import Any
 from reference.arithmetic import Arithmetic, Number
 from reference.derivations import Sides
 from reference.equations import evaluate
-from reference.motion import Row, sheet_depth, sheet_rows
+from reference.motion import sheet_depth, sheet_rows
 from reference.units import unit_dimension
 
 SAME = "same"
@@ -274,36 +274,23 @@ def row_time(ar: Arithmetic, printed: Sides, row: int, step: Number) -> Number:
     return row * step
 
 
-@_computes("m/s", **SHEET)
-def row_velocity_initial(
-    ar: Arithmetic, printed: Sides, row: int, centered: bool = False, **inputs: Number
-) -> Number:
-    """velocity at the start of the row's time step"""
-    return _row(ar, row, centered, inputs).velocity_initial
+def _computes_cell(column: str, unit: str, means: str) -> None:
+    """Register the computation of one column of the sheet, in a given row."""
+
+    def cell(
+        ar: Arithmetic, printed: Sides, row: int, centered: bool = False, **inputs: Number
+    ) -> Number:
+        rows = sheet_rows(ar, centered=centered, **inputs)
+        return getattr(next(islice(rows, row - 1, None)), column)
+
+    cell.__name__, cell.__doc__ = f"row_{column}", means
+    _computes(unit, **SHEET)(cell)
 
 
-@_computes("m", **SHEET)
-def row_depth(
-    ar: Arithmetic, printed: Sides, row: int, centered: bool = False, **inputs: Number
-) -> Number:
-    """depth in the row, half a step behind its final velocity"""
-    return _row(ar, row, centered, inputs).depth
-
-
-@_computes("m/s^2", **SHEET)
-def row_deceleration(
-    ar: Arithmetic, printed: Sides, row: int, centered: bool = False, **inputs: Number
-) -> Number:
-    """deceleration in the row, Eqs. A-1 to A-3 over the mass"""
-    return _row(ar, row, centered, inputs).deceleration
-
-
-@_computes("m/s", **SHEET)
-def row_velocity_final(
-    ar: Arithmetic, printed: Sides, row: int, centered: bool = False, **inputs: Number
-) -> Number:
-    """velocity at the end of the row's time step"""
-    return _row(ar, row, centered, inputs).velocity_final
+_computes_cell("velocity_initial", "m/s", "velocity at the start of the row's time step")
+_computes_cell("depth", "m", "depth in the row, half a step behind its final velocity")
+_computes_cell("deceleration", "m/s^2", "deceleration in the row, Eqs. A-1 to A-3 over the mass")
+_computes_cell("velocity_final", "m/s", "velocity at the end of the row's time step")
 
 
 @_computes("m/s^2", "eqA-3", **IMPACT, depth="m")
@@ -322,10 +309,6 @@ def final_sheet_depth(
 ) -> Number:
     """depth in the sheet's last row"""
     return sheet_depth(ar, sheet_rows(ar, centered=centered, **inputs), inputs["stop_velocity"])
-
-
-def _row(ar: Arithmetic, row: int, centered: bool, inputs: Mapping[str, Number]) -> Row:
-    return next(islice(sheet_rows(ar, centered=centered, **inputs), row - 1, None))
 
 
 # Frank and Zook, Eqs. 14-17

@@ -33,9 +33,13 @@ def final_depth(
     """
     pressure = target_density * velocity**2 / 2
     c = 4 * particle_density / (3 * target_density) * ar.log(1 + pressure / resistance)
+    return radius * _normalized_depth(ar, c)
+
+
+def _normalized_depth(ar: Arithmetic, c: Number) -> Number:
     limit = ar.number(Fraction(2, 3))
     beyond = ar.greatest(c - limit, ar.number(0))
-    return radius * (ar.cap_root(ar.least(c, limit)) + beyond)
+    return ar.cap_root(ar.least(c, limit)) + beyond
 
 
 class Row(NamedTuple):
@@ -141,12 +145,7 @@ class Trajectory:
 
     @cached_property
     def _final(self) -> Number:
-        return self._buried(self._c)
-
-    def _buried(self, c: Number) -> Number:
-        limit = self.reals.number(Fraction(2, 3))
-        past = self.reals.greatest(c - limit, self.context.zero)
-        return self.reals.cap_root(self.reals.least(c, limit)) + past
+        return _normalized_depth(self.reals, self._c)
 
     @property
     def final_depth(self) -> Number:
@@ -183,7 +182,9 @@ class Trajectory:
         if abs(u) > 1:
             raise ValueError(f"the particle never has a velocity of {velocity} m/s")
         lost = (1 - u) * (1 + u) * self.drag / (self.push + self.drag * u * u)
-        return self.radius * self._buried(self.context.log1p(lost) / (2 * self.drag))
+        return self.radius * _normalized_depth(
+            self.reals, self.context.log1p(lost) / (2 * self.drag)
+        )
 
     def time_to_depth(self, depth: Number) -> Number:
         """Time [s] to a depth [m], which must not exceed the final one."""
