@@ -43,11 +43,13 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 def shown(text: str) -> str:
     r"""Printed text as a page shows it, without the marks of LaTeX.
 
-    >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3")
-    ('9.13 × 10⁹', '1/2', '~0.3')
+    >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3"), shown("m^{1/2}")
+    ('9.13 × 10⁹', '1/2', '~0.3', 'm^(1/2)')
     """
     text = re.sub(r"\\frac\{(\d+)\}\{(\d+)\}", r"\1/\2", text).replace(r"\times", "×")
-    text = re.sub(r"\^\{?(-?\d+)\}?", lambda power: power[1].translate(_SUPERSCRIPTS), text)
+    text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
+    text = re.sub(r"\^\{([^{}]*)\}", r"^(\1)", text)
+    text = re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPTS), text)
     return re.sub(r"~\s+", "~", text)
 
 

@@ -66,7 +66,7 @@ def tried(claim: ClaimRecord) -> list[Table]:
     tables = (
         Table("The figures", ("what", "computed"), figures),
         _back_solved(claim.back_solved),
-        repairs(claim.repairs),
+        repairs(claim.repairs, claim.id),
         Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
     )
     return [table for table in tables if table.rows]
@@ -97,17 +97,20 @@ def _needed(solved: BackSolvedRecord) -> str:
     return quantity(ends, solved.unit) + beyond + ", prints alike" * solved.prints_alike
 
 
-def repairs(records: Iterable[RepairRecord]) -> Table:
-    """The misprints that would explain a failure."""
+def repairs(records: Iterable[RepairRecord], own: str = "") -> Table:
+    """The misprints that would explain a failure, of the claim with the id `own` if it is one.
+
+    Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
+    """
     rows = [
         (
             f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text), repair.kind,
             repair.reading or "as printed",
-            ", ".join(f"`{name}`" for name in repair.failing) or "nothing",
+            ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing",
         )
         for repair in records
     ]  # fmt: skip
-    heads = ("text of", "printed", "instead", "edit", "read", "then still fails")
+    heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
     return Table("Misprints, one edit of the text, that would explain it", heads, rows)
 
 
