@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
+from urllib.parse import urljoin
 from xml.etree import ElementTree as ET
 
 Value = float | str | bool
@@ -95,10 +96,17 @@ class Engine(ABC):
             raise EngineError(self.name, reason)
 
     def _worksheets(self, path: Path) -> list[str]:
-        """List the worksheets after checking the file, since some engines load damaged ones."""
+        """List the worksheets once every part is well formed: some engines load damaged files."""
         try:
-            return checked_worksheets(path)
-        except UNREADABLE as error:
+            with zipfile.ZipFile(path) as archive:
+                for part in archive.namelist():
+                    if part.endswith((".xml", ".rels")):
+                        _parsed(archive, part)
+                sheets = worksheets(archive)
+                for part in sheets.values():
+                    archive.getinfo(part)
+                return list(sheets)
+        except (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
 
 
@@ -138,46 +146,24 @@ def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
     return engine.recalculate(path)["planted"].get("A2") == 42
 
 
-# The parts of an .xlsx file: enough to find its worksheets and to see that none is damaged.
-
-UNREADABLE = (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError)
-"""What reading a file raises that is not a sound .xlsx file."""
-
-
-def read_part(archive: zipfile.ZipFile, part: str) -> ET.Element:
-    """Parse one XML part of the file."""
-    return ET.fromstring(archive.read(part))
+# The parts of an .xlsx file: enough to find its worksheets.
 
 
 def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
     """Map each worksheet's name, in the workbook's order, to the part that holds its cells."""
     parts = {
-        relation.attrib["Id"]: _part(relation.attrib["Target"])
-        for relation in read_part(archive, "xl/_rels/workbook.xml.rels")
+        # A target is relative to xl/ unless it starts at the root.
+        relation.attrib["Id"]: urljoin("/xl/", relation.attrib["Target"])[1:]
+        for relation in _parsed(archive, "xl/_rels/workbook.xml.rels")
         if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
     }
-    sheets = read_part(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
-    related = {sheet.attrib["name"]: _relation(sheet) for sheet in sheets}
+    related = {
+        # The namespace of r:id differs between the two kinds of Office Open XML.
+        sheet.attrib["name"]: next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
+        for sheet in _parsed(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
+    }
     return {name: parts[relation] for name, relation in related.items() if relation in parts}
 
 
-def checked_worksheets(path: Path) -> list[str]:
-    """List the worksheets of a file; raise one of UNREADABLE unless every part is well formed."""
-    with zipfile.ZipFile(path) as archive:
-        for part in archive.namelist():
-            if part.endswith((".xml", ".rels")):
-                read_part(archive, part)
-        sheets = worksheets(archive)
-        for part in sheets.values():
-            archive.getinfo(part)
-    return list(sheets)
-
-
-def _part(target: str) -> str:
-    """Resolve a target, which is relative to xl/ unless it starts at the root."""
-    return target[1:] if target.startswith("/") else f"xl/{target}"
-
-
-def _relation(sheet: ET.Element) -> str:
-    """Read the attribute r:id, whose namespace differs between the two kinds of Office Open XML."""
-    return next(value for key, value in sheet.attrib.items() if key.endswith("}id"))
+def _parsed(archive: zipfile.ZipFile, part: str) -> ET.Element:
+    return ET.fromstring(archive.read(part))
