@@ -11,6 +11,7 @@ import math
 import re
 import shutil
 import subprocess
+import warnings
 from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
@@ -48,7 +49,9 @@ class Gnumeric(Engine):
             # Without the importer's name, ssconvert would take any text file for a table.
             formats = f"--import-type={FORMAT}", f"--export-type={FORMAT}"
             self._ssconvert("--recalc", *formats, str(path.resolve()), str(converted))
-            for sheet in load_workbook(converted, data_only=True).worksheets:
+            with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
+                book = load_workbook(converted, data_only=True)
+            for sheet in book.worksheets:
                 for cell in chain.from_iterable(sheet.iter_rows()):
                     yield sheet.title, cell.coordinate, _value(cell.value)
 
