@@ -27,7 +27,7 @@ from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.engines import ENGINES
 from spreadsheets.plan import Value, WorkbookPlan, place_of
-from spreadsheets.sheets import About, audit, figures, inputs, lines, steps, table_a1, workbook_plan
+from spreadsheets.sheets import audit, figures, inputs, lines, steps, table_a1, workbook_plan
 from spreadsheets.sheets.audit import Findings
 from spreadsheets.verify import EngineCheck, verify
 
@@ -297,10 +297,15 @@ class _Builder:
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
         cases, coarse = self._pages()
-        about = About(
-            version=version("coldspray"), warning_limits=(COARSE, DEEP), shown=self._shown()
+        plan = workbook_plan(
+            self.ledger,
+            cases,
+            coarse,
+            findings,
+            version=version("coldspray"),
+            warning_limits=(COARSE, DEEP),
+            shown=self._shown(),
         )
-        plan = workbook_plan(self.ledger, cases, about, coarse, findings)
         values = {
             key: value if isinstance(value, str) else float(value) for key, value in self._values()
         }

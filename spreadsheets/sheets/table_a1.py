@@ -5,9 +5,10 @@ prints, `6E-10` in General included. From column H on stands the printed text it
 """
 
 from reference.ledger import Claim, Ledger
-from spreadsheets.plan import Cell, Rule, SheetPlan
+from spreadsheets.plan import Cell, SheetPlan
 from spreadsheets.sheets.lines import (
     NOT_COMPUTED,
+    colored,
     formula,
     heads,
     notes,
@@ -153,17 +154,13 @@ def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     for row, (address, claim) in enumerate(_claims(ledger).items(), start=first):
         cells |= row_of(row, _check(claim, address, row, table))
     widths = (8.0, 26.0, 9.0, 17.0, 25.0, 12.0, 18.0, 17.0)
-    verdicts = f"G{first}:G{row}"
     return SheetPlan(
         name="Table A-1 check",
         cells=cells,
         widths=dict(zip("ABCDEFGH", widths, strict=True)),
         frozen=f"B{first}",
         repeated_rows=(_HEAD_ROW, _HEAD_ROW),
-        rules=tuple(
-            Rule(cells=verdicts, formula=f'=$G{first}="{words}"', style=style)
-            for words, style in ((SAME_TEXT, "good"), (OTHER_TEXT, "warning"))
-        ),
+        rules=colored(f"G{first}:G{row}", {SAME_TEXT: "good", OTHER_TEXT: "warning"}),
     )
 
 
