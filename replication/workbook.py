@@ -630,7 +630,6 @@ def _trust(kinds: Sequence[str]) -> int:
 
 
 def _message(sheet: Sheet) -> str:
-    """What its sheet says of a run."""
     kinds = [doubt.kind for doubt in doubts_about(sheet)]
     state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[_trust(kinds)]
     return state + "".join(steps.DOUBTS[kind] for kind in kinds)

@@ -21,7 +21,7 @@ from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPla
 from spreadsheets.safely import check_target, write_bytes
 from spreadsheets.styles import DASHES, STYLES
 
-__all__ = ["cell_values", "check", "is_own", "pixels", "to_bytes", "write"]
+__all__ = ["cell_values", "check", "is_own", "to_bytes", "write"]
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
@@ -157,15 +157,6 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             _draw(book, page, sheet.name, chart)
     book.close()
     return _sealed(buffer.getvalue())
-
-
-def pixels(width: float) -> int:
-    """How wide a column of so many characters is on the screen, at 100 %.
-
-    >>> pixels(9.0)
-    68
-    """
-    return int(width * 7 + 5)
 
 
 _LINE = 13.5

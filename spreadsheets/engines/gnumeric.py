@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import re
 import shutil
-import subprocess
 import warnings
 from collections.abc import Iterator
 from itertools import chain
@@ -18,13 +17,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from spreadsheets.engines.base import Cell, Engine, EngineError, Value
+from spreadsheets.engines.base import Cell, EngineError, SystemEngine, Value
 
 FORMAT = "Gnumeric_Excel:xlsx"
-TIME_LIMIT_S = 120
 
 
-class Gnumeric(Engine):
+class Gnumeric(SystemEngine):
     """Converts the workbook with ``--recalc``; without it, stored values would come back."""
 
     name = "gnumeric"
@@ -36,7 +34,7 @@ class Gnumeric(Engine):
         return "The command ssconvert is not installed: install the system package gnumeric."
 
     def _version(self) -> str:
-        found = re.search(r"version '(.+)'", self._ssconvert("--version"))
+        found = re.search(r"version '(.+)'", self._run(["ssconvert", "--version"]))
         if found is None:
             raise EngineError(self.name, "ssconvert does not tell its version")
         return found[1]
@@ -48,25 +46,12 @@ class Gnumeric(Engine):
             converted = Path(folder, "converted.xlsx")
             # Without the importer's name, ssconvert would take any text file for a table.
             formats = f"--import-type={FORMAT}", f"--export-type={FORMAT}"
-            self._ssconvert("--recalc", *formats, str(path.resolve()), str(converted))
+            self._run(["ssconvert", "--recalc", *formats, str(path.resolve()), str(converted)])
             with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
                 book = load_workbook(converted, data_only=True)
             for sheet in book.worksheets:
                 for cell in chain.from_iterable(sheet.iter_rows()):
                     yield sheet.title, cell.coordinate, _value(cell.value)
-
-    def _ssconvert(self, *arguments: str) -> str:
-        """Run ssconvert and return what it prints."""
-        command = ["ssconvert", *arguments]
-        try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
-            )
-        except (OSError, subprocess.TimeoutExpired) as error:
-            raise EngineError(self.name, str(error)) from error
-        if done.returncode != 0:
-            raise EngineError(self.name, f"ssconvert failed: {done.stderr or done.returncode}")
-        return done.stdout
 
 
 def _value(content: Any) -> Value | None:

@@ -88,7 +88,6 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
 
 
 def _counts(first: int, last: int) -> dict[str, Cell]:
-    """How many live verdicts there are of each kind."""
     cells = {"A6": text("Live verdicts", "block")}
     for row, (words, what) in enumerate(KINDS, start=7):
         cells[f"A{row}"] = text(words, "text")
@@ -98,7 +97,6 @@ def _counts(first: int, last: int) -> dict[str, Cell]:
 
 
 def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
-    """What the ledger and the audit say of a claim, by column."""
     return {
         "A": text(claim.id),
         "B": text(claim.title, wrap=True),

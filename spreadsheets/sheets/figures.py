@@ -61,7 +61,6 @@ def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
 
 
 def _curve(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
-    """Time and depth of every row of a case."""
     cells = {f"{columns[0]}{first - 3}": text(case.name, "block")}
     cells |= _heads(first - 2, columns, ("Time", "Depth"), ("ns", "µm"))
     for k in range(case.rows + 1):

@@ -182,7 +182,6 @@ def place(
 
 
 def _cells(ledger: Ledger, line: Line, addresses: dict[str, str]) -> tuple[Cell, ...]:
-    """The six cells of a line."""
     expression = line.formula.format_map(addresses)
     value = formula(
         line.key, guarded(expression) if line.guard else expression, line.style,

@@ -271,7 +271,6 @@ DOUBTS = {
 
 
 def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
-    """Inputs, result, and the depth without time steps."""
     lines: list[Line | str] = [
         "Inputs of this sheet",
         *_inputs(case),
@@ -406,7 +405,6 @@ def _doubts(case: CaseSheet) -> list[Line]:
 
 
 def _against_fine(case: CaseSheet) -> list[Line]:
-    """The final depth beside that of the finer step."""
     part, fine = case.part, case.named("depth_um")
     return [
         Line(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",

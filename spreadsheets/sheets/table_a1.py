@@ -109,7 +109,6 @@ def _row(step: int, case: CaseSheet) -> dict[str, str]:
 
 
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
-    """The printed text, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
     cells = {f"H{row}": text(words, "unit") for row, words in enumerate(_LABELS, start=1)}
     for column, words in zip("ABCDEF", _HEADS, strict=True):
@@ -165,7 +164,6 @@ def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
 
 
 def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
-    """The cells of one number, by column."""
     assert claim.printed is not None
     key, there = f"table_check.{address}", f"'{table.name}'!{address}"
     difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"

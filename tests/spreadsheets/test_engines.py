@@ -16,8 +16,7 @@ import xlsxwriter
 from workbooks import Fake, rewritten
 
 from spreadsheets import engines
-from spreadsheets.engines import Engine, EngineError, Recalculated, libreoffice
-from spreadsheets.engines.base import address
+from spreadsheets.engines import Engine, EngineError, Recalculated, base
 
 WRONG = 12345
 """Stored beside every formula: to come back, a right value must have been computed."""
@@ -193,11 +192,6 @@ def test_engines_have_a_fixed_order_and_names() -> None:
         engines.engine("excel")
 
 
-def test_addresses() -> None:
-    places = [address(7, 2), address(1, 26), address(1, 27), address(1048576, 16384)]
-    assert places == ["B7", "Z1", "AA1", "XFD1048576"]
-
-
 def test_importing_the_engines_loads_no_spreadsheet_library() -> None:
     heavy = {"ironcalc", "formualizer", "openpyxl", "xlsxwriter", "numpy", "pandas", "uno"}
     code = "import sys, spreadsheets.engines; print(*sys.modules)"
@@ -245,7 +239,7 @@ def test_libreoffice_that_hangs_is_ended(
     office: Office, workbook: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     office.replace("sleep 600")
-    monkeypatch.setattr(libreoffice, "TIME_LIMIT_S", 1)
+    monkeypatch.setattr(base, "TIME_LIMIT_S", 1)
     # Returning before the sleep is over shows that it was killed: its end is waited for.
     with pytest.raises(EngineError, match=r"^libreoffice: no answer within 1 s$"):
         office.engine.recalculate(workbook)
