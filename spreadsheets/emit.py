@@ -290,7 +290,7 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     for series, look in zip(chart.series, DASHES, strict=False):
         drawn.add_series(_series(sheet, series, look, chart))
     drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
-    axis = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
+    axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
     axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
     drawn.set_x_axis({"name": chart.x_title, **axis})
     drawn.set_y_axis({"name": chart.y_title, **axis})

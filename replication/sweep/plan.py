@@ -150,7 +150,8 @@ def compute(plan: Plan, first: int, count: int) -> Block:
         results["stop_time"] = arrays.stop_time(**motion)
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
         try:
-            sheets = arrays.run_many(**motion, **{n: inputs[n] for n in ("step", "stop_velocity")})
+            stepping: Any = {name: inputs[name] for name in ("step", "stop_velocity")}
+            sheets = arrays.run_many(**motion, **stepping)
         except arrays.ElementError as error:
             number = error.index[0]
             given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())

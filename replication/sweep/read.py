@@ -112,9 +112,12 @@ def _listed(name: str, value: Any) -> Listed:
 
 
 def _of_table(name: str, table: Table) -> Source:
-    for key, read in {"distribution": _random, "from": _spaced, "average_mass": _by_mass}.items():
-        if key in table:
-            return read(name, table)
+    if "distribution" in table:
+        return _random(name, table)
+    if "from" in table:
+        return _spaced(name, table)
+    if "average_mass" in table:
+        return _by_mass(name, table)
     raise ValueError("wants from, to, points; or distribution; or, by Eq. 1, average_mass")
 
 

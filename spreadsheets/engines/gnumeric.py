@@ -60,5 +60,6 @@ def _value(content: Any) -> Value | None:
 
     if content is None or isinstance(content, str | bool):
         return content
-    number = float(content if isinstance(content, float | int) else to_excel(content))
+    serial = content if isinstance(content, float | int) else to_excel(content)  # type: ignore[no-untyped-call]
+    number = float(serial)
     return number if math.isfinite(number) else "#NUM!"

@@ -101,11 +101,8 @@ def _row(step: int, case: CaseSheet) -> dict[str, str]:
         starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
         return {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
     time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
-    velocity = f"{'C' if step == 1 else 'F'}{row - 1}"
-    going = f'IF({velocity}<v_stop,"",{time})'
     middle = "G" if case.scheme == "centered" else ""
-    formulas = step_formulas(row, step == 1, case.named("R_t"), case.step_name, middle)
-    return {"A": f'=IF(ISNUMBER(A{row - 1}),{going},"")', **formulas}
+    return step_formulas(row, step == 1, time, case.named("R_t"), case.step_name, middle)
 
 
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
