@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from functools import cached_property
 from importlib.metadata import version
 from itertools import pairwise
 from pathlib import Path
@@ -28,37 +27,14 @@ from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.engines import ENGINES
 from spreadsheets.plan import Value, WorkbookPlan, place_of
-from spreadsheets.sheets import About, workbook_plan
-from spreadsheets.sheets.audit import AS_PRINTED, KINDS, OTHERWISE, Findings, computed_claims
-from spreadsheets.sheets.figures import (
-    COMPLETE,
-    CURRENT,
-    LEVELS,
-    NO_ORDER,
-    POINTS,
-    RUN_INPUTS,
-    STALE,
-)
-from spreadsheets.sheets.inputs import COARSE as COARSE_STEP
-from spreadsheets.sheets.inputs import MESSAGES, Input, inputs_of
-from spreadsheets.sheets.lines import NOT_COMPUTED
-from spreadsheets.sheets.steps import (
-    DOUBTFUL,
-    DOUBTS,
-    KEPT_NAME,
-    MAX_ROWS,
-    STOPPED,
-    WARNED,
-    CaseSheet,
-    prepared_rows,
-)
-from spreadsheets.sheets.table_a1 import DIGITS, OTHER_TEXT, ROWS, SAME_TEXT
+from spreadsheets.sheets import audit, figures, inputs, lines, steps, table_a1, workbook_plan
+from spreadsheets.sheets.audit import Findings
 from spreadsheets.verify import EngineCheck, verify
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
 
-__all__ = ["REPORT", "Workbook", "build", "rounding_bound", "to_bytes", "write_verified"]
+__all__ = ["REPORT", "Workbook", "build", "rounding_bound", "write_verified"]
 
 REPORT = (BETA_3, BETA_5)
 """The cases of the report's own workbook, which has besides what is about the report alone: the
@@ -85,16 +61,6 @@ class Workbook:
     def cells(self) -> dict[str, dict[str, Value]]:
         """What every cell must show, by sheet and address."""
         return emit.cell_values(self.plan, self.values)
-
-
-def to_bytes(
-    cases: Sequence[Impact] = REPORT,
-    scheme: str = "published",
-    rows: int | None = None,
-    record: "Record | None" = None,
-) -> bytes:
-    """The workbook of these cases, as the bytes of its file. Raises as `build` does."""
-    return build(cases, scheme, rows, record).to_bytes()
 
 
 def write_verified(path: Path, book: Workbook, *, force: bool = False) -> list[EngineCheck]:
@@ -208,10 +174,8 @@ def _typed(si: float, unit: str) -> float:
     (0.2, 11.0)
     """
     nearest = float(Fraction(si) / to_si(unit))
-    candidates = [nearest]
-    for end in (math.inf, -math.inf):
-        candidates += [math.nextafter(nearest, end)]
-    return next((typed for typed in candidates if _si(typed, unit) == si), nearest)
+    around = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
+    return next((typed for typed in around if _si(typed, unit) == si), nearest)
 
 
 _CASE_INPUTS = {
@@ -249,26 +213,30 @@ class _Builder:
         given = dict(zip(slugs, cases, strict=True))
         self.written = dict(zip(slugs, written, strict=True))
         self.pages = {slug: self._page(slug, impact) for slug, impact in self.written.items()}
-        blocks = inputs_of(list(self.pages.values()), self.report)
+        blocks = inputs.inputs_of(list(self.pages.values()), self.report)
         self.entries = {entry.name: entry for block in blocks.values() for entry in block}
         self.typed = self._all_typed(given, typed)
         self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
         self.impacts = {slug: self._held(impact) for slug, impact in given.items()}
         self.runs = {slug: self._held(impact) for slug, impact in self.written.items()}
+        self.first, self.last = (list(self.impacts.values())[k] for k in (0, -1))
         self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
         self.coarse: dict[str, Sheet] = {}
         for slug, impact in self.impacts.items() if self.report else ():
-            self.coarse[slug] = run(replace(impact, step=self.si[COARSE_STEP]), scheme)
-        self.rows = prepared_rows(max(run(i, scheme).steps for i in self.runs.values()), rows)
+            self.coarse[slug] = run(replace(impact, step=self.si[inputs.COARSE]), scheme)
+        self.rows = steps.prepared_rows(max(run(i, scheme).steps for i in self.runs.values()), rows)
         longest = max(sheet.steps for sheet in (*self.sheets.values(), *self.coarse.values()))
         if longest > self.rows:
             raise ValueError(f"the case needs {longest} steps, and the workbook has {self.rows}")
+        step = next(iter(self.runs.values())).step
+        self.ladder = [step * 2.0 ** (4 - k) for k in range(figures.LEVELS)]
+        self.levels = {slug: _levels(i, self.ladder, scheme) for slug, i in self.runs.items()}
 
-    def _page(self, slug: str, impact: Impact) -> CaseSheet:
+    def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
         """What the plan must know of a case's sheet, but for its length."""
         beta = "3" if impact.beta == BETA_3.beta else "5"
         own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
-        return CaseSheet(
+        return steps.CaseSheet(
             name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
             slug=slug,
             label=_label(impact),
@@ -281,14 +249,14 @@ class _Builder:
             resistance_given=impact.resistance is not None,
         )
 
-    def _pages(self) -> tuple[list[CaseSheet], list[CaseSheet]]:
+    def _pages(self) -> tuple[list[steps.CaseSheet], list[steps.CaseSheet]]:
         """What the plan must know of the sheets, those with the coarser step apart."""
         longer = ["coldspray workbook"]
         if not self.report:
             longer += _flags(self.written["case"])
         if self.scheme != SCHEMES[0]:
             longer.append(f"--scheme {self.scheme}")
-        longer.append(f"--rows {min(10 * self.rows, MAX_ROWS)}")
+        longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
         more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
         fine, coarse = (
             [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
@@ -312,13 +280,10 @@ class _Builder:
             elif name.startswith("beta"):
                 number = cases[name.partition("_")[2] or "case"].beta or 0.0
             else:
-                number = typed.get(name, self._of_report(entry))
+                number = typed.get(name, entry.of_report(self.ledger))
             _require_taken(self.ledger, entry, number)
             numbers[name] = number
         return numbers
-
-    def _of_report(self, entry: Input) -> float:
-        return float(self.ledger.value(entry.source) / to_si(entry.unit))
 
     def _held(self, impact: Impact) -> Impact:
         """The case with the numbers that its cells hold."""
@@ -332,10 +297,15 @@ class _Builder:
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
         cases, coarse = self._pages()
-        about = About(
-            version=version("coldspray"), warning_limits=(COARSE, DEEP), shown=self._shown()
+        plan = workbook_plan(
+            self.ledger,
+            cases,
+            coarse,
+            findings,
+            version=version("coldspray"),
+            warning_limits=(COARSE, DEEP),
+            shown=self._shown(),
         )
-        plan = workbook_plan(self.ledger, cases, about, coarse, findings)
         values = {
             key: value if isinstance(value, str) else float(value) for key, value in self._values()
         }
@@ -352,39 +322,40 @@ class _Builder:
     # The values, sheet by sheet
 
     def _values(self) -> Iterator[tuple[str, Any]]:
-        parts: list[tuple[str, Mapping[str, Any]]] = [
-            ("inputs", self._inputs()),
-            ("table", self._table()),
-            ("figure_3", dict(self._figure_3())),
-            ("figure_5", dict(self._figure_5())),
-            ("convergence", dict(self._convergence())),
-            ("frank_zook", self._frank_zook()),
-            ("crater", self._crater()),
-            ("resistance", self._resistance()),
-            ("overview", self._overview()),
-            *((slug, self._sheet(slug, sheet)) for slug, sheet in self.sheets.items()),
-            *(
-                (f"{s}_coarse", self._sheet(s, sheet, coarse=True))
-                for s, sheet in self.coarse.items()
-            ),
-        ]
-        for part, held in parts:
-            for what, value in held.items():
+        parts: dict[str, Any] = {
+            "inputs": self._inputs(),
+            "table": self._table(),
+            "figure_3": self._figure_3(),
+            "figure_5": self._figure_5(),
+            "convergence": self._convergence(),
+            "frank_zook": self._frank_zook(),
+            "crater": self._crater(),
+            "resistance": self._resistance(),
+            "overview": self._overview(),
+        }
+        for slug, sheet in self.sheets.items():
+            parts[slug] = self._sheet(slug, sheet)
+        for slug, sheet in self.coarse.items():
+            fine = self.sheets[slug].final_depth * 1e6
+            against = {"fine_depth_um": fine, "over_fine": sheet.final_depth * 1e6 / fine}
+            parts[f"{slug}_coarse"] = self._sheet(slug, sheet) | against
+        for part, held in parts.items():
+            for what, value in dict(held).items():
                 yield f"{part}.{what}", value
 
     def _inputs(self) -> dict[str, Any]:
         held: dict[str, Any] = {"from": "yours", "unusable": 0}
         changed = 0
         for name, entry in self.entries.items():
-            typed, report = self.typed[name], self._of_report(entry)
+            typed, report = self.typed[name], entry.of_report(self.ledger)
             same = "as inferred" if name == "rho_t" else "the report’s"
             changed += typed != report
             held |= {name: self.si[name], f"{name}.typed": typed}
             held[f"{name}.check"] = same if typed == report else "yours"
         held["changed"] = changed
-        held["message"] = MESSAGES["changed" if changed else "same"]
-        first = next(iter(self.impacts.values()))
-        held |= {"D_p": first.diameter, "M_p": first.mass, "half_step": first.step / 2 * 1e9}
+        held["message"] = inputs.MESSAGES["changed" if changed else "same"]
+        held |= {"D_p": self.first.diameter, "M_p": self.first.mass}
+        held["half_step"] = self.first.step / 2 * 1e9
         held["mean_radius"] = self.si["D_mean"] / 2 * 1e6
         for slug, impact in self.impacts.items():
             if impact.resistance is None:
@@ -392,13 +363,12 @@ class _Builder:
         return held
 
     def _table(self) -> dict[str, Any]:
-        sheet = list(self.sheets.values())[-1]
-        return _given(sheet.impact, _TABLE) | dict(_row_values(sheet, ROWS - 1))
+        sheet, given = list(self.sheets.values())[-1], _given(self.last)
+        return {name: given[name] for name in _TABLE} | dict(_row_values(sheet, table_a1.ROWS - 1))
 
-    def _sheet(self, slug: str, sheet: Sheet, *, coarse: bool = False) -> dict[str, Any]:
+    def _sheet(self, slug: str, sheet: Sheet) -> dict[str, Any]:
         impact, final = sheet.impact, sheet.rows[-1]
-        held = _given(impact, (*_TABLE, "target_density", "step", "stop_velocity"))
-        held |= dict(_row_values(sheet, self.rows))
+        held = _given(impact) | dict(_row_values(sheet, self.rows))
         for k in range(self.rows + 1):
             used = k <= sheet.steps
             held[f"row[{k}].index"] = k if used else ""
@@ -408,11 +378,8 @@ class _Builder:
         exact = depth.normalized_depth(*_materials(impact))
         if impact.resistance is None:
             same = _label(impact) == _label(self.written[slug])
-            held |= {"label": _label(impact), "renamed": "" if same else KEPT_NAME}
-        message = _message(kinds)
-        held |= {
-            "state": message,
-            "message": message,
+            held |= {"label": _label(impact), "renamed": "" if same else steps.KEPT_NAME}
+        held |= dict.fromkeys(("state", "message"), _message(sheet)) | {
             "stopped": 1,
             "final_depth": sheet.final_depth,
             "depth_um": sheet.final_depth * 1e6,
@@ -428,9 +395,6 @@ class _Builder:
             "over_exact": sheet.normalized_depth / exact,
             "trust": _trust(kinds),
         }
-        if coarse:
-            fine = self.sheets[slug].final_depth * 1e6
-            held |= {"fine_depth_um": fine, "over_fine": sheet.final_depth * 1e6 / fine}
         return held
 
     def _figure_3(self) -> Iterator[tuple[str, Any]]:
@@ -440,17 +404,13 @@ class _Builder:
                 row = sheet.rows[min(k, sheet.steps)]
                 yield f"{slug}.time[{k}]", row.time * 1e9
                 yield f"{slug}.depth[{k}]", row.depth * 1e6
-            yield f"{slug}.message", f"{_label(sheet.impact)}: {self._said(slug)}"
-
-    def _said(self, slug: str) -> str:
-        return _message([doubt.kind for doubt in doubts_about(self.sheets[slug])])
+            yield f"{slug}.message", f"{_label(sheet.impact)}: {_message(sheet)}"
 
     def _figure_5(self) -> Iterator[tuple[str, Any]]:
-        impact = list(self.impacts.values())[-1]
         low, high = self.si["V_from"], self.si["V_to"]
-        yield "message", COMPLETE
-        for point in range(POINTS):
-            there = replace(impact, velocity=low + (high - low) * point / (POINTS - 1))
+        yield "message", figures.COMPLETE
+        for point in range(figures.POINTS):
+            there = replace(self.last, velocity=low + (high - low) * point / (figures.POINTS - 1))
             yield f"velocity[{point}]", there.velocity
             yield f"normalized_depth[{point}]", depth.normalized_depth(*_materials(there))
             yield f"depth_um[{point}]", depth.final_depth(*there.motion.values()) * 1e6
@@ -459,18 +419,17 @@ class _Builder:
 
     def _convergence(self) -> Iterator[tuple[str, Any]]:
         """The ladder of the cases as written; which inputs in use are the same now."""
-        steps = self._ladder
-        for k, step in enumerate(steps):
+        for k, step in enumerate(self.ladder):
             yield f"step[{k}]", step
             yield f"step_ns[{k}]", step * 1e9
         first = next(iter(self.runs.values()))
-        written = {name: getattr(first, _CASE_INPUTS[name]) for name in RUN_INPUTS}
-        in_use = {name: self.si[name] for name in RUN_INPUTS}
+        written = {name: getattr(first, _CASE_INPUTS[name]) for name in figures.RUN_INPUTS}
+        in_use = {name: self.si[name] for name in figures.RUN_INPUTS}
         for slug, impact in self.runs.items():
             name = "R_t" if slug == "case" else f"R_t_{slug}"
             written[name] = impact.target_resistance
             in_use[name] = self.impacts[slug].target_resistance
-            for what, value in self._levels[slug].items():
+            for what, value in self.levels[slug].items():
                 yield f"{slug}.{what}", value
         same = {}
         for name, number in written.items():
@@ -478,19 +437,7 @@ class _Builder:
             yield f"in_use.{name}", in_use[name]
             same[name] = abs(number - in_use[name]) * 1e12 <= abs(number)
             yield f"same.{name}", same[name]
-        yield "message", CURRENT if all(same.values()) else STALE
-
-    @cached_property
-    def _levels(self) -> dict[str, dict[str, Any]]:
-        """The ladder of each case as written."""
-        return {
-            slug: _levels(impact, self._ladder, self.scheme) for slug, impact in self.runs.items()
-        }
-
-    @property
-    def _ladder(self) -> list[float]:
-        step = next(iter(self.runs.values())).step
-        return [step * 2.0 ** (4 - k) for k in range(LEVELS)]
+        yield "message", figures.CURRENT if all(same.values()) else figures.STALE
 
     def _shown(self) -> dict[str, str]:
         """What the charts show as written, in words."""
@@ -499,26 +446,25 @@ class _Builder:
             f"{sheet.rows[-1].time * 1e9:.3g} ns"
             for sheet in self.sheets.values()
         )
-        impact = list(self.impacts.values())[-1]
+        axis = (replace(self.last, velocity=self.si[name]) for name in ("V_from", "V_to"))
         low, high = (
-            (v, depth.normalized_depth(*_materials(replace(impact, velocity=v))))
-            for v in (self.si["V_from"], self.si["V_to"])
+            f"{depth.normalized_depth(*_materials(end)):.3g} at {end.velocity:.4g} m/s"
+            for end in axis
         )
-        steps = self._ladder
+        steps = [f"{step * 1e9:.3g} ns" for step in self.ladder]
         errors = ", ".join(
-            f"{_label(self.runs[slug])} from {levels['size[0]']:.2g} µm at {steps[0] * 1e9:.3g} ns "
-            f"to {levels[f'size[{LEVELS - 1}]']:.2g} µm at {steps[-1] * 1e9:.3g} ns"
-            for slug, levels in self._levels.items()
+            f"{_label(self.runs[slug])} from {levels['size[0]']:.2g} µm at {steps[0]} "
+            f"to {levels[f'size[{figures.LEVELS - 1}]']:.2g} µm at {steps[-1]}"
+            for slug, levels in self.levels.items()
         )
         return {
             "Figure 3": f"As written, {ends}.",
-            "Figure 5": f"As written, for {_label(impact)}, from {low[1]:.3g} at {low[0]:.4g} m/s "
-            f"to {high[1]:.3g} at {high[0]:.4g} m/s.",
+            "Figure 5": f"As written, for {_label(self.last)}, from {low} to {high}.",
             "Convergence": f"For {errors}.",
         }
 
     def _frank_zook(self) -> dict[str, Any]:
-        impact, ratio = list(self.impacts.values())[-1], frank_zook.sphere_length_ratio()
+        impact, ratio = self.last, frank_zook.sphere_length_ratio()
         held: dict[str, Any] = {"length_ratio": ratio}
         k_1, k_t, v = self.si["k_1"], self.si["k_t"], impact.velocity
         densities = impact.particle_density, impact.target_density
@@ -534,7 +480,7 @@ class _Builder:
         return held
 
     def _crater(self) -> dict[str, Any]:
-        impact = next(iter(self.impacts.values()))
+        impact = self.first
         third = float(self.ledger.value("observed-third"))
         volume = crater.volume(impact.radius)
         contact = crater.contact_diameter(third, impact.diameter)
@@ -573,13 +519,12 @@ class _Builder:
 
     def _resistance(self) -> dict[str, Any]:
         alpha = resistance.walker_anderson_alpha(self.si["E_t"], self.si["Y_steel"])
-        first = next(iter(self.impacts.values()))
         held: dict[str, Any] = {
             "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
             "alpha": alpha,
             "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
             "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
-            "strain_rate": stream.strain_rate(first.velocity, self.si["L_typ"]),
+            "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
         }
         betas = [held[f"{route}_beta"] for route in ("goodier", "walker_anderson", "brinell")]
         held |= {"least_beta": min(betas), "greatest_beta": max(betas)}
@@ -601,13 +546,13 @@ class _Builder:
         return held
 
     def _overview(self) -> dict[str, Any]:
-        inputs = self._inputs()
-        held = {f"inputs_{what}": inputs[what] for what in ("changed", "unusable")}
+        counts = self._inputs()
+        held = {f"inputs_{what}": counts[what] for what in ("changed", "unusable")}
         for slug, sheet in self.sheets.items():
             held |= {
                 f"{slug}.depth_um": sheet.final_depth * 1e6,
                 f"{slug}.normalized_depth": sheet.normalized_depth,
-                f"{slug}.message": self._said(slug),
+                f"{slug}.message": _message(sheet),
             }
         return held
 
@@ -619,12 +564,12 @@ class _Builder:
         Whether a live verdict is the proven one, a test asks.
         """
         held: dict[str, Value] = {}
-        for claim in computed_claims(self.ledger):
+        for claim in audit.computed_claims(self.ledger):
             value = values[plan.cell(place_of(str(claim.entry.workbook))).key]
             held[f"audit.{claim.id}.computed"] = value
             held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
         counts = Counter(value for key, value in held.items() if key.endswith(".verdict"))
-        for text, what in KINDS:
+        for text, what in audit.KINDS:
             held |= dict.fromkeys((f"audit.{what}", f"overview.audit_{what}"), float(counts[text]))
         for name in (*findings.failing, *findings.differing):
             if self.ledger.claims[name].entry.workbook:
@@ -652,13 +597,13 @@ def _flags(impact: Impact) -> list[str]:
     ]
 
 
-def _given(impact: Impact, names: Sequence[str]) -> dict[str, Any]:
-    """Inputs of a case by name; the resistance is that in use."""
-    attributes = {name: name for name in names} | {"resistance": "target_resistance"}
-    return {name: getattr(impact, attributes[name]) for name in names}
+def _given(impact: Impact) -> dict[str, Any]:
+    """What a sheet shows of its case, by name; the resistance is that in use."""
+    names = ("mass", "diameter", "step", "stop_velocity")
+    return impact.motion | {name: getattr(impact, name) for name in names}
 
 
-def _require_taken(ledger: Ledger, entry: Input, number: float) -> None:
+def _require_taken(ledger: Ledger, entry: inputs.Input, number: float) -> None:
     limits = entry.limits
     if not limits.least <= number <= limits.most:
         what, unit = entry.meaning or ledger.title(entry.source), with_unit("", entry.unit)
@@ -684,8 +629,10 @@ def _trust(kinds: Sequence[str]) -> int:
     return 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
 
 
-def _message(kinds: Sequence[str]) -> str:
-    return (DOUBTFUL, WARNED, STOPPED)[_trust(kinds)] + "".join(DOUBTS[kind] for kind in kinds)
+def _message(sheet: Sheet) -> str:
+    kinds = [doubt.kind for doubt in doubts_about(sheet)]
+    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[_trust(kinds)]
+    return state + "".join(steps.DOUBTS[kind] for kind in kinds)
 
 
 def _cubed(volume: float) -> float:
@@ -711,28 +658,28 @@ def _row_values(sheet: Sheet, rows: int) -> Iterator[tuple[str, Any]]:
             yield f"row[{k}].velocity_middle", middle
 
 
-def _levels(impact: Impact, steps: Sequence[float], scheme: str) -> dict[str, Any]:
+def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, Any]:
     """Final depths at a ladder of steps against the depth at rest, in um."""
     rest = depth.final_depth(*impact.motion.values()) * 1e6
     held: dict[str, Any] = {"rest_um": rest}
     errors = []
-    for k, step in enumerate(steps):
+    for k, step in enumerate(ladder):
         sheet = run(replace(impact, step=step), scheme)
         reached = sheet.final_depth * 1e6
         errors.append(reached - rest)
         held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": reached}
         held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
-    ratios = [math.log(a / b) for a, b in pairwise(steps)]
+    ratios = [math.log(a / b) for a, b in pairwise(ladder)]
     for k, ((above, here), ratio) in enumerate(zip(pairwise(errors), ratios, strict=True), 1):
         defined = min(above, here) > 0 or max(above, here) < 0
-        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else NO_ORDER
+        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else figures.NO_ORDER
     return held
 
 
 def _verdict(value: Value, interval: Interval) -> str:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
-        return NOT_COMPUTED
+        return lines.NOT_COMPUTED
     if interval.is_point:
         # Exact text, such as 2/3, which no double is: to nine digits.
         (exact, _) = interval.ends
@@ -743,16 +690,17 @@ def _verdict(value: Value, interval: Interval) -> str:
         )
         rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = rounded.contains(Fraction(value))
-    return AS_PRINTED if inside else OTHERWISE
+    return audit.AS_PRINTED if inside else audit.OTHERWISE
 
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
     """The check of one number of Table A-1; blank where the table has fewer rows."""
-    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
+    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": lines.NOT_COMPUTED}
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
-            difference = round(difference / float(printed.quantum), DIGITS)
+            difference = round(difference / float(printed.quantum), table_a1.DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
-        held |= {"difference": difference, "verdict": SAME_TEXT if same else OTHER_TEXT}
+        verdict = table_a1.SAME_TEXT if same else table_a1.OTHER_TEXT
+        held |= {"difference": difference, "verdict": verdict}
     return {f"table_check.{address}.{what}": number for what, number in held.items()}

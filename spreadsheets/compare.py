@@ -1,7 +1,8 @@
 """Two maps of values, by sheet and address -> the list of cells in which they differ."""
 
+import math
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from spreadsheets.plan import Place, Value
@@ -14,13 +15,29 @@ Values = Mapping[str, Mapping[str, Value]]
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One cell that differs. None stands for a blank; `ulps` is None unless both are numbers."""
+    """One cell that differs. None stands for a blank."""
 
     sheet: str
     cell: str
     expected: Value | None
     found: Value | None
-    ulps: int | None
+
+    @property
+    def distance(self) -> float:
+        """How far the two lie apart; infinite where they are not both numbers, but not the same."""
+        # LibreOffice hands out TRUE as 1.0, which Python takes as equal.
+        if self.expected == self.found:
+            return 0.0
+        if isinstance(self.expected, float) and isinstance(self.found, float):
+            return abs(self.expected - self.found)
+        return math.inf
+
+    @property
+    def ulps(self) -> int | None:
+        """The same in doubles; None unless both are numbers."""
+        if isinstance(self.expected, float) and isinstance(self.found, float):
+            return ulps_apart(self.expected, self.found)
+        return None
 
     def __str__(self) -> str:
         apart = "" if self.ulps is None else f" ({self.ulps} ulp)"
@@ -35,12 +52,16 @@ def compare(
     Numbers must be the same double, except where `tolerances` allows a cell (sheet, address) a
     distance. A sheet that only one map has differs in each of its cells.
     """
-    allowed = tolerances or {}
-    return [
-        Difference(sheet, cell, wanted, got, _ulps(wanted, got))
-        for sheet, cell, wanted, got in _pairs(expected, found)
-        if not _same(wanted, got, allowed.get((sheet, cell), 0.0))
-    ]
+    allowed, differences = tolerances or {}, []
+    for sheet in dict.fromkeys([*expected, *found]):
+        wanted, got = expected.get(sheet, {}), found.get(sheet, {})
+        for cell in dict.fromkeys([*wanted, *got]):
+            # Engines cannot tell a blank cell from a formula that gives the empty text.
+            pair = (None if (v := held.get(cell)) == "" else v for held in (wanted, got))
+            left = Difference(sheet, cell, *pair)
+            if left.distance > allowed.get((sheet, cell), 0.0):
+                differences.append(left)
+    return differences
 
 
 def ulps_apart(first: float, second: float) -> int:
@@ -50,33 +71,6 @@ def ulps_apart(first: float, second: float) -> int:
     (1, 0)
     """
     return abs(_position(first) - _position(second))
-
-
-def _pairs(
-    expected: Values, found: Values
-) -> Iterator[tuple[str, str, Value | None, Value | None]]:
-    for sheet in dict.fromkeys([*expected, *found]):
-        wanted, got = expected.get(sheet, {}), found.get(sheet, {})
-        for cell in dict.fromkeys([*wanted, *got]):
-            # Engines cannot tell a blank cell from a formula that gives the empty text.
-            yield sheet, cell, _or_none(wanted.get(cell)), _or_none(got.get(cell))
-
-
-def _or_none(value: Value | None) -> Value | None:
-    return None if value == "" else value
-
-
-def _same(wanted: Value | None, got: Value | None, distance: float) -> bool:
-    if isinstance(wanted, float) and isinstance(got, float):
-        return wanted == got or abs(wanted - got) <= distance
-    # LibreOffice hands out TRUE as 1.0, which Python takes as equal.
-    return wanted == got
-
-
-def _ulps(wanted: Value | None, got: Value | None) -> int | None:
-    if isinstance(wanted, float) and isinstance(got, float):
-        return ulps_apart(wanted, got)
-    return None
 
 
 def _position(number: float) -> int:

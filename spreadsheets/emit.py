@@ -9,6 +9,7 @@ import re
 import zipfile
 from collections.abc import Mapping
 from errno import EEXIST
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -20,7 +21,7 @@ from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPla
 from spreadsheets.safely import check_target, write_bytes
 from spreadsheets.styles import DASHES, STYLES
 
-__all__ = ["cell_values", "check", "is_own", "pixels", "to_bytes", "write"]
+__all__ = ["cell_values", "check", "is_own", "to_bytes", "write"]
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
@@ -28,18 +29,21 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
 
     Raises ValueError unless `values` has exactly the keys of the plan and every number is finite.
     """
-    _check(plan, values)
+    for what, keys in (
+        ("missing", plan.where.keys() - values.keys()),
+        ("surplus", values.keys() - plan.where.keys()),
+    ):
+        if keys:
+            raise ValueError(f"{len(keys)} {what} value(s), the first is {min(keys)!r}")
     shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
     for (sheet, address), cell in plan.cells():
-        if cell.key or cell.text or cell.number is not None:
-            shown[sheet][address] = _shown(cell, values)
+        value = values[cell.key] if cell.key else cell.text if cell.number is None else cell.number
+        if isinstance(value, float) and not math.isfinite(value):
+            where = f"{cell.key} ({sheet}!{address})"
+            raise ValueError(f"{where} is {value}: not a number a cell can hold")
+        if cell.key or value != "":
+            shown[sheet][address] = value
     return shown
-
-
-def _shown(cell: Cell, values: Mapping[str, Value]) -> Value:
-    if cell.key:
-        return values[cell.key]
-    return cell.text if cell.number is None else cell.number
 
 
 def check(path: Path, *, force: bool = False) -> None:
@@ -71,8 +75,7 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        with zipfile.ZipFile(BytesIO(content)) as archive:
-            parts = {name: archive.read(name) for name in archive.namelist()}
+        parts = _unpacked(content)
         seal = re.search(rb">([0-9a-f]{64})<", parts[_SEALED])
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
@@ -92,8 +95,7 @@ def _digest(parts: Mapping[str, bytes]) -> str:
 
 def _sealed(content: bytes) -> bytes:
     """The file with its digest, without XlsxWriter's claim to be Excel, and without dates."""
-    with zipfile.ZipFile(BytesIO(content)) as archive:
-        parts = {name: archive.read(name) for name in archive.namelist()}
+    parts = _unpacked(content)
     app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
     app = app.replace(">Microsoft Excel<", ">coldspray<")
     app = re.sub(r"<AppVersion>.*?</AppVersion>", "", app)
@@ -102,6 +104,11 @@ def _sealed(content: bytes) -> bytes:
     seal = _digest(parts).encode()
     parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), seal)
     return _packed(parts)
+
+
+def _unpacked(content: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
 
 
 def _packed(parts: Mapping[str, bytes]) -> bytes:
@@ -119,68 +126,37 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     """The bytes of the .xlsx file. Raises as `cell_values` does."""
     import xlsxwriter
 
-    _check(plan, values)
+    shown = cell_values(plan, values)
     buffer = BytesIO()
     book = xlsxwriter.Workbook(buffer, {"in_memory": True})
-    formats = _Formats(book)
+
+    @cache
+    def style(name: str, number_format: str, wrap: bool) -> Any:
+        shared = {"num_format": number_format, "valign": "vcenter", "text_wrap": wrap}
+        return book.add_format({**STYLES[name], **shared})
+
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
     exact = _exact_worksheet()
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name, exact)
         _set_up(page, sheet)
-        _fill(page, sheet, values, formats)
-        _define_names(book, sheet)
+        for address, cell in sheet.cells.items():
+            look = style(cell.style, cell.number_format, cell.wrap)
+            _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
+        for rule in sheet.rules:
+            # A format for a rule has the properties that it changes, and no font or number format.
+            look = book.add_format(STYLES[rule.style])
+            options = {"type": "formula", "criteria": rule.formula, "format": look}
+            page.conditional_format(rule.cells, options)
+        for address, cell in sheet.cells.items():
+            target = f"={_absolute(sheet.name, address)}"
+            if cell.name and book.define_name(cell.name, target) == -1:
+                raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         for chart in sheet.charts:
             _draw(book, page, sheet.name, chart)
     book.close()
     return _sealed(buffer.getvalue())
-
-
-def _check(plan: WorkbookPlan, values: Mapping[str, Value]) -> None:
-    missing = sorted(plan.where.keys() - values.keys())
-    surplus = sorted(values.keys() - plan.where.keys())
-    for what, keys in (("missing", missing), ("surplus", surplus)):
-        if keys:
-            raise ValueError(f"{len(keys)} {what} value(s), the first is {keys[0]!r}")
-    for (sheet, address), cell in plan.cells():
-        value = _shown(cell, values)
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ValueError(
-                f"{cell.key} ({sheet}!{address}) is {value}: not a number a cell can hold"
-            )
-
-
-class _Formats:
-    """One format object for each look in use."""
-
-    def __init__(self, book: Any) -> None:
-        self._book = book
-        self._made: dict[tuple[str, str, bool], Any] = {}
-
-    def __call__(self, cell: Cell) -> Any:
-        look = cell.style, cell.number_format, cell.wrap
-        if look not in self._made:
-            properties = {
-                **STYLES[cell.style],
-                "num_format": cell.number_format,
-                "valign": "vcenter",
-            }
-            self._made[look] = self._book.add_format({**properties, "text_wrap": cell.wrap})
-        return self._made[look]
-
-    def rule(self, style: str) -> Any:
-        """A format for a rule: the properties it changes, without a font or number format."""
-        return self._book.add_format(STYLES[style])
-
-
-def pixels(width: float) -> int:
-    """How wide a column of so many characters is on the screen, at 100 %.
-
-    >>> pixels(9.0)
-    68
-    """
-    return int(width * 7 + 5)
 
 
 _LINE = 13.5
@@ -233,14 +209,6 @@ def _split(address: str) -> tuple[str, int]:
     return column, int(address[len(column) :])
 
 
-def _fill(page: Any, sheet: SheetPlan, values: Mapping[str, Value], formats: _Formats) -> None:
-    for address, cell in sheet.cells.items():
-        _write_cell(page, address, cell, _shown(cell, values), formats(cell))
-    for rule in sheet.rules:
-        options = {"type": "formula", "criteria": rule.formula, "format": formats.rule(rule.style)}
-        page.conditional_format(rule.cells, options)
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
     if cell.link:
         sheet, target = cell.link
@@ -272,12 +240,6 @@ def _validation(cell: Cell) -> dict[str, Any]:
         "error_title": "Out of range",
         "error_message": words,
     }
-
-
-def _define_names(book: Any, sheet: SheetPlan) -> None:
-    for address, cell in sheet.cells.items():
-        if cell.name and book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
-            raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
 
 
 def _absolute(sheet: str, cells: str) -> str:
@@ -328,8 +290,10 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     for series, look in zip(chart.series, DASHES, strict=False):
         drawn.add_series(_series(sheet, series, look, chart))
     drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
-    drawn.set_x_axis(_axis(chart.x_title, chart))
-    drawn.set_y_axis(_axis(chart.y_title, chart))
+    axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
+    axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
+    drawn.set_x_axis({"name": chart.x_title, **axis})
+    drawn.set_y_axis({"name": chart.y_title, **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
     page.insert_chart(chart.at, drawn, {"description": chart.description})
@@ -348,14 +312,3 @@ def _series(sheet: str, series: Series, look: Mapping[str, str], chart: Chart) -
         fill = {"color": color}
         settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
     return settings
-
-
-def _axis(title: str, chart: Chart) -> dict[str, Any]:
-    settings: dict[str, Any] = {
-        "name": title,
-        "name_font": _FONT,
-        "num_font": _FONT,
-        "major_gridlines": _GRID,
-        "label_position": "low",
-    }
-    return settings | ({"log_base": 10} if chart.logarithmic else {})

@@ -1,6 +1,7 @@
 """Files that are written whole or not at all."""
 
 import os
+import re
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -37,10 +38,15 @@ def draft_of(path: Path) -> Iterator[Path]:
     target = check_target(path)
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        for left in _drafts_of(target):
-            left.unlink(missing_ok=True)
+        for left in target.parent.iterdir():
+            if re.fullmatch(rf"\.{re.escape(target.name)}\.\d+\.part", left.name):
+                left.unlink(missing_ok=True)
         yield draft
-        _publish(draft, target)
+        try:
+            _to_disk(draft)
+            draft.replace(target)
+        except FileNotFoundError as error:
+            raise OSError(EBUSY, "another run is writing this file") from error
     except OSError as error:
         if error.errno is None:
             raise
@@ -49,28 +55,10 @@ def draft_of(path: Path) -> Iterator[Path]:
         draft.unlink(missing_ok=True)
 
 
-def _publish(draft: Path, target: Path) -> None:
-    """Give a draft its name once it is on the disk: a crash must not leave the name without it."""
-    try:
-        _to_disk(draft)
-        draft.replace(target)
-    except FileNotFoundError as error:
-        raise OSError(EBUSY, "another run is writing this file") from error
-
-
 def _to_disk(file: Path) -> None:
+    """A crash must not leave a name without what is in the file."""
     with file.open("r+b") as written:
         os.fsync(written.fileno())
-
-
-def _drafts_of(target: Path) -> list[Path]:
-    start = f".{target.name}."
-    return [
-        file
-        for file in target.parent.iterdir()
-        if file.name.startswith(start)
-        and file.name.removeprefix(start).removesuffix(".part").isdigit()
-    ]
 
 
 def write_bytes(path: Path, content: bytes) -> None:

@@ -1,8 +1,11 @@
 """An .xlsx file and the values it must have -> what every engine on this machine makes of it."""
 
 import time
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -57,20 +60,24 @@ class SheetCheck:
 
     sheet: str
     cells: int
-    tolerated: tuple[Difference, ...] = ()
-    explained: tuple[Difference, ...] = ()
-    unexplained: tuple[Difference, ...] = ()
+    tolerated: list[Difference] = field(default_factory=list)
+    explained: list[Difference] = field(default_factory=list)
+    unexplained: list[Difference] = field(default_factory=list)
 
     @property
-    def differ(self) -> int:
-        """How many cells differ by more than the tolerance of a function."""
-        return len(self.explained) + len(self.unexplained)
+    def counts(self) -> dict[str, int]:
+        """How many cells there are of each kind, and the largest distance of any two numbers.
 
-    @property
-    def largest_ulps(self) -> int:
-        """The largest distance of any two numbers, tolerated ones included."""
+        differ: by more than the tolerance of a function.
+        """
         groups = (self.tolerated, self.explained, self.unexplained)
-        return max((left.ulps or 0 for group in groups for left in group), default=0)
+        return {
+            "cells": self.cells,
+            "differ": len(self.explained) + len(self.unexplained),
+            "explained": len(self.explained),
+            "largest_ulps": max((left.ulps or 0 for left in chain(*groups)), default=0),
+            "tolerated": len(self.tolerated),
+        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,65 +120,44 @@ def verify(
 def _check(
     engine: Engine, path: Path, plan: WorkbookPlan, expected: Values, long_doubles: float
 ) -> EngineCheck:
+    made = partial(EngineCheck, engine=engine.name)
     reason = engine.missing()
     if reason is not None:
-        return EngineCheck(engine=engine.name, outcome="missing", reason=reason)
+        return made(outcome="missing", reason=reason)
     try:
-        version = engine.version()
-        if not _computes(engine):
-            return EngineCheck(
-                engine=engine.name,
-                outcome="echoes",
-                version=version,
-                reason="It verifies nothing: it gives stored values back, right or wrong.",
-            )
+        made = partial(made, version=engine.version())
+        with TemporaryDirectory(prefix="coldspray-") as folder:
+            computes = repairs_wrong_value(engine, Path(folder))
+        if not computes:
+            reason = "It verifies nothing: it gives stored values back, right or wrong."
+            return made(outcome="echoes", reason=reason)
         start = time.perf_counter()
         found = engine.recalculate(path)
         seconds = time.perf_counter() - start
     except EngineError as error:
         return EngineCheck(engine=engine.name, outcome="failed", reason=str(error))
     sheets = _sheets(plan, expected, found, long_doubles if engine.long_doubles else 0.0)
-    return EngineCheck(
-        engine=engine.name,
-        outcome="differs" if any(sheet.unexplained for sheet in sheets) else "verified",
-        version=version,
-        seconds=seconds,
-        sheets=sheets,
-    )
-
-
-def _computes(engine: Engine) -> bool:
-    with TemporaryDirectory(prefix="coldspray-") as folder:
-        return repairs_wrong_value(engine, Path(folder))
+    outcome = "differs" if any(sheet.unexplained for sheet in sheets) else "verified"
+    return made(outcome=outcome, seconds=seconds, sheets=sheets)
 
 
 def _sheets(
     plan: WorkbookPlan, expected: Values, found: Recalculated, long_doubles: float
 ) -> tuple[SheetCheck, ...]:
     """One check for each sheet that the file should have, or has got from the engine."""
-    formulas = {
-        sheet.name: sum(bool(cell.formula) for cell in sheet.cells.values())
-        for sheet in plan.sheets
+    formulas = Counter(sheet for (sheet, _), cell in plan.cells() if cell.formula)
+    checks = {
+        sheet: SheetCheck(sheet=sheet, cells=formulas[sheet])
+        for sheet in dict.fromkeys([*expected, *found])
     }
-    groups: dict[str, dict[str, list[Difference]]] = {
-        sheet: {} for sheet in dict.fromkeys([*expected, *found])
-    }
-    beyond_functions = _places(compare(expected, found, tolerances(plan, expected)))
-    beyond = _places(compare(expected, found, tolerances(plan, expected, long_doubles)))
+    of_functions = tolerances(plan, expected)
+    of_doubles = tolerances(plan, expected, long_doubles)
     for left in compare(expected, found):
-        place = left.sheet, left.cell
-        group = "tolerated" if place not in beyond_functions else "explained"
-        group = "unexplained" if place in beyond else group
-        groups[left.sheet].setdefault(group, []).append(left)
-    return tuple(
-        SheetCheck(
-            sheet=sheet,
-            cells=formulas.get(sheet, 0),
-            **{group: tuple(differences) for group, differences in of_sheet.items()},
-        )
-        for sheet, of_sheet in groups.items()
-    )
-
-
-def _places(differences: Sequence[Difference]) -> set[Place]:
-    return {(left.sheet, left.cell) for left in differences}
+        check, place = checks[left.sheet], (left.sheet, left.cell)
+        if left.distance <= of_functions.get(place, 0.0):
+            check.tolerated.append(left)
+        elif left.distance <= of_doubles.get(place, 0.0):
+            check.explained.append(left)
+        else:
+            check.unexplained.append(left)
+    return tuple(checks.values())

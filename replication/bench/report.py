@@ -62,14 +62,14 @@ def _ratio(result: Result, measure: Measure, many: bool, digits: int) -> dict[st
     }
 
 
+def _name(point: Point | None) -> str | None:
+    return None if point is None else f"{point.method}, {point.setting}"
+
+
 def _point(point: Point, on_front: bool) -> dict[str, Any]:
     known = {name: None if value == math.inf else value for name, value in asdict(point).items()}
     gap = {"repeats": None, "calls": None} if point.gap else {"gap": None}
     return known | gap | {"front": on_front}
-
-
-def _name(point: Point | None) -> str | None:
-    return None if point is None else f"{point.method}, {point.setting}"
 
 
 def bench_rows(done: Bench) -> list[dict[str, Any]]:
@@ -140,13 +140,10 @@ def _answers(results: Sequence[Result]) -> Iterator[str]:
             for answer, group in groupby(zip(DIGITS, rows, strict=True), partial(_advice, names)):
                 of_digits = dict(group)
                 first, last = min(of_digits), max(of_digits)
-                digits = (
-                    f"{first} to {last} digits"
-                    if first < last
-                    else f"{last} digit{'s'[: last > 1]}"
-                )
+                digits = f"{first} to {last}" if first < last else f"{last}"
                 choices = [choice for row in of_digits.values() for choice in row]
-                yield f"{title}, {digits}: {answer}{_lead(choices)}"
+                plural = "s" if last > 1 else ""
+                yield f"{title}, {digits} digit{plural}: {answer}{_lead(choices)}"
 
 
 Choice = tuple[Point | None, Point | None]
@@ -223,10 +220,13 @@ def figure(result: Result, kind: str) -> bytes:
     return content.getvalue()
 
 
+TEXTS, KINDS = ("bench.txt", "bench.json", "bench.csv"), ("svg", "png")
+
+
 def check(folder: Path, cases: Sequence[str]) -> None:
     """Raise OSError where the files of a run on these cases cannot be written."""
-    figures = [f"bench-{case}.{kind}" for case in cases for kind in ("svg", "png")]
-    check_folder(folder, ["bench.txt", "bench.json", "bench.csv", *figures])
+    figures = [f"bench-{case}.{kind}" for case in cases for kind in KINDS]
+    check_folder(folder, [*TEXTS, *figures])
 
 
 def write(done: Bench, folder: Path) -> None:
@@ -234,13 +234,9 @@ def write(done: Bench, folder: Path) -> None:
 
     All or none. Raises OSError.
     """
-    texts = {
-        "bench.txt": bench_text(done) + "\n",
-        "bench.json": json_text(bench_record(done)),
-        "bench.csv": rows_csv(bench_rows(done)),
-    }
-    files = {name: text.encode() for name, text in texts.items()}
+    texts = (bench_text(done) + "\n", json_text(bench_record(done)), rows_csv(bench_rows(done)))
+    files = {name: text.encode() for name, text in zip(TEXTS, texts, strict=True)}
     for result in done.results:
-        for kind in ("svg", "png"):
+        for kind in KINDS:
             files[f"bench-{result.case.name}.{kind}"] = figure(result, kind)
     write_folder(folder, files)

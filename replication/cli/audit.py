@@ -35,12 +35,12 @@ def run(options: argparse.Namespace) -> int:
     files.check(options.out)
     from replication.audit.audit import audit
     from replication.error import hard_cases
-    from replication.workbook import to_bytes
+    from replication.workbook import build
 
     record = audit()
     outcomes = [hard_cases.outcome(case) for case in hard_cases.HARD_CASES]
     beside = {
-        "workbook.xlsx": to_bytes(record=record),
+        "workbook.xlsx": build(record=record).to_bytes(),
         "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
     }
     written = files.write(record, options.out, beside)

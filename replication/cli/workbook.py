@@ -6,11 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
-from replication.text import aligned
 
 if TYPE_CHECKING:
-    from spreadsheets.compare import Difference
-    from spreadsheets.verify import EngineCheck, SheetCheck
+    from spreadsheets.verify import EngineCheck
 
 HELP = "write the live workbook"
 
@@ -86,28 +84,17 @@ def _engine_record(check: "EngineCheck") -> dict[str, Any]:
         "outcome": check.outcome,
         "reason": check.reason or None,
         "seconds": check.seconds if check.sheets else None,
-        "sheets": [_sheet_record(sheet) for sheet in check.sheets],
-    }
-
-
-def _sheet_record(sheet: "SheetCheck") -> dict[str, Any]:
-    return {
-        "sheet": sheet.sheet,
-        "cells": sheet.cells,
-        "differ": sheet.differ,
-        "explained": len(sheet.explained),
-        "largest_ulps": sheet.largest_ulps,
-        "tolerated": len(sheet.tolerated),
-        "unexplained": [_difference_record(left) for left in sheet.unexplained],
-    }
-
-
-def _difference_record(left: "Difference") -> dict[str, Any]:
-    return {
-        "cell": left.cell,
-        "expected": left.expected,
-        "found": left.found,
-        "ulps": left.ulps,
+        "sheets": [
+            {
+                "sheet": sheet.sheet,
+                **sheet.counts,
+                "unexplained": [
+                    {key: getattr(left, key) for key in ("cell", "expected", "found", "ulps")}
+                    for left in sheet.unexplained
+                ],
+            }
+            for sheet in check.sheets
+        ],
     }
 
 
@@ -139,30 +126,18 @@ def _engine_lines(check: "EngineCheck") -> Iterator[str]:
         yield from (f"{head}: {check.outcome}", f"  {check.reason}")
         return
     yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
-    rows = [(sheet.sheet, *_counts([sheet])) for sheet in check.sheets]
-    yield from _table([_HEADS, _UNITS, *rows, ("all", *_counts(check.sheets))])
+    counts = [sheet.counts for sheet in check.sheets]
+    whole = {key: sum(count[key] for count in counts) for key in counts[0]}
+    whole["largest_ulps"] = max(count["largest_ulps"] for count in counts)
+    names = [*(sheet.sheet for sheet in check.sheets), "all"]
+    rows = [
+        (name, *map(str, row.values())) for name, row in zip(names, [*counts, whole], strict=True)
+    ]
+    widths = [max(map(len, column)) for column in zip(_HEADS, _UNITS, *rows, strict=True)]
+    for name, *numbers in (_HEADS, _UNITS, *rows):
+        right = (f"{text:>{width}}" for text, width in zip(numbers, widths[1:], strict=True))
+        yield "  ".join(["", f"{name:{widths[0]}}", *right]).rstrip()
     wrong = [left for sheet in check.sheets for left in sheet.unexplained]
     yield from (f"  {left}" for left in wrong[:_SHOWN])
     if len(wrong) > _SHOWN:
         yield f"  and {len(wrong) - _SHOWN} more"
-
-
-def _counts(sheets: "Sequence[SheetCheck]") -> tuple[str, ...]:
-    counts = (
-        sum(sheet.cells for sheet in sheets),
-        sum(sheet.differ for sheet in sheets),
-        sum(len(sheet.explained) for sheet in sheets),
-        max(sheet.largest_ulps for sheet in sheets),
-        sum(len(sheet.tolerated) for sheet in sheets),
-    )
-    return tuple(map(str, counts))
-
-
-def _table(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """Names to the left of their column, numbers to the right."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)][1:]
-    right = [
-        (name, *(f"{text:>{width}}" for text, width in zip(texts, widths, strict=True)))
-        for name, *texts in rows
-    ]
-    return [f"  {line}" for line in aligned(right)]

@@ -218,7 +218,6 @@ def _sheet_loop(rows: Any, depth: Any, steps: Any) -> None:
 
 
 def _numbers(inputs: Inputs) -> dict[str, Any]:
-    """The inputs as floats and float64 arrays."""
     return {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
 
 
@@ -277,7 +276,6 @@ def _require_finite(result: Any, inputs: Inputs, bounded: str = "", at_most: str
 
 
 def _elements(bad: Any, inputs: Inputs) -> Iterator[tuple[tuple[int, ...], dict[str, float]]]:
-    """Index and inputs of every element that is bad."""
     import numpy as np
 
     arrays = {name: np.broadcast_to(value, np.shape(bad)) for name, value in inputs.items()}

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from replication.cases import INPUTS
+from replication.cases import BETA_5, INPUTS
 from replication.models import arrays
 from replication.models.impact import Impact, particle_mass
 from replication.models.stream import particle_velocity
@@ -20,8 +20,7 @@ BLOCK = 65_536
 """Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
 
 MAX_CASES = 10**12
-
-MOTION = ("velocity", "radius", "particle_density", "target_density", "resistance")
+"""Days of work for many cores."""
 
 RESULTS: dict[str, tuple[str, type]] = {
     "depth": ("m", float),
@@ -57,7 +56,7 @@ class Plan:
 
     def __post_init__(self) -> None:
         if self.count > MAX_CASES:
-            raise ValueError(f"{self.count} cases are more than {MAX_CASES:.0e}: take fewer points")
+            raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
         self._refuse_cases_out_of_range()
 
     @property
@@ -123,10 +122,10 @@ class Plan:
             return source.bounds
         ends = zip(self._bounds("radius"), self._bounds("particle_density"), strict=True)
         light, heavy = (particle_mass(*end) for end in ends)
-        fast, slow = (  # infinity is refused
+        fast, slow = (
             particle_velocity(source.average_velocity, mass, source.average_mass)
             if mass
-            else math.inf
+            else math.inf  # which is refused
             for mass in (light, heavy)
         )
         return slow, fast
@@ -140,7 +139,7 @@ def compute(plan: Plan, first: int, count: int) -> Block:
     naming the case that the sheet refuses.
     """
     inputs = plan.inputs(first, count)
-    motion: dict[str, Any] = {name: inputs[name] for name in MOTION}
+    motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
     ratio = arrays.normalized_depth(**{n: x for n, x in motion.items() if n != "radius"})
     results = {
         "depth": inputs["radius"] * ratio,
@@ -150,18 +149,13 @@ def compute(plan: Plan, first: int, count: int) -> Block:
     if "stop_time" in plan.extras:
         results["stop_time"] = arrays.stop_time(**motion)
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
-        results |= _sheets(inputs, motion, first)
+        try:
+            stepping: Any = {name: inputs[name] for name in ("step", "stop_velocity")}
+            sheets = arrays.run_many(**motion, **stepping)
+        except arrays.ElementError as error:
+            number = error.index[0]
+            given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
+            case = f"case {first + number} ({given})"
+            raise ValueError(f"{error.name} of {case} {error.problem}") from error
+        results |= dict(zip(("sheet_depth", "sheet_steps"), sheets, strict=True))
     return {name: (inputs | results)[name] for name in plan.columns}
-
-
-def _sheets(inputs: Block, motion: dict[str, Any], first: int) -> Block:
-    try:
-        depth, steps = arrays.run_many(
-            **motion, step=inputs["step"], stop_velocity=inputs["stop_velocity"]
-        )
-    except arrays.ElementError as error:
-        number = error.index[0]
-        given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
-        case = f"case {first + number} ({given})"
-        raise ValueError(f"{error.name} of {case} {error.problem}") from error
-    return {"sheet_depth": depth, "sheet_steps": steps}

@@ -8,27 +8,13 @@ formualizer), two from the system (LibreOffice and Gnumeric). The libraries behi
 only when an engine is used.
 """
 
-from spreadsheets.engines.base import (
-    Engine,
-    EngineError,
-    Recalculated,
-    Value,
-    repairs_wrong_value,
-)
+from spreadsheets.engines.base import Engine, EngineError, Recalculated, repairs_wrong_value
 from spreadsheets.engines.formualizer import Formualizer
 from spreadsheets.engines.gnumeric import Gnumeric
 from spreadsheets.engines.ironcalc import IronCalc
 from spreadsheets.engines.libreoffice import LibreOffice
 
-__all__ = [
-    "ENGINES",
-    "Engine",
-    "EngineError",
-    "Recalculated",
-    "Value",
-    "engine",
-    "repairs_wrong_value",
-]
+__all__ = ["ENGINES", "Engine", "EngineError", "Recalculated", "engine", "repairs_wrong_value"]
 
 ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeric())
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import zipfile
 import zlib
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
+from urllib.parse import urljoin
 from xml.etree import ElementTree as ET
 
 Value = float | str | bool
@@ -27,6 +32,10 @@ Recalculated = dict[str, dict[str, Value]]
 
 Cell = tuple[str, str, Value | None]
 """Worksheet name, address and value; None where the cell holds nothing."""
+
+
+TIME_LIMIT_S = 120
+"""So long may a program take for one workbook."""
 
 
 class EngineError(Exception):
@@ -89,16 +98,22 @@ class Engine(ABC):
         return recalculated
 
     def _require(self) -> None:
-        """Raise an EngineError when the engine is missing."""
         reason = self.missing()
         if reason is not None:
             raise EngineError(self.name, reason)
 
     def _worksheets(self, path: Path) -> list[str]:
-        """List the worksheets after checking the file, since some engines load damaged ones."""
+        """List the worksheets once every part is well formed: some engines load damaged files."""
         try:
-            return checked_worksheets(path)
-        except UNREADABLE as error:
+            with zipfile.ZipFile(path) as archive:
+                for part in archive.namelist():
+                    if part.endswith((".xml", ".rels")):
+                        parsed(archive, part)
+                sheets = worksheets(archive)
+                for part in sheets.values():
+                    archive.getinfo(part)
+                return list(sheets)
+        except (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
 
 
@@ -114,13 +129,40 @@ class PipEngine(Engine):
         return version(self.name)
 
 
+class SystemEngine(Engine):
+    """An engine that is a program of its own."""
+
+    def _run(self, command: list[str], workbooks: int = 1) -> str:
+        """Run a command in a group of its own and leave none of its processes behind."""
+        limit = TIME_LIMIT_S * workbooks
+        pipe = subprocess.PIPE
+        with subprocess.Popen(
+            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
+        ) as process:
+            try:
+                output, complaint = process.communicate(timeout=limit)
+            except subprocess.TimeoutExpired as error:
+                raise EngineError(self.name, f"no answer within {limit} s") from error
+            finally:
+                _end_group(process)
+        if process.returncode != 0:
+            # The last line says why; those before it are the program's own chatter.
+            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
+        return output
+
+
+def _end_group(process: subprocess.Popen[str]) -> None:
+    """Kill what is left of a process group and wait until all of it is gone."""
+    with suppress(ProcessLookupError):  # the good case: nothing is left
+        os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()  # its pipes end with the last process that holds them
+
+
 def address(row: int, column: int) -> str:
     """Name the cell in that row and column, both counted from 1: (7, 2) is B7."""
-    letters = ""
-    while column:
-        column, letter = divmod(column - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return f"{letters}{row}"
+    from openpyxl.utils import get_column_letter
+
+    return f"{get_column_letter(column)}{row}"
 
 
 def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
@@ -138,46 +180,25 @@ def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
     return engine.recalculate(path)["planted"].get("A2") == 42
 
 
-# The parts of an .xlsx file: enough to find its worksheets and to see that none is damaged.
-
-UNREADABLE = (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError)
-"""What reading a file raises that is not a sound .xlsx file."""
-
-
-def read_part(archive: zipfile.ZipFile, part: str) -> ET.Element:
-    """Parse one XML part of the file."""
-    return ET.fromstring(archive.read(part))
+# The parts of an .xlsx file: enough to find its worksheets and their cells.
 
 
 def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
     """Map each worksheet's name, in the workbook's order, to the part that holds its cells."""
     parts = {
-        relation.attrib["Id"]: _part(relation.attrib["Target"])
-        for relation in read_part(archive, "xl/_rels/workbook.xml.rels")
+        # A target is relative to xl/ unless it starts at the root.
+        relation.attrib["Id"]: urljoin("/xl/", relation.attrib["Target"])[1:]
+        for relation in parsed(archive, "xl/_rels/workbook.xml.rels")
         if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
     }
-    sheets = read_part(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
-    related = {sheet.attrib["name"]: _relation(sheet) for sheet in sheets}
+    related = {
+        # The namespace of r:id differs between the two kinds of Office Open XML.
+        sheet.attrib["name"]: next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
+        for sheet in parsed(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
+    }
     return {name: parts[relation] for name, relation in related.items() if relation in parts}
 
 
-def checked_worksheets(path: Path) -> list[str]:
-    """List the worksheets of a file; raise one of UNREADABLE unless every part is well formed."""
-    with zipfile.ZipFile(path) as archive:
-        for part in archive.namelist():
-            if part.endswith((".xml", ".rels")):
-                read_part(archive, part)
-        sheets = worksheets(archive)
-        for part in sheets.values():
-            archive.getinfo(part)
-    return list(sheets)
-
-
-def _part(target: str) -> str:
-    """Resolve a target, which is relative to xl/ unless it starts at the root."""
-    return target[1:] if target.startswith("/") else f"xl/{target}"
-
-
-def _relation(sheet: ET.Element) -> str:
-    """Read the attribute r:id, whose namespace differs between the two kinds of Office Open XML."""
-    return next(value for key, value in sheet.attrib.items() if key.endswith("}id"))
+def parsed(archive: zipfile.ZipFile, part: str) -> ET.Element:
+    """Parse one XML part of the file."""
+    return ET.fromstring(archive.read(part))

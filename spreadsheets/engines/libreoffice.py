@@ -9,25 +9,21 @@ the Python that some LibreOffice packages bring along.
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from spreadsheets.engines.base import Cell, Engine, EngineError, address
+from spreadsheets.engines.base import Cell, EngineError, SystemEngine, address
 
 SCRIPT = Path(__file__).with_name("uno_script.py")
-TIME_LIMIT_S = 120
 
 
-class LibreOffice(Engine):
+class LibreOffice(SystemEngine):
     """Starts an office of its own, which takes one to two seconds; several workbooks share it."""
 
     name = "libreoffice"
@@ -63,42 +59,15 @@ class LibreOffice(Engine):
             command = [_python(soffice), str(SCRIPT), soffice, f"{folder}/profile", *copies]
             return self._run(command, len(paths))
 
-    def _run(self, command: list[str], workbooks: int = 1) -> str:
-        """Run a command in a group of its own and leave none of its processes behind."""
-        limit = TIME_LIMIT_S * workbooks
-        pipe = subprocess.PIPE
-        with subprocess.Popen(
-            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
-        ) as process:
-            try:
-                output, complaint = process.communicate(timeout=limit)
-            except subprocess.TimeoutExpired as error:
-                raise EngineError(self.name, f"no answer within {limit} s") from error
-            finally:
-                _end_group(process)
-        if process.returncode != 0:
-            # The last line is the script's; those before it are soffice's own chatter.
-            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
-        return output
-
 
 def _read(line: str) -> Iterator[Cell]:
-    """Yield the cells of one workbook from the line that the script printed for it."""
     for sheet, rows in json.loads(line).items():
         for row, values in enumerate(rows, start=1):
             for column, value in enumerate(values, start=1):
                 yield sheet, address(row, column), value
 
 
-def _end_group(process: subprocess.Popen[str]) -> None:
-    """Kill what is left of a process group and wait until all of it is gone."""
-    with suppress(ProcessLookupError):  # the good case: nothing is left
-        os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()  # its pipes end with the last process that holds them
-
-
 def _soffice() -> str:
-    """Find LibreOffice's program, or raise a LookupError that says what to install."""
     soffice = shutil.which("soffice") or shutil.which("libreoffice")
     if soffice is None:
         raise LookupError(
@@ -109,7 +78,6 @@ def _soffice() -> str:
 
 @cache
 def _python(soffice: str) -> str:
-    """Find a Python that can import the UNO bindings, or raise a LookupError."""
     bundled = str(Path(soffice).resolve().with_name("python"))
     for python in (sys.executable, shutil.which("python3"), "/usr/bin/python3", bundled):
         if python is None or not Path(python).is_file():

@@ -1,7 +1,6 @@
 """The sheets of the workbook and their order: which cell holds what, and by which formula."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from reference.ledger import Ledger
 from spreadsheets.plan import SheetPlan, WorkbookPlan, place_of
@@ -9,39 +8,31 @@ from spreadsheets.sheets import audit, figures, inputs, models, overview, steps,
 from spreadsheets.sheets.audit import Findings
 from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["About", "workbook_plan"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class About:
-    """What the workbook says of itself beside its numbers.
-
-    warning_limits: see `inputs.sheet`. shown: sheet -> what its chart shows as written, in words.
-    """
-
-    version: str
-    warning_limits: tuple[float, float]
-    shown: Mapping[str, str]
+__all__ = ["workbook_plan"]
 
 
 def workbook_plan(
     ledger: Ledger,
     cases: Sequence[CaseSheet],
-    about: About,
     coarse: Sequence[CaseSheet] = (),
     findings: Findings | None = None,
+    *,
+    version: str,
+    warning_limits: tuple[float, float],
+    shown: Mapping[str, str],
 ) -> WorkbookPlan:
     """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
 
     With `coarse`, the same cases with the coarser step, and `findings`, the result of the audit, it
-    is the report's own workbook, with all that is about the report alone. Raises ValueError where
-    the ledger has a claim computed by a cell that is none.
+    is the report's own workbook, with all that is about the report alone. version: the program's.
+    warning_limits: see `inputs.sheet`. shown: sheet -> what its chart shows as written, in words.
+    Raises ValueError where the ledger has a claim computed by a cell that is none.
     """
-    report, shown = findings is not None, about.shown
+    report = findings is not None
     table = table_a1.sheet(ledger, cases[-1], report)
     sheets = [
         (
-            inputs.sheet(ledger, cases, report, about.warning_limits),
+            inputs.sheet(ledger, cases, report, warning_limits),
             "Every physical number: yours and the report’s, unit, check, limits, name",
         ),
         (table, "The five rows that the report’s appendix prints, cell for cell"),
@@ -78,12 +69,12 @@ def workbook_plan(
         sheets.append((audit.sheet(ledger, findings), everything))
         _require_cells(ledger, [sheet for sheet, _ in sheets])
     described = {sheet.name: what for sheet, what in sheets}
-    first = overview.sheet(ledger, cases, described, about.version, findings)
+    first = overview.sheet(ledger, cases, described, version, findings)
     return WorkbookPlan(
         sheets=(first, *(sheet for sheet, _ in sheets)),
         title=f"{ledger.report.title}: the model as a workbook",
         properties={
-            "author": f"coldspray {about.version}",
+            "author": f"coldspray {version}",
             "subject": f"The model of a report by {ledger.report.author} "
             f"({ledger.report.year}), as live formulas beside their computed values",
             "keywords": "cold spray, penetration, replication, audit",

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from reference.ledger import Claim, Ledger
-from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
+from spreadsheets.plan import Cell, SheetPlan, place_of
 from spreadsheets.sheets.lines import (
     NOT_COMPUTED,
+    colored,
     formula,
     heads,
     notes,
@@ -71,7 +72,6 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
     for row, claim in enumerate(ledger.claims.values(), start=first):
         live = _live(claim, row) if claim.entry.workbook else {"F": text("–", "text")}
         cells |= row_of(row, _claim(ledger, claim, findings) | live)
-    verdicts = f"F{first}:F{last}"
     return SheetPlan(
         name="Audit",
         cells=cells,
@@ -80,19 +80,14 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
         repeated_rows=(_HEAD_ROW, _HEAD_ROW),
         print_area=f"A1:I{last}",
         filtered=f"A{_HEAD_ROW}:L{last}",
-        rules=tuple(
-            Rule(cells=verdicts, formula=f'=$F{first}="{words}"', style=style)
-            for words, style in (
-                (AS_PRINTED, "good"),
-                (OTHERWISE, "warning"),
-                (NOT_COMPUTED, "changed"),
-            )
+        rules=colored(
+            f"F{first}:F{last}",
+            {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"},
         ),
     )
 
 
 def _counts(first: int, last: int) -> dict[str, Cell]:
-    """How many live verdicts there are of each kind."""
     cells = {"A6": text("Live verdicts", "block")}
     for row, (words, what) in enumerate(KINDS, start=7):
         cells[f"A{row}"] = text(words, "text")
@@ -102,7 +97,6 @@ def _counts(first: int, last: int) -> dict[str, Cell]:
 
 
 def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
-    """What the ledger and the audit say of a claim, by column."""
     return {
         "A": text(claim.id),
         "B": text(claim.title, wrap=True),

@@ -3,7 +3,16 @@
 from collections.abc import Sequence
 
 from spreadsheets.plan import Cell, Chart, Rule, Series, SheetPlan
-from spreadsheets.sheets.lines import NOT_COMPUTED, formula, guarded, heads, notes, text, title
+from spreadsheets.sheets.lines import (
+    NOT_COMPUTED,
+    formula,
+    guarded,
+    heads,
+    notes,
+    row_of,
+    text,
+    title,
+)
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, rest_depth
 
 __all__ = ["LEVELS", "POINTS", "RUN_INPUTS", "convergence", "figure_3", "figure_5"]
@@ -12,12 +21,10 @@ _CHART_ROWS = 26
 """Rows that a chart covers, with the default height of 20 pixels, and some room."""
 
 
-def _units(row: int, columns: str, units: Sequence[str]) -> dict[str, Cell]:
-    """The units under the heads of columns of numbers."""
-    return {
-        f"{column}{row}": text(unit, "unit right")
-        for column, unit in zip(columns, units, strict=True)
-    }
+def _heads(row: int, columns: str, words: Sequence[str], units: Sequence[str]) -> dict[str, Cell]:
+    """The heads of columns of numbers, and the units under them."""
+    under = dict(zip(columns, (text(unit, "unit right") for unit in units), strict=True))
+    return heads(row, columns, words, columns) | row_of(row + 1, under)
 
 
 def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
@@ -54,10 +61,8 @@ def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
 
 
 def _curve(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
-    """Time and depth of every row of a case."""
     cells = {f"{columns[0]}{first - 3}": text(case.name, "block")}
-    cells |= heads(first - 2, columns, ("Time", "Depth"), columns)
-    cells |= _units(first - 1, columns, ("ns", "µm"))
+    cells |= _heads(first - 2, columns, ("Time", "Depth"), ("ns", "µm"))
     for k in range(case.rows + 1):
         there = f"'{case.name}'!{{}}{FIRST_ROW + k}"
         running = f"ISNUMBER({there.format('A')})"
@@ -91,9 +96,8 @@ def figure_5(case: CaseSheet, written: str) -> SheetPlan:
     missing = f"COUNT(T{first}:T{last})<{POINTS}"
     message = f'=IF({missing},"POINTS ARE MISSING: see the sheet Inputs.","{COMPLETE}")'
     cells["A3"] = formula("figure_5.message", message, "message")
-    words = ("Point", "Velocity", "p", "c", "X/R", "X")
-    cells |= heads(first - 2, "PQRSTU", words, "PQRSTU")
-    cells |= _units(first - 1, "PQRSTU", ("", "m/s", "–", "–", "–", "µm"))
+    words, units = ("Point", "Velocity", "p", "c", "X/R", "X"), ("", "m/s", "–", "–", "–", "µm")
+    cells |= _heads(first - 2, "PQRSTU", words, units)
     for point in range(POINTS):
         cells |= _point(point, first + point, last, case)
     chart = Chart(
@@ -147,8 +151,14 @@ RUN_INPUTS = ("V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop")
 CURRENT = "The inputs in use are those of these runs."
 STALE = "THE INPUTS IN USE ARE NOT THOSE OF THESE RUNS: write the workbook again to renew them."
 NO_ORDER = "–"
-_LADDER = ("steps", "depth_um", "error", "size", "order")
-_SHOWN = ("0", "0.000000", "0.000000", "0.0E+00", "0.00")
+_LADDER = {
+    "steps": "0",
+    "depth_um": "0.000000",
+    "error": "0.000000",
+    "size": "0.0E+00",
+    "order": "0.00",
+}
+"""What stands in the columns of a case, and its number format."""
 
 
 def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
@@ -162,8 +172,7 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         "Black: live. Order: how the error falls from line to line, 1 for a scheme of first order.",
         width=160,
     )
-    cells |= heads(first - 2, "AB", ("Time step", "Time step"), "AB")
-    cells |= _units(first - 1, "AB", ("s", "ns"))
+    cells |= _heads(first - 2, "AB", ("Time step", "Time step"), ("s", "ns"))
     for k, row in enumerate(range(first, last + 1)):
         key = f"convergence.step[{k}]"
         cells[f"A{row}"] = Cell(key=key, style="recorded", number_format="0.00E+00")
@@ -202,16 +211,14 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
 def _levels(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
     """The ladder of one case; all but the order was computed when the workbook was written."""
     part, error = f"convergence.{case.slug}", columns[2]
-    cells = heads(
-        first - 2, columns, ("Steps", "Final depth", "Error", "|Error|", "Order"), columns
-    )
-    cells |= _units(first - 1, columns, ("", "µm", "µm", "µm", "–"))
+    words = ("Steps", "Final depth", "Error", "|Error|", "Order")
+    cells = _heads(first - 2, columns, words, ("", "µm", "µm", "µm", "–"))
     cells[f"{columns[0]}{first - 3}"] = text(f"{case.name}, {case.label}", "block")
     cells[f"{columns[1]}{first + LEVELS}"] = Cell(
         key=f"{part}.rest_um", style="recorded", number_format="0.000000"
     )
     for k, row in enumerate(range(first, first + LEVELS)):
-        for column, what, shown in zip(columns, _LADDER, _SHOWN, strict=True):
+        for column, what, shown in zip(columns, _LADDER, _LADDER.values(), strict=True):
             key = f"{part}.{what}[{k}]"
             if what != "order":
                 cells[f"{column}{row}"] = Cell(key=key, style="recorded", number_format=shown)

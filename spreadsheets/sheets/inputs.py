@@ -233,7 +233,6 @@ def _status(checks: str) -> dict[str, Cell]:
 
 
 def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
-    """The cells of one input, by column."""
     inferred = entry.source.startswith(INFERRED)
     typed, in_use, own, least, most = (f"{column}{row}" for column in "CFHKL")
     same = _INFERRED if inferred else _SAME
@@ -264,7 +263,6 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
 
 
 def _as_printed(ledger: Ledger, claim: str, unit: str) -> dict[str, Cell]:
-    """What the report prints, and where."""
     place = str(ledger.claims[claim].place)
     return {"I": printed(ledger, claim, unit), "J": text(place, "unit")}
 

@@ -1,19 +1,20 @@
 """What sheets are made of: cells, notes, and tables of one quantity a line."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import Any
 
 from reference.ledger import Ledger
 from reference.units import written
-from spreadsheets.plan import Cell, SheetPlan
+from spreadsheets.plan import Cell, Rule, SheetPlan
 
 __all__ = [
     "HOME",
     "NOT_COMPUTED",
     "Line",
+    "colored",
     "formula",
     "guarded",
     "heads",
@@ -78,6 +79,15 @@ def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
     claim = ledger.claims[name]
     own = "" if claim.unit == unit else f" {written(claim.unit)}"
     return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
+
+
+def colored(cells: str, styles: Mapping[str, str]) -> tuple[Rule, ...]:
+    """The style that each text has in these cells of one column."""
+    first = cells.partition(":")[0]
+    return tuple(
+        Rule(cells=cells, formula=f'=${first}="{words}"', style=style)
+        for words, style in styles.items()
+    )
 
 
 def unit_text(unit: str) -> Cell:
@@ -172,7 +182,6 @@ def place(
 
 
 def _cells(ledger: Ledger, line: Line, addresses: dict[str, str]) -> tuple[Cell, ...]:
-    """The six cells of a line."""
     expression = line.formula.format_map(addresses)
     value = formula(
         line.key, guarded(expression) if line.guard else expression, line.style,

@@ -43,7 +43,6 @@ def crater(ledger: Ledger) -> SheetPlan:
 
 
 def _cubed(volume: str) -> str:
-    """A volume in µm³ from one in m³."""
     return f"={volume}*1000000*1000000*1000000"
 
 
@@ -84,7 +83,6 @@ def _contact(ledger: Ledger) -> list[Line]:
 
 
 def _velocities() -> list[Line]:
-    """Mass and velocity of the least, the average and the largest particle of section 2."""
     lines = []
     for which, diameter in (("smallest", "d_min"), ("average", "D_p"), ("largest", "d_max")):
         mass, half = f"{which}_mass", f"({diameter}/2)"

@@ -83,7 +83,6 @@ def sheet(
 
 
 def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> tuple[Rule, ...]:
-    """Final depths with the state of each run, and the inputs in use."""
     page.block(
         "Results with the inputs in use", "Final depth [µm]", "The report prints",
         "Depth over radius", "The report prints", "State of the run", right="BCDE",
@@ -115,7 +114,6 @@ def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> tuple[R
 
 
 def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
-    """What fails, and how many numbers have which verdict."""
     for head, names in (
         ("What does not follow from the report", findings.failing),
         ("What public sources give otherwise", findings.differing),

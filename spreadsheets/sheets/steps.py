@@ -190,16 +190,18 @@ def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
 
 
 def step_formulas(
-    row: int, first: bool, resistance: str, step: str, middle: str = ""
+    row: int, first: bool, counted: str, resistance: str, step: str, middle: str = ""
 ) -> dict[str, str]:
     """The formulas of one time step, by column (appendix, Eqs. A-1 to A-3, both cases of Eq. 13).
 
     Columns C to F hold dx/dt initial, x, d²x/dt² and dx/dt final; `first` marks the row after row
-    0, with its half step. resistance, step: the defined names of R_t and the time step. middle: in
-    the centered scheme, the column of the velocity in the middle of the row. The order of the
-    operations is fixed: it decides the last digit.
+    0, with its half step. counted: what stands in column A until the stop. resistance, step: the
+    defined names of R_t and the time step. middle: in the centered scheme, the column of the
+    velocity in the middle of the row. The order of the operations is fixed: it decides the last
+    digit.
     """
     above = row - 1
+    reached = f"C{above}" if first else f"F{above}"
     v, x, a = f"C{row}", f"D{row}", f"E{row}"
     area = f"IF({x}<R_p,D_p*{x}-{x}*{x},R_p*R_p)"
 
@@ -207,35 +209,39 @@ def step_formulas(
         return f"(0.5*rho_t*{velocity}*{velocity}+{resistance})*pi_*{area}/M_p"
 
     formulas = {
-        "C": f"C{above}" if first else f"F{above}",
+        "C": reached,
         "D": f"{v}*({step}/2)" if first else f"D{above}+{v}*{step}",
         "E": deceleration(f"{middle}{row}" if middle else v),
         "F": f"{v}-{a}*{step}",
     }
     if middle:
         formulas[middle] = f"{v}-{deceleration(v)}*({step}/2)"
-    # A test for "" instead of a number fails in two spreadsheet programs.
-    return {key: f'=IF(ISNUMBER(A{row}),{text},"")' for key, text in formulas.items()}
+    going = f'=IF(ISNUMBER(A{above}),IF({reached}<v_stop,"",{counted}),"")'
+    return {"A": going} | {column: where_running(row, text) for column, text in formulas.items()}
+
+
+def where_running(row: int, expression: str) -> str:
+    """A formula of a row, blank below the stop.
+
+    A test for "" instead of a number fails in two spreadsheet programs.
+    """
+    return f'=IF(ISNUMBER(A{row}),{expression},"")'
 
 
 def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
     """One row of the sheet; row 0 is the impact itself, with no final velocity."""
     row, dt = FIRST_ROW + step, case.step_name
     if step:
-        velocity = f"{'C' if step == 1 else 'F'}{row - 1}"
-        going = f'IF({velocity}<v_stop,"",A{row - 1}+1)'
-        formulas = {"A": f'=IF(ISNUMBER(A{row - 1}),{going},"")'}
         middle = "H" if case.scheme == "centered" else ""
-        formulas |= step_formulas(row, step == 1, case.named("R_t"), dt, middle)
-        time = f"A{row}*{dt}"
+        resistance = case.named("R_t")
+        formulas = step_formulas(row, step == 1, f"A{row - 1}+1", resistance, dt, middle)
     else:
         needed = ("V_impact", "R_p", "rho_p", "rho_t", case.named("R_t"), dt, "v_stop", "M_p")
         formulas = {"A": f'=IF(COUNT({",".join(needed)})={len(needed)},0,"")'}
         starts = {"C": "V_impact", "D": "0", "E": "0"}
-        formulas |= {c: f'=IF(ISNUMBER(A{row}),{text},"")' for c, text in starts.items()}
-        time = "0"
-    formulas["B"] = f'=IF(ISNUMBER(A{row}),{time},"")'
-    formulas["G"] = f'=IF(ISNUMBER(A{row}),D{row}*1000000,"")'
+        formulas |= {column: where_running(row, text) for column, text in starts.items()}
+    formulas["B"] = where_running(row, f"A{row}*{dt}" if step else "0")
+    formulas["G"] = where_running(row, f"D{row}*1000000")
     cells = {}
     for column, expression in formulas.items():
         what, unit, shown, like = _COLUMNS[column]
@@ -271,7 +277,6 @@ DOUBTS = {
 
 
 def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
-    """Inputs, result, and the depth without time steps."""
     lines: list[Line | str] = [
         "Inputs of this sheet",
         *_inputs(case),
@@ -406,7 +411,6 @@ def _doubts(case: CaseSheet) -> list[Line]:
 
 
 def _against_fine(case: CaseSheet) -> list[Line]:
-    """The final depth beside that of the finer step."""
     part, fine = case.part, case.named("depth_um")
     return [
         Line(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",

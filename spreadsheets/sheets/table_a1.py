@@ -5,9 +5,10 @@ prints, `6E-10` in General included. From column H on stands the printed text it
 """
 
 from reference.ledger import Claim, Ledger
-from spreadsheets.plan import Cell, Rule, SheetPlan
+from spreadsheets.plan import Cell, SheetPlan
 from spreadsheets.sheets.lines import (
     NOT_COMPUTED,
+    colored,
     formula,
     heads,
     notes,
@@ -100,15 +101,11 @@ def _row(step: int, case: CaseSheet) -> dict[str, str]:
         starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
         return {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
     time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
-    velocity = f"{'C' if step == 1 else 'F'}{row - 1}"
-    going = f'IF({velocity}<v_stop,"",{time})'
     middle = "G" if case.scheme == "centered" else ""
-    formulas = step_formulas(row, step == 1, case.named("R_t"), case.step_name, middle)
-    return {"A": f'=IF(ISNUMBER(A{row - 1}),{going},"")', **formulas}
+    return step_formulas(row, step == 1, time, case.named("R_t"), case.step_name, middle)
 
 
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
-    """The printed text, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
     cells = {f"H{row}": text(words, "unit") for row, words in enumerate(_LABELS, start=1)}
     for column, words in zip("ABCDEF", _HEADS, strict=True):
@@ -153,22 +150,17 @@ def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     for row, (address, claim) in enumerate(_claims(ledger).items(), start=first):
         cells |= row_of(row, _check(claim, address, row, table))
     widths = (8.0, 26.0, 9.0, 17.0, 25.0, 12.0, 18.0, 17.0)
-    verdicts = f"G{first}:G{row}"
     return SheetPlan(
         name="Table A-1 check",
         cells=cells,
         widths=dict(zip("ABCDEFGH", widths, strict=True)),
         frozen=f"B{first}",
         repeated_rows=(_HEAD_ROW, _HEAD_ROW),
-        rules=tuple(
-            Rule(cells=verdicts, formula=f'=$G{first}="{words}"', style=style)
-            for words, style in ((SAME_TEXT, "good"), (OTHER_TEXT, "warning"))
-        ),
+        rules=colored(f"G{first}:G{row}", {SAME_TEXT: "good", OTHER_TEXT: "warning"}),
     )
 
 
 def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
-    """The cells of one number, by column."""
     assert claim.printed is not None
     key, there = f"table_check.{address}", f"'{table.name}'!{address}"
     difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"

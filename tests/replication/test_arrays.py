@@ -101,36 +101,6 @@ def test_compiled_is_plain_to_the_last_bit(model: Callable[..., Any]) -> None:
     assert ufunc(model)(*columns).tolist() == plain
 
 
-def test_compiled_series_are_plain_to_the_last_bit() -> None:
-    y, w, b, c = drawn(CASES, (1e-12, 1.0), (1e-6, 0.5), (1e-6, 1e4), (1e-9, 1.0))
-    beyond = np.arange(CASES) % 2 == 0
-    found = _expanded(np.array(y), np.array(w), b, c, beyond)
-    series = [motion.series() for _ in range(4)]
-    for k, values in enumerate(zip(*(x.tolist() for x in (y, w, b, c, beyond)), strict=True)):
-        series[0][0], series[1][0], *others = values
-        assert found[k, 0] == motion._expand(*series, *others)
-        assert found[k, 1:].tolist() == series[1]
-
-
-def _expanded(y: Any, w: Any, b: Any, c: Any, beyond: Any) -> Any:
-    """Length of the step and series of w, compiled."""
-    import numba
-
-    arrays._make_known()
-    expand, length = motion._expand, motion.ORDER + 1
-
-    def all_of_them(y: Any, w: Any, b: Any, c: Any, beyond: Any) -> Any:
-        found, series = np.zeros((y.size, length + 1)), np.zeros((4, length))
-        for k in range(y.size):
-            series[0, 0], series[1, 0] = y[k], w[k]
-            of_series = series[0], series[1], series[2], series[3]
-            found[k, 0] = expand(*of_series, b[k], c[k], beyond[k])
-            found[k, 1:] = series[1]
-        return found
-
-    return numba.njit(all_of_them)(y, w, b, c, beyond)
-
-
 def test_compiled_histories_are_plain_to_the_last_bit() -> None:
     columns = drawn(2000, *MOTION)
     times = arrays.stop_time(*columns)[:, None] * np.array([0.1, 0.5, 0.9, 1.1])
@@ -143,7 +113,8 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 
 @pytest.mark.parametrize("centered", [False, True])
 def test_compiled_sheets_are_plain_to_the_last_bit(centered: bool) -> None:
-    columns = drawn(CASES, (1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
+    ranges = ((1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
+    columns = drawn(CASES // 10, *ranges)
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
     found = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
     rows = zip(*(column.tolist() for column in columns), strict=True)

@@ -151,22 +151,9 @@ def test_peers_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch
 
 def test_the_bare_loop_of_the_sheet_is_the_sheet(beta_5: Case) -> None:
     tasks = [*own_tasks(beta_5), *peer_tasks(beta_5)]
-    for bare, ours in (
-        ("sheet, Numba loop, many", "sheet, published, many"),
-        ("sheet, Numba loop", "sheet, published"),
-    ):
-        pair = errors(tasks, bare, "depth"), errors(tasks, ours, "depth")
-        assert pair[0] == pytest.approx(pair[1], rel=1e-9)
-
-
-def test_without_heyoka_there_is_a_gap_with_its_reason(
-    beta_5: Case, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "heyoka", None)
-    _taylor.cache_clear()
-    task = next(task for task in peer_tasks(beta_5) if task.method == "heyoka")
-    assert point_of(task).gap == "not installed: python -m pip install 'coldspray[bench]'"
-    _taylor.cache_clear()
+    for many in ("", ", many"):
+        bare = errors(tasks, f"sheet, Numba loop{many}", "depth")
+        assert bare == pytest.approx(errors(tasks, f"sheet, published{many}", "depth"), rel=1e-9)
 
 
 def point_of(task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
@@ -176,7 +163,9 @@ def point_of(task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
     return trial.point
 
 
-def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason() -> None:
+def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason(
+    beta_5: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def fail() -> float:
         raise ArithmeticError("never at rest")
 
@@ -187,6 +176,11 @@ def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason() -> None:
     assert slow.gap.startswith("takes 0.02")
     assert slow.gap.endswith("s, more than 0.01 s")
     assert (slow.best, slow.met) == (math.inf, math.inf)
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    _taylor.cache_clear()
+    task = next(task for task in peer_tasks(beta_5) if task.method == "heyoka")
+    assert point_of(task).gap == "not installed: python -m pip install 'coldspray[bench]'"
+    _taylor.cache_clear()
 
 
 def test_a_point_has_times_a_case() -> None:
@@ -202,42 +196,36 @@ def test_a_point_has_times_a_case() -> None:
     assert trial.point.best == trial.batches[0]
 
 
-def test_tasks_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     turns: list[str] = []
 
     def task(name: str) -> Task:
         def run() -> float:
+            if turns.count(name) == 5:
+                raise KeyboardInterrupt
             turns.append(name)
             time.sleep(0.01)  # longer than a batch: one call each
             return 0.0
 
         return Task(name, "", "depth", run, abs)
 
-    monkeypatch.setattr("replication.bench.run.own_tasks", lambda _: [task("a")])
-    monkeypatch.setattr("replication.bench.run.peer_tasks", lambda _: [task("b")])
-    (result,) = bench(["beta-5"], repeat=3).results
-    assert "".join(turns) == "aabb" + "ab" * 3  # warmed up, then in turn
-    assert [p.repeats for p in result.points] == [3, 3]
-
-
-def test_an_interrupted_run_closes_its_progress(monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupt() -> float:
-        raise KeyboardInterrupt
-
-    closed: list[str] = []
-
     @contextmanager
     def watch(visits: Sequence[Trial], name: str) -> Iterator[Sequence[Trial]]:
         try:
             yield visits
         finally:
-            closed.append(name)
+            turns.append(name)
 
-    broken = Task("a", "", "depth", interrupt, abs)
-    monkeypatch.setattr("replication.bench.run.own_tasks", lambda _: [broken])
+    monkeypatch.setattr("replication.bench.run.own_tasks", lambda _: [task("a")])
+    monkeypatch.setattr("replication.bench.run.peer_tasks", lambda _: [task("b")])
+    (result,) = bench(["beta-5"], repeat=3).results
+    assert "".join(turns) == "aabb" + "ab" * 3  # warmed up, then in turn
+    assert [p.repeats for p in result.points] == [3, 3]
     with pytest.raises(KeyboardInterrupt):
         bench(["beta-5"], watch=watch)
-    assert closed == ["beta-5"]
+    assert turns[-1] == "beta-5"
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import zipfile
+from collections.abc import Callable, Iterable
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
@@ -29,18 +30,14 @@ LONGEST = 400
 
 def run(*arguments: str) -> tuple[int, str, str]:
     """Status, standard output and standard error of a command, in this process."""
-    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8") for _ in range(2))
+    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
     with redirect_stdout(out), redirect_stderr(err):
         try:
             status = main(arguments)
         except SystemExit as done:
             status = int(str(done.code))
-    texts = []
-    for stream in (out, err):
-        stream.flush()
-        stream.seek(0)
-        texts.append(stream.read())
-    return status, texts[0], texts[1]
+    text, said = (stream.buffer.getvalue().decode() for stream in (out, err))  # type: ignore[attr-defined]
+    return status, text, said
 
 
 def state(folder: Path) -> dict[str, bytes | None]:
@@ -71,25 +68,25 @@ def check(folder: Path, *arguments: str) -> int:
     return status
 
 
+def named(arguments: list[str]) -> str:
+    """What a test of these arguments is called."""
+    return re.sub(r"\W+", " ", " ".join(arguments))[:40]
+
+
 # Files and texts that once broke it
 
 FILES = {
     "deep.toml": "[impact]\nradius = " + 5000 * "[",
     "tables.toml": 3000 * "[a." + "b" + 3000 * "]",
-    "dotted.toml": "[impact]\nradius" + 5000 * ".a" + " = 1",
     "inline.toml": "[impact]\nradius = " + 500 * "{a=" + "1" + 500 * "}",
     "whole.toml": "[impact]\nradius = " + 5000 * "9",
-    "hexadecimal.toml": "[impact]\nradius = 0x" + 5000 * "f",
     "huge.toml": "[impact]\nradius = 1e99999999999",
     "nan.toml": "[impact]\nradius = nan",
-    "infinite.toml": "[impact]\nvelocity = -inf",
-    "date.toml": "[impact]\nradius = 1979-05-27",
     "control.toml": '[impact]\n"\\u001b[31m" = 1',
     "key.toml": f'[impact]\n{5000 * "k"} = 1',
     "empty.toml": "",
     "zero.toml": "\0",
     "surrogate.toml": '[impact]\nradius = "\\ud800"',
-    "truth.toml": "[impact]\nradius = true",
     "sweep-whole.toml": "[inputs]\nradius = {from=1e-6, to=2e-6, points=0x" + 5000 * "f" + "}",
     "sweep-samples.toml": '[sweep]\nsamples = 9223372036854775807\n[inputs]\nradius = '
     '{distribution="uniform", lower=1e-6, upper=2e-6}',
@@ -97,8 +94,6 @@ FILES = {
     "sweep-kind.toml": f'[inputs]\nradius = {{distribution="{5000 * "n"}"}}',
     "sweep-control.toml": '[sweep]\noutputs = ["\\u0007"]\n[inputs]\nradius = 1e-6',
     "sweep-key.toml": f"[inputs]\n{5000 * 'k'} = 1",
-    "sweep-huge.toml": "[inputs]\nradius = [" + "1e-6, " * 3 + "1e400]",
-    "sweep-list.toml": '[inputs]\nradius = [[1e-6]]',
     "sweep-scale.toml": '[inputs]\nradius = {from=1e-300, to=1e300, points=3, scale="log"}',
 }  # fmt: skip
 
@@ -127,50 +122,32 @@ TABLE = [
     # units
     ["depth", "--radius", "-3 dBm"],
     ["depth", "--radius", "5 " + 100_000 * "a"],
-    ["depth", "--radius", "11 cm_H2O", "--velocity", "400"],
     ["depth", "--radius", "1 m" + 3000 * "^2"],
-    ["depth", "--radius", "1 m^999999999"],
     ["depth", "--radius", "1e999999999 um"],
     ["depth", "--radius", DIGITS + " um"],
-    ["depth", "--radius", 5000 * "9"],
     ["depth", "--velocity", "１" * 10 + "e３０９"],
     ["depth", "--radius", "\ud800"],
     # integers
     ["converge", "--digits", DIGITS],
-    ["converge", "--levels", DIGITS],
     ["converge", "--steps", 5000 * "1,"],
     ["converge", "--digits", "15", "--step", "1e-300"],
     ["converge", "--levels", "40", "--step", "1e-18"],
-    ["bench", "--repeat", DIGITS],
     ["bench", "--repeat", "-1"],
     ["workbook", "--rows", DIGITS],
-    ["workbook", "--rows", 5000 * "9"],
-    ["workbook", "--rows", "99999999999"],
-    ["workbook", "--rows", "-1"],
-    ["stability", "--random", DIGITS],
     ["stability", "--seed", "-1"],
-    ["power", "--sample", DIGITS],
     ["power", "--seed", str(2**64)],
-    ["history", "--points", DIGITS],
     # devices and loops
-    ["depth", "--case-file", "/dev/full"],
     ["depth", "--case-file", "/dev/zero"],
     ["sweep", "/dev/zero"],
     ["workbook", "-o", "loop.xlsx"],
     ["workbook", "-o", "/dev/full"],
-    ["workbook", "-o", "/dev/null"],
-    ["workbook", "-o", "pipe.csv"],
     ["audit", "--out", "loop"],
-    ["audit", "--out", "empty.toml"],
     ["audit", "--out", "/dev/full"],
     ["audit", "--out", "/proc/coldspray"],
-    ["bench", "--quick", "--out", "loop"],
     ["sweep", "empty.toml", "-o", "loop.xlsx"],
     # dashes, and no values
     ["workbook", "--output=--"],
-    ["workbook", "-o--"],
     ["audit", "--out=--"],
-    ["bench", "--out=--"],
     ["depth", "--case-file=--"],
     ["audit", "--out", ""],
     ["audit", "--out", "a\0b"],
@@ -178,40 +155,27 @@ TABLE = [
     ["--", "depth", "--"],
     # nan and inf
     ["history", "--times", "1e300"],
-    ["history", "--times", "nan"],
     ["history", "--times", "1e999 s"],
     ["sheet", "--step", "1.8e308"],
-    ["sheet", "--step", "nan"],
     ["converge", "--step", "1e308"],
     ["bench", "--quick", "--limit", "1e99999"],
     ["bench", "--quick", "--limit", "nan"],
-    ["bench", "--quick", "--limit", "-1"],
     # control characters and length
     ["depth", "--\x1b[31m"],
-    ["depth", "--a\nb"],
-    ["\x1b[31m"],
     ["depth", "--radius", "\x1b[31m"],
     ["depth", "--case", "a\nb\r\x07"],
-    ["claims", "\x1b[2J"],
     ["claims", 100_000 * "x"],
     ["sheet", "--scheme", "\x1b\n" + 5000 * "s"],
-    ["converge", "--scheme", "\x1b\n" + 5000 * "s"],
-    ["workbook", "--scheme", "\x1b\n" + 5000 * "s"],
     ["bench", "--case", "\x1b\n" + 5000 * "s"],
-    ["bench", "--quick", "--out", "a\0"],
     ["workbook", "-o", 5000 * "n" + ".xlsx"],
-    ["workbook", "-o", 3000 * "n/" + ".xlsx"],
     ["audit", "--out", 5000 * "n"],
-    ["depth", "--case-file", 5000 * "n"],
     ["sweep", "\u202e\x1b[31m.toml"],
     ["depth", *(["x"] * 5000)],
     [5000 * "c"],
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "arguments", TABLE, ids=lambda own: re.sub(r"\W+", " ", " ".join(own))[:40]
-)
+@pytest.mark.parametrize("arguments", TABLE, ids=named)
 def test_what_once_broke_it(arguments: list[str], folder: Path) -> None:
     assert check(folder, *arguments) == 2
 
@@ -353,7 +317,6 @@ WORKBOOKS = [
     ["diff", "own.xlsx", "cut.xlsx"],
     ["diff", "bomb.xlsx", "own.xlsx"],
     ["diff", "own.xlsx", "own.xlsx", "--relative", "nan"],
-    ["diff", "own.xlsx", "own.xlsx", "--relative", "1e400"],
     ["diff", "own.xlsx", "own.xlsx", "--ulp", DIGITS],
     ["diff", "own.xlsx", "own.xlsx", "--digits", "-1"],
     ["diff", "own.xlsx"],
@@ -371,28 +334,27 @@ def workbooks(folder: Path) -> Path:
     sheet = "xl/worksheets/sheet1.xml"
     with zipfile.ZipFile(io.BytesIO(whole)) as archive:
         parts = {name: archive.read(name) for name in archive.namelist()}
+
+    def write(name: str, part_of: Callable[[str], Iterable[bytes]], names: Iterable[str]) -> None:
+        path = folder / name
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for part in names:
+                with archive.open(part, "w") as file:
+                    file.writelines(part_of(part))
+
     entity = b'<!DOCTYPE a [<!ENTITY b "' + b"c" * 100 + b'">]><a>' + b"&b;" * 100 + b"</a>"
-    for name, changed in {
-        "nothing.xlsx": {},
-        "entity.xlsx": {**parts, sheet: entity},
-        "deep.xlsx": {**parts, sheet: 100_000 * b"<a>"},
-    }.items():
-        with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-            for part, content in changed.items():
-                archive.writestr(part, content)
-    with zipfile.ZipFile(
-        folder / "bomb.xlsx", "w", zipfile.ZIP_DEFLATED, compresslevel=1
-    ) as archive:
-        for part, content in parts.items():
-            with archive.open(part, "w") as file:
-                for _ in range(1000 if part == sheet else 1):
-                    file.write(b" " * 2**19 if part == sheet else content)
+    write("nothing.xlsx", lambda _: (), ())
+    for name, content, times in (
+        ("entity.xlsx", entity, 1),
+        ("deep.xlsx", 100_000 * b"<a>", 1),
+        ("bomb.xlsx", b" " * 2**19, 1000),
+    ):
+        changed = {**{part: [whole] for part, whole in parts.items()}, sheet: [content] * times}
+        write(name, changed.__getitem__, parts)
     return folder
 
 
-@pytest.mark.parametrize(
-    "arguments", WORKBOOKS, ids=lambda own: re.sub(r"\W+", " ", " ".join(own))[:40]
-)
+@pytest.mark.parametrize("arguments", WORKBOOKS, ids=named)
 def test_a_workbook_that_is_none(arguments: list[str], workbooks: Path) -> None:
     assert check(workbooks, *arguments) == 2
 

@@ -27,7 +27,7 @@ from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import run
 from replication.sweep import Plan, compute, read_plan, write
-from replication.sweep.plan import BLOCK
+from replication.sweep.plan import BLOCK, RESULTS
 from replication.sweep.sources import LEAST_SHARE, Random, Spaced, uniform
 from spreadsheets.safely import draft_of, write_bytes
 
@@ -65,27 +65,33 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 # What a plan means
 
 
-def test_the_first_input_of_the_file_varies_slowest(tmp_path: Path) -> None:
-    text = (
-        '[inputs]\nvelocity = ["400 m/s", 500.0]\nradius = {from = "1 um", to = 3e-6, points = 3}'
-    )
-    plan = plan_of(tmp_path, text)
-    cases = all_of(plan)
-    assert plan.count == 6
-    assert cases["velocity"].tolist() == [400, 400, 400, 500, 500, 500]
-    assert cases["radius"].tolist() == pytest.approx([1e-6, 2e-6, 3e-6] * 2, rel=1e-15)
+MEANINGS: dict[str, dict[str, list[float]]] = {
+    '[inputs]\nvelocity = ["400 m/s", 500.0]\nradius = {from = "1 um", to = 3e-6, points = 3}': {
+        "velocity": [400, 400, 400, 500, 500, 500],  # the first of the file varies slowest
+        "radius": [1e-6, 2e-6, 3e-6] * 2,
+    },
+    '[sweep]\ncase = "beta-3"\n[inputs]\nradius = "5 um"': {  # the rest is the case's
+        "radius": [5e-6],
+        "beta": [3],
+        "velocity": [500],
+        "resistance": [2.1e9],
+    },
+    '[inputs]\nresistance = ["98 ksi", 2.1e9]': {"resistance": [6.75686215e8, 2.1e9]},
+    "\ufeff[inputs]": {"depth": [0.000007674932926028623]},  # a byte order mark, one case
+    # Eq. 1. Mass goes as the cube of the radius: velocities in the ratio 8^(1/2).
+    '[inputs]\nradius = ["5.5 um", "11 um", "22 um"]\n'
+    f'velocity = {{average_velocity = "500 m/s", average_mass = {BETA_5.mass!r}}}': {
+        "velocity": [500 * math.sqrt(8), 500, 500 / math.sqrt(8)]
+    },
+}
 
 
-def test_what_the_file_leaves_out_is_the_case_s(tmp_path: Path) -> None:
-    cases = all_of(plan_of(tmp_path, '[sweep]\ncase = "beta-3"\n[inputs]\nradius = "5 um"'))
-    assert (cases["beta"].tolist(), cases["velocity"].tolist()) == ([3.0], [500.0])
-    assert cases["resistance"].tolist() == [2.1e9]
-
-
-def test_a_resistance_stands_instead_of_beta_and_flow_stress(tmp_path: Path) -> None:
-    cases = all_of(plan_of(tmp_path, '[inputs]\nresistance = ["98 ksi", 2.1e9]'))
-    assert not {"beta", "flow_stress"} & set(cases)
-    assert cases["resistance"].tolist() == [pytest.approx(6.756862e8, rel=1e-6), 2.1e9]
+@pytest.mark.parametrize("text", MEANINGS)
+def test_what_a_plan_means(text: str, tmp_path: Path) -> None:
+    cases = all_of(plan_of(tmp_path, text))
+    for name, expected in MEANINGS[text].items():
+        assert cases[name].tolist() == pytest.approx(expected, rel=2e-9 if "ksi" in text else 1e-15)
+    assert ("beta" in cases) == ("resistance =" not in text)
 
 
 @given(
@@ -108,22 +114,6 @@ def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
         values = source.at(index)
         assert (values[0], values[-1]) == (first, last)
         assert source.bounds == (values.min(), values.max())
-
-
-def test_velocity_by_mass_is_equation_1(tmp_path: Path) -> None:
-    text = '[inputs]\nradius = ["5.5 um", "11 um", "22 um"]\n'
-    mass = BETA_5.mass
-    law = f'velocity = {{ average_velocity = "500 m/s", average_mass = {mass!r} }}'
-    cases = all_of(plan_of(tmp_path, text + law))
-    # Mass as the cube of the radius: velocities in the ratio 8^(1/2). Each is rounded thrice.
-    expected = [500 * math.sqrt(8), 500.0, 500 / math.sqrt(8)]
-    assert cases["velocity"].tolist() == pytest.approx(expected, rel=1e-15)
-
-
-def test_a_byte_order_mark_is_no_part_of_a_plan(tmp_path: Path) -> None:
-    file = tmp_path / "plan.toml"
-    file.write_bytes(b"\xef\xbb\xbf[inputs]\nradius = 5e-6")
-    assert all_of(read_plan(file))["radius"].tolist() == [5e-6]
 
 
 # Random numbers
@@ -207,38 +197,29 @@ def test_quantiles_rise_and_keep_within_the_bounds(
 
 
 def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
-    plan = plan_of(tmp_path, STREAM.format(samples=200) + "beta = [1, 3, 5]")
-    cases = all_of(plan)
-    for k in range(plan.count):
-        given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
-        impact = Impact(**{name: float(cases[name][k]) for name in given})
-        assert cases["resistance"][k] == impact.target_resistance
-        assert cases["depth"][k] == final_depth(**impact.motion)
-        ratio = normalized_depth(
-            impact.velocity,
-            impact.particle_density,
-            impact.target_density,
-            impact.target_resistance,
-        )
-        assert cases["normalized_depth"][k] == ratio
-        assert cases["beyond_radius"][k] == (ratio > 1)
-    assert 0 < cases["beyond_radius"].sum() < plan.count
-
-
-def test_further_results_are_those_of_the_single_sheet(tmp_path: Path) -> None:
-    text = (
-        '[sweep]\noutputs = ["sheet_steps", "stop_time", "sheet_depth"]\n[inputs]\n'
-        'velocity = [0.5, 1, 400, 2000]\nradius = ["1 um", "11 um"]\nbeta = [0.01, 5]'
-    )
-    cases = all_of(plan_of(tmp_path, text))
-    assert list(cases)[-3:] == ["stop_time", "sheet_depth", "sheet_steps"]
-    for k in range(len(cases["depth"])):
-        given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
-        impact = Impact(**{name: float(cases[name][k]) for name in given})
-        sheet = run(impact)
-        assert cases["stop_time"][k] == stop_time(**impact.motion)
-        assert cases["sheet_depth"][k] == sheet.final_depth
-        assert cases["sheet_steps"][k] == sheet.steps
+    outputs = 'outputs = ["sheet_steps", "stop_time", "sheet_depth"]\n'
+    for text in (
+        f"[sweep]\n{outputs}[inputs]\n"
+        'velocity = [0.5, 1, 400, 2000]\nradius = ["1 um", "11 um"]\nbeta = [0.01, 5]',
+        STREAM.format(samples=f"40\n{outputs}") + "beta = [1, 3, 5]",
+    ):
+        cases = all_of(plan_of(tmp_path, text))
+        assert list(cases)[-3:] == ["stop_time", "sheet_depth", "sheet_steps"]
+        assert set(cases["beyond_radius"].tolist()) == {True, False}
+        for k in range(len(cases["depth"])):
+            given = (name for name in cases if name in Impact.__slots__ and name != "resistance")
+            impact = Impact(**{name: float(cases[name][k]) for name in given})
+            sheet, others = run(impact), {n: x for n, x in impact.motion.items() if n != "radius"}
+            ratio = normalized_depth(**others)
+            assert {name: cases[name][k] for name in (*RESULTS, "resistance")} == {
+                "depth": final_depth(**impact.motion),
+                "normalized_depth": ratio,
+                "beyond_radius": ratio > 1,
+                "stop_time": stop_time(**impact.motion),
+                "sheet_depth": sheet.final_depth,
+                "sheet_steps": sheet.steps,
+                "resistance": impact.target_resistance,
+            }
 
 
 def test_figure_5_is_a_sweep() -> None:
@@ -267,11 +248,9 @@ def test_the_streams_are_the_report_s() -> None:
     drawn = read_plan(EXAMPLES / "stream.toml").inputs(0, 200_000)
     by_mass = read_plan(EXAMPLES / "stream-by-mass.toml").inputs(0, 100_000)
     for cases in (drawn, by_mass):
-        assert cases["radius"].min() >= 5e-6
-        assert cases["radius"].max() <= 15e-6
-    assert statistics.stdev(drawn["velocity"].tolist()) == pytest.approx(50, rel=0.01)
-    mass = 8900 * volume(by_mass["radius"])
-    energy = by_mass["velocity"] ** 2 * mass  # Eq. 1: the same for all
+        assert 5e-6 <= cases["radius"].min() <= cases["radius"].max() <= 15e-6
+    assert drawn["velocity"].std() == pytest.approx(50, rel=0.01)
+    energy = by_mass["velocity"] ** 2 * 8900 * volume(by_mass["radius"])  # Eq. 1: all the same
     np.testing.assert_allclose(energy, 521.0**2 * 4.96e-11, rtol=1e-14)
 
 
@@ -305,52 +284,35 @@ REFUSED = {
     "[inputs": "is no TOML file",
     "[inputs]\nvelocty = 5": r"\[inputs\]: there is no 'velocty' here: choose of velocity, radius",
     "[inputs]\nradius = '5 s'": r"\[inputs\]: radius: '5 s': s does not measure what m does",
-    "[inputs]\nradius = true": "radius: 'True' is no finite number",
     "[inputs]\nradius = []": "radius: the list is empty",
-    "[inputs]\nradius = [1e-6, nan]": "radius: .nan. is no finite number",
-    "[inputs]\nradius = [[1e-6]]": "radius: .* is no finite number",
     "[inputs]\nradius = 2020-01-01": "radius: 2020-01-01 is no finite number, such as 1.1e-5 or '",
-    "[inputs]\nradius = {from = 1, to = 07:30:00, points = 2}": "to: 07:30:00 is no finite number",
     "[inputs]\nradius = {from = 1, to = 2, points = 3.0}": "points is 3.0: .* without point or exp",
     "[inputs]\nradius = -1": "radius is -1.0: it must be a finite number greater than zero",
     "[inputs]\nradius = {points = 3}": "wants from, to, points; or distribution; or, by Eq. 1",
     "[inputs]\nradius = {from = 1, to = 2}": "radius: 'points' is missing",
     "[inputs]\nradius = {from = 1, to = 2, points = 2, step = 1}": "there is no 'step' here",
-    "[inputs]\nradius = {from = 1, to = 2, points = 1}": "points is 1: it must be a whole number",
-    "[inputs]\nradius = {from = 1, to = 2, points = 2.5}": "points is 2.5: it must be a whole",
     "[inputs]\nradius = {from = 1, to = inf, points = 2}": "to: .inf. is no finite number",
-    "[inputs]\nradius = {from = 'x', to = 1, points = 2}": "radius: from: 'x' is no finite number",
     "[inputs]\nstop_velocity = {from = 0, to = 2, points = 2, scale = 'log'}": "log scale wants",
     "[inputs]\nradius = {from = 1, to = 2, points = 2, scale = 'ln'}": "'ln': choose linear or log",
-    "[inputs]\nradius = {from = 0, to = 2, points = 2}": "radius is 0.0: it must be",
     "[inputs]\nradius = {average_mass = 1}": "only the velocity follows from the mass",
-    "[inputs]\nvelocity = {average_mass = 1}": "'average_velocity' is missing",
     "[inputs]\nvelocity = {average_mass = 0, average_velocity = 1}": "average_mass is 0.0",
     "[inputs]\nradius = 1e-110\nvelocity = {average_mass = 1, average_velocity = 1}": "is inf",
-    "[inputs]\nradius = 1e110\nvelocity = {average_mass = 1, average_velocity = 1}": r"is 0\.0",
     "[inputs]\nbeta = 3\nresistance = 1e9": "resistance stands instead of beta and flow_stress",
     "[inputs]\nresistance = [0, 1e9]": r"resistance: target resistance is 0\.0: nothing would",
     "[inputs]\nradius = [1e-6, 1e110]": r"particle mass is inf.*with radius 1e\+110",
     "[sweep]\nmode = 'grid'\n[inputs]": r"\[sweep\]: there is no 'mode' here: choose of case",
     "[sweep]\ncase = 'beta-4'\n[inputs]": "no case 'beta-4': choose one of beta-3, beta-5",
     "[sweep]\noutputs = ['depth']\n[inputs]": "wants a list of stop_time, sheet_depth",
-    "[sweep]\noutputs = 'stop_time'\n[inputs]": "wants a list",
     "[sweep]\nsamples = 3\n[inputs]": "samples is for distributions",
-    "[sweep]\nseed = 3\n[inputs]": "seed is for distributions",
 }
 DRAWN = {
     "distribution = 'gamma'": "there is no 'gamma': choose one of normal, lognormal, uniform",
-    "distribution = ['normal']": "choose one of normal",
     "distribution = 'normal', mean = 1": "'deviation' is missing",
-    "distribution = 'uniform', mean = 1": "there is no 'mean' here: choose of distribution, lower",
     "distribution = 'normal', mean = 1, deviation = 0": "deviation must be greater than zero",
-    "distribution = 'lognormal', mean = 0, deviation = 1": "mean must be greater than zero",
-    "distribution = 'normal', mean = '1 s', deviation = 1": "radius: mean: '1 s': s does not",
     "distribution = 'normal', mean = 1, deviation = 1": "values down to -7.* give a lower end",
     "distribution = 'uniform', lower = 2, upper = 1": "lower must be less than upper",
     "distribution = 'normal', mean = 1, deviation = 1, lower = 9": "less than a millionth",
     "distribution = 'lognormal', mean = 1, deviation = 1e300": "radius is nan",
-    "distribution = 'lognormal', mean = 1e300, deviation = 1e305": "radius is inf",
     "distribution = 'lognormal', mean = 1, deviation = 1e-300": "sigma is zero",
     "distribution = 'loguniform', lower = 0, upper = 1": "lower must be greater than zero",
 }
@@ -362,10 +324,7 @@ UNIFORM = "[inputs]\nradius = {distribution = 'uniform', lower = 1, upper = 2}"
 REFUSED |= {
     UNIFORM: r"\[sweep\]: samples is missing",
     f"[sweep]\nsamples = 0\n{UNIFORM}": "samples is 0: it must be a whole number from 1 to",
-    f"[sweep]\nsamples = 1e6\n{UNIFORM}": "samples is 1e6: it must be a whole number",
-    f"[sweep]\nsamples = true\n{UNIFORM}": "samples is True: it must be a whole number",
     f"[sweep]\nsamples = 9\nseed = -1\n{UNIFORM}": "seed is -1: it must be a whole number from",
-    f"[sweep]\nsamples = 9_000_000_000_000\n{UNIFORM}": "samples is 9000000000000: it must",
 }
 
 
@@ -430,12 +389,6 @@ def test_csv_has_units_and_all_digits(tmp_path: Path) -> None:
             assert [float(row[name]) for row in rows] == column.tolist()
 
 
-def test_a_single_case_is_a_sweep_too(tmp_path: Path) -> None:
-    write(plan_of(tmp_path, "[inputs]"), tmp_path / "out.csv")
-    (row,) = rows_of(tmp_path / "out.csv")
-    assert row["depth [m]"] == "0.000007674932926028623"
-
-
 def test_parquet_has_units_types_and_provenance(tmp_path: Path) -> None:
     plan = read_plan(EXAMPLES / "figure-5.toml")
     write(plan, tmp_path / "out.parquet")
@@ -464,17 +417,6 @@ def test_the_bytes_are_the_same_on_every_run(suffix: str, tmp_path: Path) -> Non
     assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
 
 
-def test_the_lines_do_not_depend_on_the_blocks(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    plan = plan_of(tmp_path, STREAM.format(samples=1000))
-    write(plan, tmp_path / "whole.csv")
-    monkeypatch.setattr("replication.sweep.plan.BLOCK", 7)
-    monkeypatch.setattr("replication.sweep.output.BLOCK", 7)
-    write(plan, tmp_path / "parts.csv")
-    assert (tmp_path / "parts.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()
-
-
 def test_parts_are_the_whole(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, STREAM.format(samples=2 * BLOCK + 17))
     files = [tmp_path / f"{name}.parquet" for name in ("whole", "first", "rest")]
@@ -482,14 +424,9 @@ def test_parts_are_the_whole(tmp_path: Path) -> None:
         write(plan, file, numbers=numbers)
     whole, *parts = map(pyarrow.parquet.read_table, files)
     assert pyarrow.concat_tables(parts).equals(whole)
-
-
-def test_cases_do_not_depend_on_their_block(tmp_path: Path) -> None:
-    plan = plan_of(tmp_path, STREAM.format(samples=300) + "beta = [3, 5]")
-    whole = compute(plan, 0, 600)
-    for first, count in ((0, 1), (299, 3), (17, 583)):
-        part = compute(plan, first, count)
-        assert all((part[name] == whole[name][first : first + count]).all() for name in whole)
+    for first, count in ((0, 1), (299, 3), (17, 583)):  # nor do cases depend on their block
+        cases = {name: column.tolist() for name, column in compute(plan, first, count).items()}
+        assert cases == whole.slice(first, count).to_pydict()
 
 
 def test_memory_does_not_grow_with_the_cases(tmp_path: Path) -> None:

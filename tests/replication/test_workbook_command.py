@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+from workbooks import Fake, stored
 
 from replication import workbook
-from spreadsheets.engines import Engine, engine
-from spreadsheets.engines.base import Cell, Value
-from spreadsheets.readback import read
+from spreadsheets.engines import Engine
 
 Run = Callable[..., tuple[int, str, str]]
 OWN = ("--step", "1 ns")
@@ -50,21 +49,21 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
 def test_rows_and_the_command_that_the_sheet_advises(run: Run, tmp_path: Path) -> None:
     """A case of one's own is named in full; the command that is named writes a longer sheet."""
     run(*OWN, "--beta", "4")
-    cells = read(tmp_path / "workbook.xlsx").values["Sheet beta 4"]
+    cells = stored(tmp_path / "workbook.xlsx")["Sheet beta 4"]
     note = " ".join(str(cells[f"A{row}"]) for row in range(4, 8))
     (command,) = re.findall(r"for more: coldspray workbook (.*)$", note)
     assert command == "--case beta-5 --beta 4.0 --step 1e-09 --rows 2000"
     status, _, _ = run(*command.split(), "-o", "longer.xlsx")
     assert status == 0
-    longer = read(tmp_path / "longer.xlsx")
-    assert len(longer.formulas["Sheet beta 4"]) > 2000 * 7
+    longer = tmp_path / "longer.xlsx"
+    assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 2000 * 7
     depth = workbook.build([workbook.BETA_5]).plan.where["case.depth_um"][1]
-    assert longer.values["Sheet beta 4"][depth] == cells[depth]
+    assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
 
 
 def test_the_reports_workbook_advises_its_own_command(run: Run, tmp_path: Path) -> None:
     assert run("--scheme", "centered", "-o", "r.xlsx")[0] == 0
-    values = read(tmp_path / "r.xlsx").values
+    values = stored(tmp_path / "r.xlsx")
     for sheet in ("Sheet beta 3", "Sheet beta 5", "Sheet beta 5 coarse"):
         note = " ".join(str(values[sheet][f"A{row}"]) for row in range(4, 8))
         assert note.endswith("for more: coldspray workbook --scheme centered --rows 4000")
@@ -103,31 +102,14 @@ def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:
 # Verification
 
 
-@dataclass
-class Fake(Engine):
-    """IronCalc, but that it adds to the depths (column D of the sheet), or cannot be used."""
+def deeper(added: float) -> Fake:
+    """An engine that adds to the depths, column D of the sheet."""
 
-    added: float = 0.0
-    echoes: bool = False
-    reason: str | None = None
-    name = "fake"
-
-    def missing(self) -> str | None:
-        return self.reason
-
-    def _version(self) -> str:
-        return "1.0"
-
-    def _cells(self, path: Path) -> Iterator[Cell]:
-        for sheet, cells in engine("ironcalc").recalculate(path).items():
-            for address, value in cells.items():
-                yield sheet, address, self._told(sheet, address, value)
-
-    def _told(self, sheet: str, address: str, value: Value) -> Value:
-        if sheet == "planted" and self.echoes:
-            return 41.0
+    def told(sheet: str, address: str, value: Any) -> Any:
         depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
-        return value + self.added if depth else value
+        return value + added if depth else value
+
+    return Fake(told)
 
 
 @pytest.fixture
@@ -168,28 +150,25 @@ def test_a_table_for_each_engine(check: Run) -> None:
 
 
 def test_differences_are_shown_and_status_1(check: Run) -> None:
-    status, out, _ = check([Fake(added=1e-12), Fake()])
+    status, out, _ = check([deeper(1e-12), Fake()])
     assert status == 1
     assert "fake 1.0: differs" in out
     assert re.search(r"^  Sheet beta 5!D\d+: expected \S+, found \S+ \(\d+ ulp\)$", out, re.M)
     assert re.search(r"^  and \d+ more$", out, re.MULTILINE)
     assert "1 of 2 engines on this machine" in out
-    record = json.loads(check([Fake(added=1e-12)], "--json")[1])
+    record = json.loads(check([deeper(1e-12)], "--json")[1])
     sheets = record["engines"][0]["sheets"]
     (sheet,) = (s for s in sheets if s["sheet"] == "Sheet beta 5")
     assert len(sheet["unexplained"]) == sheet["differ"] > 20
     assert set(sheet["unexplained"][0]) == {"cell", "expected", "found", "ulps"}
 
 
-def test_an_echo_is_status_1(check: Run) -> None:
-    status, out, _ = check([Fake(echoes=True)])
+def test_an_echo_is_status_1_and_quiet_leaves_the_status(check: Run) -> None:
+    status, out, _ = check([Fake(told=lambda *_: 41.0)])
     assert status == 1
     assert "fake 1.0: echoes\n  It verifies nothing" in out
-
-
-def test_quiet_leaves_the_status(check: Run) -> None:
     assert check([Fake()], "--quiet") == (0, "", "")
-    assert check([Fake(added=1.0)], "--quiet") == (1, "", "")
+    assert check([deeper(1.0)], "--quiet") == (1, "", "")
 
 
 def test_without_any_engine_nothing_is_written(check: Run, tmp_path: Path) -> None:

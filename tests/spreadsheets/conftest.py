@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from workbooks import rewritten
 
 from replication import workbook
 from replication.audit.audit import audit
@@ -74,13 +75,17 @@ class Emitted:
         for key, number in numbers.items():
             sheet, address = self.book.plan.where[key]
             cells.setdefault(sheet, {})[address] = number
-        with zipfile.ZipFile(self.path) as old, zipfile.ZipFile(path, "w") as new:
-            parts = {part: cells.get(sheet, {}) for sheet, part in worksheets(old).items()}
-            for part in old.namelist():
-                content = old.read(part).decode()
-                for address, number in parts.get(part, {}).items():
-                    content = _type(content, address, number)
-                new.writestr(part, content)
+        with zipfile.ZipFile(self.path) as archive:
+            sheets = {part: sheet for sheet, part in worksheets(archive).items()}
+
+        def type_into(part: str, content: bytes) -> bytes:
+            typed = cells.get(sheets.get(part, ""), {})
+            text = content.decode() if typed else ""
+            for address, number in typed.items():
+                text = _type(text, address, number)
+            return text.encode() or content
+
+        path.write_bytes(rewritten(self.path.read_bytes(), type_into))
         return path
 
 

@@ -1,0 +1,67 @@
+"""What the tests of workbooks share: files read and changed without the program, a false engine."""
+
+import io
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from openpyxl import load_workbook
+
+from spreadsheets.engines import Engine, EngineError, engine
+from spreadsheets.engines.base import Cell
+
+
+def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
+    """The values that a file stores, or its formulas; by sheet and address, blank cells absent."""
+    return {
+        sheet.title: {
+            cell.coordinate: float(cell.value) if type(cell.value) is int else cell.value
+            for row in sheet.iter_rows()
+            for cell in row
+            if (cell.data_type == "f" if formulas else cell.value not in (None, ""))
+        }
+        for sheet in load_workbook(path, data_only=not formulas).worksheets
+    }
+
+
+def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
+    """A file with each of its parts changed; a part that becomes empty is left out."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
+        for name in before.namelist():
+            if part := change(name, before.read(name)):
+                after.writestr(name, part)
+    return buffer.getvalue()
+
+
+@dataclass
+class Fake(Engine):
+    """IronCalc, but that it tells falsehoods, fails, or cannot be used.
+
+    told: what it says of a cell, by sheet, address and right value. surplus: cells of its own.
+    failure: of any file but the one that an engine is tried with.
+    """
+
+    told: Callable[[str, str, Any], Any] = lambda _sheet, _address, value: value
+    long_doubles: bool = False
+    reason: str | None = None
+    failure: str = ""
+    surplus: tuple[Cell, ...] = ()
+    name = "fake"
+
+    def missing(self) -> str | None:
+        return self.reason
+
+    def _version(self) -> str:
+        return "1.0"
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        if self.failure and not path.name.startswith("planted"):
+            raise EngineError(self.name, self.failure)
+        for sheet, cells in engine("ironcalc").recalculate(path).items():
+            for address, value in cells.items():
+                yield sheet, address, self.told(sheet, address, value)
+        if not path.name.startswith("planted"):
+            yield from self.surplus
