@@ -9,8 +9,6 @@ from reference.ledger import INFERRED, load
 from replication.models.impact import Impact
 from replication.reading import name_of, parse_toml, quoted, read_file, read_number
 
-__all__ = ["BETA_3", "BETA_5", "CASES", "INPUTS", "inputs_of", "read_case"]
-
 INPUTS = {
     "velocity": "m/s",
     "radius": "m",

@@ -7,8 +7,6 @@ from typing import Any
 
 import msgspec
 
-__all__ = ["json_text", "rows_csv"]
-
 
 def json_text(record: Any) -> str:
     r"""One JSON document; every float with the digits that make it the same double again.

@@ -9,8 +9,6 @@ from typing import Any
 
 from reference.units import quantity
 
-__all__ = ["name_of", "one_line", "parse_toml", "quoted", "read_file", "read_number"]
-
 _SIZE = 2**20
 _DEPTH = 20
 _QUOTED = 60

@@ -5,17 +5,6 @@ from collections.abc import Iterable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 
-__all__ = [
-    "aligned",
-    "inward",
-    "number",
-    "outward",
-    "pipe_table",
-    "powers_of_ten",
-    "rounded",
-    "with_unit",
-]
-
 
 def number(value: float | Fraction, digits: int = 6) -> str:
     """A number for reading, to some significant digits.

@@ -34,8 +34,6 @@ from spreadsheets.verify import EngineCheck, verify
 if TYPE_CHECKING:
     from replication.audit.record import Record
 
-__all__ = ["REPORT", "Workbook", "build", "rounding_bound", "write_verified"]
-
 REPORT = (BETA_3, BETA_5)
 """The cases of the report's own workbook, which has besides what is about the report alone: the
 sheets with its other time step, the check of Table A-1, and the audit."""

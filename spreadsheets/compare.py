@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 from spreadsheets.plan import Place, Value
 
-__all__ = ["Difference", "Values", "compare", "ulps_apart"]
-
 Values = Mapping[str, Mapping[str, Value]]
 """Sheet -> address -> value; a blank cell is absent or holds the empty text."""
 

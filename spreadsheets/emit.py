@@ -21,8 +21,6 @@ from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPla
 from spreadsheets.safely import check_target, write_bytes
 from spreadsheets.styles import DASHES, STYLES
 
-__all__ = ["cell_values", "check", "is_own", "to_bytes", "write"]
-
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
     """What every cell of the workbook shows, by sheet and address, texts included.

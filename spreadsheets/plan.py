@@ -10,19 +10,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-__all__ = [
-    "Cell",
-    "Chart",
-    "Limits",
-    "Place",
-    "Rule",
-    "Series",
-    "SheetPlan",
-    "Value",
-    "WorkbookPlan",
-    "place_of",
-]
-
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
 

@@ -8,8 +8,6 @@ from contextlib import contextmanager, suppress
 from errno import EBUSY, EINVAL, EISDIR, ENOENT, ENOTDIR
 from pathlib import Path
 
-__all__ = ["check_folder", "check_target", "draft_of", "write_bytes", "write_folder"]
-
 
 def check_target(path: Path) -> Path:
     """The file that writing to `path` will make or replace, links followed.

@@ -2,8 +2,6 @@
 
 from typing import Any
 
-__all__ = ["DASHES", "STYLES"]
-
 _INK, _GRAY, _BLUE, _RED = "#000000", "#5A5A5A", "#0000FF", "#B00020"
 _YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
 

@@ -13,8 +13,6 @@ from spreadsheets.compare import Difference, Values, compare
 from spreadsheets.engines import ENGINES, Engine, EngineError, Recalculated, repairs_wrong_value
 from spreadsheets.plan import Place, WorkbookPlan
 
-__all__ = ["EngineCheck", "SheetCheck", "tolerances", "verify"]
-
 OF_FUNCTIONS = 32 * 2.0**-52
 """How far a transcendental cell may lie from its value, relative to it.
 

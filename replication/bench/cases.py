@@ -14,8 +14,6 @@ from replication.error.budget import exact_motion
 from replication.error.hard_cases import HARD_CASES
 from replication.models.impact import Impact
 
-__all__ = ["CASES", "Case", "build", "relative_error"]
-
 CASES = {
     "beta-5": "the report's beta-5",
     "beta-3": "the report's beta-3",

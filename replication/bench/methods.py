@@ -13,8 +13,6 @@ from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, run
 
-__all__ = ["MEASURES", "OURS", "STEPS", "TITLES", "Measure", "Task", "columns", "many", "own_tasks"]
-
 Measure = Literal["depth", "history"]
 MEASURES: tuple[Measure, ...] = ("depth", "history")
 TITLES = {"depth": "final depth", "history": "history"}

@@ -15,8 +15,6 @@ import numpy as np
 from replication.bench.cases import Case
 from replication.bench.methods import STEPS, Task, columns, many
 
-__all__ = ["peer_tasks"]
-
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
 """Relative and absolute; SciPy takes no relative one below 2.2e-14."""
 

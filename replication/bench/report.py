@@ -16,8 +16,6 @@ from replication.plain import json_text, rows_csv
 from replication.text import aligned, number
 from spreadsheets.safely import check_folder, write_folder
 
-__all__ = ["bench_record", "bench_rows", "bench_text", "check", "figure", "write"]
-
 
 def bench_record(done: Bench) -> dict[str, Any]:
     """The JSON of `coldspray bench`: errors relative, times in s a case."""

@@ -17,8 +17,6 @@ from replication.bench.cases import Case, build
 from replication.bench.methods import MEASURES, OURS, Measure, Task, own_tasks
 from replication.bench.peers import peer_tasks
 
-__all__ = ["DIGITS", "Bench", "Point", "Result", "Trial", "bench", "error_for", "fastest", "front"]
-
 DIGITS = (1, 2, 3, 4, 6, 8, 10, 12, 13, 14, 15)
 
 BATCH = 5e-3

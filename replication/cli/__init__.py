@@ -31,8 +31,6 @@ from replication.cli import (
 )
 from replication.reading import one_line, quoted
 
-__all__ = ["COMMANDS", "main"]
-
 COMMANDS: tuple[ModuleType, ...] = (
     audit,
     claims,

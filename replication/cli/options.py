@@ -12,20 +12,6 @@ from replication.cases import INPUTS, read_case
 from replication.models.impact import Impact
 from replication.reading import one_line, quoted
 
-__all__ = [
-    "case",
-    "given",
-    "input_options",
-    "may_emphasize",
-    "output_options",
-    "path",
-    "print_json",
-    "scheme_option",
-    "warn",
-    "whole",
-    "width",
-]
-
 
 def path(text: str) -> Path:
     """A path from the command line; an unset variable must not mean this folder."""

@@ -10,8 +10,6 @@ from reference.motion import Trajectory, sheet_rows
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet
 
-__all__ = ["Budget", "exact_motion", "split"]
-
 
 @dataclass(frozen=True, slots=True)
 class Budget:

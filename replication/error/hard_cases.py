@@ -20,18 +20,6 @@ from replication.models.impact import Impact
 from replication.models.sheet import Sheet, run
 from replication.text import aligned
 
-__all__ = [
-    "HARD_CASES",
-    "HardCase",
-    "Outcome",
-    "Worst",
-    "outcome",
-    "random_cases",
-    "record",
-    "text",
-    "worst_of",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class HardCase:

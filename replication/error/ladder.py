@@ -11,8 +11,6 @@ from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, run
 
-__all__ = ["Convergence", "Level", "StepForDigits", "converge", "ladder", "step_for_digits"]
-
 ORDER = {"published": 1, "centered": 2}
 """Of the time-step error; why, in `replication.models.sheet`."""
 

@@ -5,8 +5,6 @@ from typing import NamedTuple
 from replication.models.depth import final_depth
 from replication.models.sheet import Sheet
 
-__all__ = ["COARSE", "DEEP", "Doubt", "warnings"]
-
 COARSE = 0.1
 """Share of the radius R that a step at the impact velocity V may pass: dt V / R. At beta = 5 the
 published scheme is then 1 % short of the exact depth, and as it is of first order, further with

@@ -18,20 +18,6 @@ from replication.models.impact import MAY_BE_ZERO, InputError, check, check_rang
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = [
-    "ElementError",
-    "compiled",
-    "depth_at_velocity",
-    "final_depth",
-    "history",
-    "normalized_depth",
-    "run_many",
-    "stop_time",
-    "time_to_depth",
-    "ufunc",
-    "velocity_at_depth",
-]  # fmt: skip
-
 Model = Callable[..., Any]
 Inputs = Mapping[str, Any]
 

@@ -2,8 +2,6 @@
 
 import math
 
-__all__ = ["cap_volume", "contact_diameter", "depth_from_volume_ratio", "volume", "volume_ratio"]
-
 
 def volume(radius: float) -> float:
     """Particle volume PV = 4/3 pi R^3 [m^3] (Eq. 3); radius R [m].

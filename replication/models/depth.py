@@ -9,8 +9,6 @@ import math
 
 from replication.models.crater import depth_from_volume_ratio
 
-__all__ = ["depth_at_velocity", "final_depth", "normalized_depth", "velocity_at_depth"]
-
 
 def normalized_depth(
     velocity: float, particle_density: float, target_density: float, resistance: float

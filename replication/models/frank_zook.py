@@ -7,8 +7,6 @@ Eq. 16, but for the depth in *diameters*. Eq. 16 prints X/R in front of it. Both
 
 import math
 
-__all__ = ["depth_as_printed", "depth_derived", "sphere_length_ratio"]
-
 
 def depth_as_printed(
     length_ratio: float,

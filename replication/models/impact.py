@@ -4,8 +4,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-__all__ = ["MAY_BE_ZERO", "Impact", "InputError", "check", "check_range", "particle_mass"]
-
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 

@@ -17,8 +17,6 @@ from typing import Any
 
 from replication.models.depth import depth_at_velocity, normalized_depth, velocity_at_depth
 
-__all__ = ["ORDER", "history", "series", "stop_time", "time_to_depth"]
-
 ORDER = 20
 E_2 = math.exp(-2)
 

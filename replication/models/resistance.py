@@ -2,15 +2,6 @@
 
 import math
 
-__all__ = [
-    "brinell_beta",
-    "centerline_stress",
-    "goodier_beta",
-    "target_resistance",
-    "walker_anderson_alpha",
-    "walker_anderson_beta",
-]
-
 
 def target_resistance(beta: float, flow_stress: float) -> float:
     """R_t = beta Y_t [Pa] (Eqs. 7, A-2); beta [1], flow stress Y_t [Pa].

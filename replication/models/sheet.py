@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     import pandas as pd
 
-__all__ = ["MAX_STEPS", "SCHEMES", "Row", "Sheet", "check_scheme", "deceleration", "last_row",
-           "out_of_range", "run", "too_many_steps"]  # fmt: skip
-
 SCHEMES = ("published", "centered")
 
 MAX_STEPS = 1_000_000

@@ -2,8 +2,6 @@
 
 import math
 
-__all__ = ["particle_velocity", "strain_rate"]
-
 
 def particle_velocity(average_velocity: float, mass: float, average_mass: float) -> float:
     """V_p = V (m_o / m)^(1/2) [m/s] (Eq. 1): V [m/s], m and m_o in the same unit.

@@ -9,8 +9,6 @@ from typing import Any
 from replication.sweep.plan import BLOCK, Plan, compute
 from spreadsheets.safely import check_target, draft_of
 
-__all__ = ["check_output", "provenance", "write"]
-
 SUFFIXES = (".csv", ".parquet")
 
 

@@ -14,8 +14,6 @@ from replication.models.impact import Impact, particle_mass
 from replication.models.stream import particle_velocity
 from replication.sweep.sources import ByMass, Floats, Listed, Random, Source, Spaced, uniform
 
-__all__ = ["BLOCK", "EXTRAS", "RESULTS", "Block", "Plan", "compute"]
-
 BLOCK = 65_536
 """Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
 

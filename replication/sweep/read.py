@@ -13,8 +13,6 @@ from replication.reading import name_of, parse_toml, quoted, read_file, read_num
 from replication.sweep.plan import EXTRAS, MAX_CASES, Plan
 from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
 
-__all__ = ["place", "read_plan", "read_source"]
-
 Table = dict[str, Any]
 
 

@@ -11,8 +11,6 @@ from statistics import NormalDist
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["ByMass", "Floats", "Listed", "Random", "Source", "Spaced", "uniform"]
-
 Floats = npt.NDArray[np.float64]
 
 LEAST_SHARE = 2.0**-53

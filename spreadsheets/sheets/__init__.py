@@ -8,8 +8,6 @@ from spreadsheets.sheets import audit, figures, inputs, models, overview, steps,
 from spreadsheets.sheets.audit import Findings
 from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["workbook_plan"]
-
 
 def workbook_plan(
     ledger: Ledger,

@@ -19,8 +19,6 @@ from spreadsheets.sheets.lines import (
     unit_text,
 )
 
-__all__ = ["AS_PRINTED", "KINDS", "OTHERWISE", "Findings", "computed_claims", "sheet"]
-
 AS_PRINTED, OTHERWISE = "as printed", "not as printed"
 KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
 """Live verdicts, and what the names of their counts end with."""

@@ -15,8 +15,6 @@ from spreadsheets.sheets.lines import (
 )
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, rest_depth
 
-__all__ = ["LEVELS", "POINTS", "RUN_INPUTS", "convergence", "figure_3", "figure_5"]
-
 _CHART_ROWS = 26
 """Rows that a chart covers, with the default height of 20 pixels, and some room."""
 

@@ -25,8 +25,6 @@ from spreadsheets.sheets.lines import (
 )
 from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["COARSE", "INPUTS", "LIMITS", "REPORT", "Input", "inputs_of", "sheet"]
-
 REPORT = "report"
 """What the switch says to take the report's inputs; with any other text, the user's are taken."""
 

@@ -10,25 +10,6 @@ from reference.ledger import Ledger
 from reference.units import written
 from spreadsheets.plan import Cell, Rule, SheetPlan
 
-__all__ = [
-    "HOME",
-    "NOT_COMPUTED",
-    "Line",
-    "colored",
-    "formula",
-    "guarded",
-    "heads",
-    "log1p",
-    "notes",
-    "place",
-    "printed",
-    "row_of",
-    "sheet_of_lines",
-    "text",
-    "title",
-    "unit_text",
-]
-
 NOT_COMPUTED = "not computed"
 """What stands in place of a value that hangs on an input that cannot be used."""
 

@@ -7,8 +7,6 @@ from spreadsheets.plan import SheetPlan
 from spreadsheets.sheets.lines import Line, log1p, sheet_of_lines
 from spreadsheets.sheets.steps import CaseSheet
 
-__all__ = ["crater", "frank_zook", "resistance"]
-
 _SI = "0.000E+00"
 
 

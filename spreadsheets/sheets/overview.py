@@ -10,8 +10,6 @@ from spreadsheets.sheets.audit import KINDS, Findings
 from spreadsheets.sheets.lines import HOME, formula, heads, printed, row_of, text
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
-__all__ = ["sheet"]
-
 _HOW = (
     ("input", "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows."),
     ("inferred", "Blue on orange: an input that the report never prints, inferred from others."),

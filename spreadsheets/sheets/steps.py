@@ -21,17 +21,6 @@ from spreadsheets.sheets.lines import (
     title,
 )
 
-__all__ = [
-    "FIRST_ROW",
-    "MAX_ROWS",
-    "SCHEMES",
-    "CaseSheet",
-    "prepared_rows",
-    "rest_depth",
-    "sheet",
-    "step_formulas",
-]
-
 FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 

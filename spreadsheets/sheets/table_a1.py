@@ -20,8 +20,6 @@ from spreadsheets.sheets.lines import (
 )
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, step_formulas
 
-__all__ = ["DIGITS", "ROWS", "check_sheet", "sheet"]
-
 ROWS = 5
 """Rows of the table, row 0 (the impact itself) included."""
 

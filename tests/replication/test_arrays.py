@@ -112,9 +112,10 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 
 
 @pytest.mark.parametrize("centered", [False, True])
-def test_compiled_sheets_are_plain_to_the_last_bit(centered: bool) -> None:
+@pytest.mark.parametrize("count", [CASES // 10, pytest.param(CASES, marks=pytest.mark.slow)])
+def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -> None:
     ranges = ((1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
-    columns = drawn(CASES // 10, *ranges)
+    columns = drawn(count, *ranges)
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
     found = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
     rows = zip(*(column.tolist() for column in columns), strict=True)
