@@ -17,7 +17,7 @@ from replication.bench.cases import Case, build
 from replication.bench.methods import MEASURES, OURS, Measure, Task, own_tasks
 from replication.bench.peers import peer_tasks
 
-DIGITS = (1, 2, 3, 4, 6, 8, 10, 12, 13, 14, 15)
+DIGITS = range(1, 16)
 
 BATCH = 5e-3
 """A call is repeated without a look at the clock for about so many seconds."""

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
+from replication.reading import name_of
 
 if TYPE_CHECKING:
     from spreadsheets.verify import EngineCheck
@@ -47,6 +48,8 @@ def run(options: argparse.Namespace) -> int:
     if options.json and not options.verify:
         raise ValueError("--json is for what --verify finds: give both")
     emit.check(options.output, force=options.force)
+    if options.output.suffix.lower() != ".xlsx":
+        raise ValueError(f"{name_of(options.output)}: a workbook's name ends in .xlsx")
     own = options.case is not None or options.case_file is not None or shared.given(options)
     cases = [shared.case(options)] if own else workbook.REPORT
     book = workbook.build(cases, options.scheme, options.rows)

@@ -116,7 +116,9 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
         ("What does not follow from the report", findings.failing),
         ("What public sources give otherwise", findings.differing),
     ):
-        page.block(head, "The report prints", "Computed", "Why", right="BC")
+        page.block(
+            head, "The report prints", "Inputs in use", "Why, with the report’s inputs", right="BC"
+        )
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 92)
