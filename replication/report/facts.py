@@ -124,7 +124,7 @@ def facts(claim: ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str
         for s in claim.sources
     )
     told = {
-        "prints so": quantity((claim.interval_text or "").replace("E", "e"), unit),
+        "rounds to it": quantity((claim.interval_text or "").replace("E", "e"), unit),
         "computed": claim.computed is not None and quantity(number(claim.computed, 10), unit),
         "to 25 digits": claim.reference,
         "proven range": claim.enclosure and between(claim.enclosure),

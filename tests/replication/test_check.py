@@ -172,7 +172,7 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
     from replication import workbook
 
     path = tmp_path / "own.xlsx"
-    path.write_bytes(workbook.to_bytes())
+    path.write_bytes(workbook.build().to_bytes())
     if saved_by == "LibreOffice":
         require_libreoffice()
         (path,) = writers.with_libreoffice([path], tmp_path)

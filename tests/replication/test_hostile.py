@@ -374,7 +374,7 @@ def limited() -> None:
 @pytest.mark.parametrize(
     ("arguments", "target"),
     [
-        (["workbook", "--velocity", "500", "--force", "-o", "target"], "target"),
+        (["workbook", "--velocity", "500", "--force", "-o", "target.xlsx"], "target.xlsx"),
         (["sweep", "plan.toml", "-o", "target.csv"], "target.csv"),
         (["sweep", "plan.toml", "-o", "new.parquet"], "target.csv"),
         pytest.param(["audit", "--out", "."], "audit.json", marks=pytest.mark.slow),

@@ -14,7 +14,7 @@ from hashlib import sha256
 from itertools import pairwise
 from math import inf, nextafter
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import html5lib
@@ -265,7 +265,8 @@ def test_commands_print_what_they_promise(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     workbook = ModuleType("replication.workbook")
-    workbook.to_bytes = lambda record: BESIDE["workbook.xlsx"]  # type: ignore[attr-defined]
+    book = SimpleNamespace(to_bytes=lambda: BESIDE["workbook.xlsx"])
+    workbook.build = lambda record: book  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "replication.workbook", workbook)
     assert main(["audit", "--out", str(tmp_path / "new" / "one"), "--exit-code"]) == 1
     printed = capsys.readouterr().out
