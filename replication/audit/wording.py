@@ -56,8 +56,8 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
             titles = " and ".join(judge.ledger.title(name) for name in claim.inferred)
             return [
                 f"Proven for inputs that print like the report's: it lies in {outward(low, high)}, "
-                "part of which rounds to the print, but no inputs that give this number also give the "
-                f"numbers from which the {titles} is inferred."
+                "part of which rounds to the print, but no inputs that give this number also give "
+                f"the numbers from which the {titles} is inferred."
             ]
         case Verdict.NOT_REPRODUCED:
             side = _side(claim.interval(), low, high)
