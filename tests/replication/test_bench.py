@@ -260,7 +260,7 @@ def test_the_table_says_it_all(run_of_fakes: Bench) -> None:
         "  history, 15 digits: none of these",
         "  final depth of many cases, 1 to 15 digits: closed form, many, 0.1 us; the others' best "
         "takes 3e+04 to 4e+04 times as long; some cases are beyond the others",
-        "  history of many cases, 1 to 4 digits: RK4, 40 us",
+        "  history of many cases, 1 to 5 digits: RK4, 40 us",
         "  history of many cases, 6 to 14 digits: Taylor series, 200 us; some cases are beyond the "
         "others",
         "  history of many cases, 15 digits: none of these",
