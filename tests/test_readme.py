@@ -66,6 +66,12 @@ def test_the_rates_are_those_measured() -> None:
     assert f"first of all in {first}, and another entry first in {accused}." in text
 
 
+def test_times_are_those_of_the_whole_table() -> None:
+    (block,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
+    whole = (ROOT / "docs" / "bench" / "bench.txt").read_text("utf-8").splitlines()
+    assert {line.rstrip() for line in block.splitlines()} <= {line.rstrip() for line in whole}
+
+
 @pytest.mark.parametrize(
     "document",
     ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/sweeps/README.md"],
