@@ -60,25 +60,25 @@ class Rows:
     columns: Mapping[str, Mapping[int, float]]
     case: Case
 
+    def __getitem__(self, cell: tuple[str, int]) -> float:
+        """The number in a role and row. Raises KeyError if there is none."""
+        role, k = cell
+        if role in self.columns and k in self.columns[role]:
+            return self.columns[role][k]
+        if role not in self.columns and role == "velocity_final":
+            return self.columns["velocity_initial"][k + 1]
+        if role not in self.columns and role == "velocity_initial":
+            return self.case.velocity if k <= 1 else self.columns["velocity_final"][k - 1]
+        if k == 0:  # what a row 0 that is not shown would hold
+            return self.case.velocity if role.startswith("velocity") else 0.0
+        raise KeyError(cell)
+
     def __call__(self, role: str, k: int) -> float | None:
         """The number in a role and row, if it is there."""
-        value = self.columns.get(role, {}).get(k)
-        if value is not None or role in self.columns:
-            return self._start(role, k) if value is None else value
-        if role == "velocity_final":
-            return self.columns["velocity_initial"].get(k + 1)
-        if role == "velocity_initial":
-            return self.case.velocity if k <= 1 else self.columns["velocity_final"].get(k - 1)
-        return self._start(role, k)
-
-    def _start(self, role: str, k: int) -> float | None:
-        """What a row 0 that is not shown would hold."""
-        if k != 0:
+        try:
+            return self[role, k]
+        except KeyError:
             return None
-        return self.case.velocity if role.startswith("velocity") else 0.0
-
-
-Value = Callable[[Case, Rows, int], float | None]
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,15 @@ class Rule:
     """One way to fill a column. `says` completes "here"; the report's own says nothing."""
 
     name: str
-    value: Value
+    formula: Callable[[Case, Rows, int], float]
     says: str = ""
+
+    def value(self, case: Case, rows: Rows, k: int) -> float | None:
+        """What the cell of a row should hold, None where a cell that the rule needs is missing."""
+        try:
+            return self.formula(case, rows, k)
+        except KeyError:
+            return None
 
 
 @dataclass(frozen=True)
@@ -107,8 +114,7 @@ class Rules:
 
     def others(self) -> list[tuple[str, Rule]]:
         """The parts that are not the report's."""
-        parts = ((name, self.part(name)) for name in ("start", "advance", "brake", "end"))
-        return [(name, rule) for name, rule in parts if rule.says]
+        return [(name, rule) for name, rule in vars(self).items() if rule.says]
 
     @property
     def name(self) -> str:
@@ -169,116 +175,95 @@ def orders(case: Case, x: float, v: float) -> set[float]:
     }
 
 
-def _with(
-    how: Callable[[Case, float, float, Rows, int], float | None],
-) -> Value:
-    def value(case: Case, rows: Rows, k: int) -> float | None:
-        x, v = rows("depth", k), rows("velocity_initial", k)
-        return None if x is None or v is None else how(case, x, v, rows, k)
-
-    return value
+def _brake(name: str, formula: Callable[[Case, float, float], float], says: str = "") -> Rule:
+    """A rule for the deceleration from the row's own depth and initial velocity."""
+    return Rule(name, lambda c, r, k: formula(c, r["depth", k], r["velocity_initial", k]), says)
 
 
-def _centered(case: Case, x: float, v: float, *_: object) -> float:
+def _centered(case: Case, x: float, v: float) -> float:
     return deceleration(case, x, v - deceleration(case, x, v) * (case.step / 2))
 
 
-def _at_start(case: Case, rows: Rows, k: int) -> float | None:
-    x, v = rows("depth", k - 1), rows("velocity_initial", k)
-    return None if x is None or v is None else deceleration(case, x, v)
-
-
 BRAKES = (
-    Rule("velocity at the beginning", _with(lambda c, x, v, *_: deceleration(c, x, v))),
-    Rule("centered", _with(_centered),
-         "the drag is taken at the velocity in the middle of the step, half a step ahead of the "
-         "row's initial velocity"),
-    Rule("explicit Euler", _at_start, "the force is taken at the depth of the row before"),
-    Rule("no drag", _with(lambda c, x, v, *_: deceleration(c, x, v, factor=0.0)),
-         "the force lacks the term with the target's density"),
-    Rule("drag without 1/2", _with(lambda c, x, v, *_: deceleration(c, x, v, factor=1.0)),
-         "the factor 1/2 before the target's density is missing"),
-    Rule("drag at impact velocity", _with(lambda c, x, _, *__: deceleration(c, x, c.velocity)),
-         "the drag is taken at the impact velocity in every row"),
-    Rule("area without x²", _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.diameter * x)),
-         "the contact area is pi D x, without - x²"),
-    Rule("area with R for D",
-         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.radius * x - x * x)),
-         "the contact area has the radius where the diameter belongs"),
-    Rule("area of the whole sphere",
-         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.radius * c.radius)),
-         "the contact area is that of the whole sphere, pi R², at every depth"),
-    Rule("area beyond the radius",
-         _with(lambda c, x, v, *_: deceleration(c, x, v, area=c.diameter * x - x * x)),
-         "the contact area shrinks again beyond the depth R, where the report keeps pi R²"),
-    Rule("drag at the row before", _with(lambda c, x, _, rows, k: None if (
-        v := rows("velocity_initial", k - 1)) is None else deceleration(c, x, v)),
+    _brake("velocity at the beginning", deceleration),
+    _brake("centered", _centered,
+           "the drag is taken at the velocity in the middle of the step, half a step ahead of the "
+           "row's initial velocity"),
+    Rule("explicit Euler",
+         lambda c, r, k: deceleration(c, r["depth", k - 1], r["velocity_initial", k]),
+         "the force is taken at the depth of the row before"),
+    _brake("no drag", lambda c, x, v: deceleration(c, x, v, factor=0.0),
+           "the force lacks the term with the target's density"),
+    _brake("drag without 1/2", lambda c, x, v: deceleration(c, x, v, factor=1.0),
+           "the factor 1/2 before the target's density is missing"),
+    _brake("drag at impact velocity", lambda c, x, _: deceleration(c, x, c.velocity),
+           "the drag is taken at the impact velocity in every row"),
+    _brake("area without x²", lambda c, x, v: deceleration(c, x, v, area=c.diameter * x),
+           "the contact area is pi D x, without - x²"),
+    _brake("area with R for D",
+           lambda c, x, v: deceleration(c, x, v, area=c.radius * x - x * x),
+           "the contact area has the radius where the diameter belongs"),
+    _brake("area of the whole sphere",
+           lambda c, x, v: deceleration(c, x, v, area=c.radius * c.radius),
+           "the contact area is that of the whole sphere, pi R², at every depth"),
+    _brake("area beyond the radius",
+           lambda c, x, v: deceleration(c, x, v, area=c.diameter * x - x * x),
+           "the contact area shrinks again beyond the depth R, where the report keeps pi R²"),
+    Rule("drag at the row before",
+         lambda c, r, k: deceleration(c, r["depth", k], r["velocity_initial", k - 1]),
          "the drag is taken at the initial velocity of the row before"),
 )  # fmt: skip
 
 STARTS = (
-    Rule("half step", lambda c, r, k: _times(r("velocity_initial", k), c.step / 2)),
-    Rule("no half step", lambda c, r, k: _times(r("velocity_initial", k), c.step),
+    Rule("half step", lambda c, r, k: r["velocity_initial", k] * (c.step / 2)),
+    Rule("no half step", lambda c, r, k: r["velocity_initial", k] * c.step,
          "the first depth is V times the whole step; the report takes half of it"),
     Rule("starts at zero", lambda *_: 0.0,
          "the first step leaves the depth at zero; the report takes V times half a step"),
 )  # fmt: skip
 
+
+def _advance(name: str, speed: Callable[[Rows, int], float], says: str = "") -> Rule:
+    """A rule for the depth from that of the row before and a velocity."""
+    return Rule(name, lambda c, r, k: r["depth", k - 1] + speed(r, k) * c.step, says)
+
+
+def _mean(rows: Rows, k: int) -> float:
+    return (rows["velocity_initial", k] + rows["velocity_final", k]) / 2
+
+
 ADVANCES = (
-    Rule("initial velocity", lambda c, r, k: _moved(r, k, c.step, r("velocity_initial", k))),
-    Rule("explicit Euler", lambda c, r, k: _moved(r, k, c.step, r("velocity_initial", k - 1)),
-         "the depth moves on by the initial velocity of the row before"),
-    Rule("final velocity", lambda c, r, k: _moved(r, k, c.step, r("velocity_final", k)),
-         "the depth moves on by the velocity at the end of the row"),
-    Rule("mean velocity", lambda c, r, k: _moved(
-        r, k, c.step, _mean(r("velocity_initial", k), r("velocity_final", k))),
-         "the depth moves on by the mean of the row's two velocities"),
-    Rule("mean velocity of the row before", lambda c, r, k: _moved(
-        r, k, c.step, _mean(r("velocity_initial", k - 1), r("velocity_final", k - 1))),
-         "the depth moves on by the mean of the velocities of the row before"),
-    Rule("half steps throughout", lambda c, r, k: _moved(
-        r, k, c.step / 2, r("velocity_initial", k)),
-         "every step moves the depth by half a step only"),
+    _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
+    _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
+             "the depth moves on by the initial velocity of the row before"),
+    _advance("final velocity", lambda r, k: r["velocity_final", k],
+             "the depth moves on by the velocity at the end of the row"),
+    _advance("mean velocity", _mean,
+             "the depth moves on by the mean of the row's two velocities"),
+    _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
+             "the depth moves on by the mean of the velocities of the row before"),
+    _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,
+             "every step moves the depth by half a step only"),
 )  # fmt: skip
 
+
+def _by_energy(_: Case, rows: Rows, k: int) -> float:
+    v, way = rows["velocity_initial", k], rows["depth", k] - rows["depth", k - 1]
+    return math.sqrt(max(v * v - 2 * rows["deceleration", k] * way, 0.0))
+
+
 ENDINGS = (
-    Rule("whole step", lambda c, r, k: _slowed(r, k, c.step)),
-    Rule("half a step", lambda c, r, k: _slowed(r, k, c.step / 2),
+    Rule("whole step", lambda c, r, k: r["velocity_initial", k] - r["deceleration", k] * c.step),
+    Rule("half a step",
+         lambda c, r, k: r["velocity_initial", k] - r["deceleration", k] * (c.step / 2),
          "the velocity falls by the deceleration times half a step only"),
-    Rule("by energy", lambda _, r, k: _by_energy(r, k),
+    Rule("by energy", _by_energy,
          "the velocity follows from v² - 2 a times the step in depth"),
 )  # fmt: skip
 
 
 REPORT = Rules(STARTS[0], ADVANCES[0], BRAKES[0], ENDINGS[0])
 """The report's own scheme."""
-
-
-def _times(a: float | None, b: float | None) -> float | None:
-    return None if a is None or b is None else a * b
-
-
-def _mean(a: float | None, b: float | None) -> float | None:
-    return None if a is None or b is None else (a + b) / 2
-
-
-def _moved(rows: Rows, k: int, step: float, velocity: float | None) -> float | None:
-    before = rows("depth", k - 1)
-    return None if before is None or velocity is None else before + velocity * step
-
-
-def _slowed(rows: Rows, k: int, step: float) -> float | None:
-    v, a = rows("velocity_initial", k), rows("deceleration", k)
-    return None if v is None or a is None else v - a * step
-
-
-def _by_energy(rows: Rows, k: int) -> float | None:
-    v, a = rows("velocity_initial", k), rows("deceleration", k)
-    x, before = rows("depth", k), rows("depth", k - 1)
-    if v is None or a is None or x is None or before is None:
-        return None
-    square = v * v - 2 * a * (x - before)
-    return math.sqrt(square) if square >= 0 else None
 
 
 def march(
