@@ -2,7 +2,8 @@
 
 import random
 
-from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters
+from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters, place
+from openpyxl.utils.cell import absolute_coordinate
 
 from replication.models.impact import Impact
 
@@ -91,12 +92,11 @@ def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from
         lines = ["n", *[name for name in lines if name != "n"]]
     gap = 2 if r.random() < 0.15 else 1
     line = {name: i * gap for i, name in enumerate(lines)}
+    known = {role: UNITS.get(role, [("m/s", "")]) for role in order}
     units = {
-        role: ("m/s", "") if simple or role not in UNITS else r.choice(UNITS[role])
+        role: known[role][0] if simple or role not in UNITS else r.choice(known[role])
         for role in order
     }
-    if simple:
-        units = {role: (UNITS.get(role, [("m/s", "")])[0]) for role in order}
     first = 2 if with_units == "row" else 1
     for name in lines:
         head = (
@@ -161,8 +161,7 @@ def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from
         for name, content in values.items():
             f.put(sheet, cell(name, k), content)
             if name in order:
-                column, row = _split(cell(name, k))
-                f.where[name, k] = (sheet, row, column)
+                f.where[name, k] = place(sheet, cell(name, k))
     return f
 
 
@@ -196,21 +195,11 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
             if beside and not simple:
                 f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
         f.put(sheet, here, value)
-        column, at = _split(here)
-        f.inputs[name] = (sheet, at, column)
-        absolute = f"${letters(column)}${at}"
+        f.inputs[name] = place(sheet, here)
+        absolute = absolute_coordinate(here)
         si[name] = f"({absolute}{conversion})" if conversion else absolute
     mass = f"{letters(col + (7 if flat else 1))}{row + (1 if flat else 7)}"
     label = f"{letters(col + (7 if flat else 0))}{row + (0 if flat else 7)}"
     f.put(sheet, label, "mass [kg]")
     f.put(sheet, mass, f"={si['particle_density']}*4/3*PI()*{si['radius']}^3")
-    column, at = _split(mass)
-    return si | {"mass": f"${letters(column)}${at}"}
-
-
-def _split(address: str) -> tuple[int, int]:
-    text = address.rstrip("0123456789")
-    number = 0
-    for letter in text:
-        number = number * 26 + ord(letter) - ord("A") + 1
-    return number, int(address[len(text) :])
+    return si | {"mass": absolute_coordinate(mass)}

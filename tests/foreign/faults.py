@@ -2,7 +2,7 @@
 
 import copy
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters
@@ -26,8 +26,20 @@ def ref(place: Place) -> str:
     return f"{letters(place[2])}{place[1]}"
 
 
-def _copy(f: Foreign) -> Foreign:
-    return copy.deepcopy(f)
+def _changed(
+    f: Foreign, fault: str, kind: str, changes: Mapping[Place, str | float],
+    cells: Sequence[Place] = (), status: int = 1,
+) -> Planted:  # fmt: skip
+    """A copy with other contents; it ought to be named at one of `cells`, or the first changed."""
+    g = copy.deepcopy(f)
+    g.cells |= changes
+    return Planted(fault, kind, g, tuple(cells) or (next(iter(changes)),), status=status)
+
+
+def _number(values: Values, place: Place) -> float:
+    value = values[place]
+    assert isinstance(value, float)
+    return value
 
 
 def _formula(f: Foreign, role: str, k: int) -> str | None:
@@ -41,20 +53,17 @@ def stale_value(f: Foreign, values: Values) -> Planted | None:
     if _formula(f, BRAKE, 60) is None:
         return None
     place = f.where[BRAKE, 60]
-    value = values[place]
-    assert isinstance(value, float)
-    return Planted("stale value", "stale value", f, (place,), {place: value * (1 + 1e-11)})
+    wrong: Values = {place: _number(values, place) * (1 + 1e-11)}
+    return Planted("stale value", "stale value", f, (place,), wrong)
 
 
 def typed_number(f: Foreign, values: Values) -> Planted | None:
     """A number over a formula, half a percent off."""
     if _formula(f, DEPTH, 40) is None:
         return None
-    g, place = _copy(f), f.where[DEPTH, 40]
-    value = values[place]
-    assert isinstance(value, float)
-    g.cells[place] = float(f"{value * 1.005:.6g}")
-    return Planted("typed number", "typed number", g, (place,))
+    place = f.where[DEPTH, 40]
+    typed = float(f"{_number(values, place) * 1.005:.6g}")
+    return _changed(f, "typed number", "typed number", {place: typed})
 
 
 def typed_right_number(f: Foreign, values: Values) -> Planted | None:
@@ -62,11 +71,9 @@ def typed_right_number(f: Foreign, values: Values) -> Planted | None:
     role = END if (END, 77) in f.where else START
     if _formula(f, role, 77) is None:
         return None
-    g, place = _copy(f), f.where[role, 77]
-    value = values[place]
-    assert isinstance(value, float)
-    g.cells[place] = value
-    return Planted("typed number, right value", "typed number", g, (place,))
+    place = f.where[role, 77]
+    right = _number(values, place)
+    return _changed(f, "typed number, right value", "typed number", {place: right})
 
 
 def odd_formula(f: Foreign, _: Values) -> Planted | None:
@@ -75,9 +82,7 @@ def odd_formula(f: Foreign, _: Values) -> Planted | None:
     before = _formula(f, DEPTH, 51)
     if text is None or before is None or text == before:
         return None
-    g = _copy(f)
-    g.cells[f.where[DEPTH, 52]] = before
-    return Planted("odd formula", "odd formula", g, (f.where[DEPTH, 52],))
+    return _changed(f, "odd formula", "odd formula", {f.where[DEPTH, 52]: before})
 
 
 def odd_sign(f: Foreign, _: Values) -> Planted | None:
@@ -85,9 +90,8 @@ def odd_sign(f: Foreign, _: Values) -> Planted | None:
     text = _formula(f, BRAKE, 33)
     if text is None:
         return None
-    g = _copy(f)
-    g.cells[f.where[BRAKE, 33]] = f"=({text[1:]})*1.01"
-    return Planted("odd formula, factor", "odd formula", g, (f.where[BRAKE, 33],))
+    odd = {f.where[BRAKE, 33]: f"=({text[1:]})*1.01"}
+    return _changed(f, "odd formula, factor", "odd formula", odd)
 
 
 def _constants(f: Foreign) -> list[tuple[str, str, str]]:
@@ -118,35 +122,28 @@ def typed_constant(f: Foreign, _: Values) -> Planted | None:
     changed = _typed(f, text) if text else None
     if changed is None:
         return None
-    g = _copy(f)
-    g.cells[f.where[BRAKE, 45]] = changed
-    return Planted("typed constant, one cell", "typed constant", g, (f.where[BRAKE, 45],))
+    typed = {f.where[BRAKE, 45]: changed}
+    return _changed(f, "typed constant, one cell", "typed constant", typed)
 
 
 def typed_column(f: Foreign, _: Values) -> Planted | None:
     """An input's value in place of its cell, in a whole column."""
-    g, cells = _copy(f), []
-    for k in range(1, f.steps + 1):
-        text = _formula(f, BRAKE, k)
-        changed = _typed(f, text) if text else None
-        if changed:
-            cells.append(f.where[BRAKE, k])
-            g.cells[f.where[BRAKE, k]] = changed
-    return Planted("typed constant, column", "typed constant", g, (cells[0],)) if cells else None
+    texts = {f.where[BRAKE, k]: text for k in range(1, f.steps + 1)
+             if (text := _formula(f, BRAKE, k))}  # fmt: skip
+    typed = {place: changed for place, text in texts.items() if (changed := _typed(f, text))}
+    return _changed(f, "typed constant, column", "typed constant", typed) if typed else None
 
 
 def operation_order(f: Foreign, _: Values) -> Planted | None:
     """The same product from its other end, which changes last digits."""
-    g, changed = _copy(f), False
+    changes = {}
     for k in range(1, f.steps + 1):
         text = _formula(f, BRAKE, k)
         match = re.fullmatch(r"=(-?\(.*?\))\*PI\(\)\*(\(.*\))/([^/()]+)", text or "")
         if match is None or not f.si:
             return None
-        g.cells[f.where[BRAKE, k]] = f"={match[1]}/{match[3]}*({match[2]}*PI())"
-        changed = True
-    cells = tuple(f.where[BRAKE, k] for k in range(1, f.steps + 1))
-    return Planted("operation order", "operation order", g, cells) if changed else None
+        changes[f.where[BRAKE, k]] = f"={match[1]}/{match[3]}*({match[2]}*PI())"
+    return _changed(f, "operation order", "operation order", changes, list(changes))
 
 
 def no_half_step(f: Foreign, _: Values) -> Planted | None:
@@ -156,41 +153,32 @@ def no_half_step(f: Foreign, _: Values) -> Planted | None:
         return None
     for half, whole in (("/2", ""), ("*0.0000000001", "*0.0000000002")):
         if text.count(half) >= 1:
-            at = text.index(half)
-            g = _copy(f)
-            g.cells[f.where[DEPTH, 1]] = text[:at] + whole + text[at + len(half) :]
-            return Planted("no half step", "other scheme", g, (f.where[DEPTH, 1],))
+            changed = text.replace(half, whole, 1)
+            return _changed(f, "no half step", "other scheme", {f.where[DEPTH, 1]: changed})
     return None
 
 
 def middle_velocity(f: Foreign, _: Values) -> Planted | None:
     """The drag at the velocity in the middle of the step."""
-    g = _copy(f)
-    step = _step(f)
-    if step is None:
+    helped = {"A(x)", "force"} & set(f.cells.values())
+    if helped or not f.si:
         return None
+    changes = {}
     for k in range(1, f.steps + 1):
         text = _formula(f, BRAKE, k)
-        helped = "A(x)" in f.cells.values() or "force" in f.cells.values()
-        if text is None or helped or not f.si or (START, k) not in f.where:
+        if text is None or (START, k) not in f.where:
             return None
+        guarded = re.fullmatch(r"(=IF\(ISNUMBER\(\w+\),)(.*)(,\"\"\))", text)
+        before, inner, after = guarded.groups() if guarded else ("=", text[1:], "")
+        sign = "+" if inner.startswith("-") else "-"
         v = ref(f.where[START, k])
-        sign = "+" if text.startswith("=-") else "-"
-        inner = text[1:]
-        middle = f"({v}{sign}({inner})*{step}/2)"
-        guarded = re.fullmatch(r"=IF\((ISNUMBER\(\w+\)),(.*),\"\"\)", text)
-        if guarded:
-            inner = guarded[2]
-            middle = f"({v}{sign}({inner})*{step}/2)"
-            changed = re.sub(rf"(?<![\w$]){v}(?!\d)", middle, inner)
-            g.cells[f.where[BRAKE, k]] = f'=IF({guarded[1]},{changed},"")'
-        else:
-            g.cells[f.where[BRAKE, k]] = "=" + re.sub(rf"(?<![\w$]){v}(?!\d)", middle, inner)
-    return Planted("middle velocity", "other scheme", g,
-                   tuple(f.where[BRAKE, k] for k in (1, 2, 3)))  # fmt: skip
+        middle = f"({v}{sign}({inner})*{_step(f)}/2)"
+        changed = re.sub(rf"(?<![\w$]){v}(?!\d)", middle, inner)
+        changes[f.where[BRAKE, k]] = f"{before}{changed}{after}"
+    return _changed(f, "middle velocity", "other scheme", changes, list(changes)[:3])
 
 
-def _step(f: Foreign) -> str | None:
+def _step(f: Foreign) -> str:
     if "step" not in f.inputs:
         return "0.0000000002"
     place = f.inputs["step"]
@@ -202,39 +190,36 @@ def _step(f: Foreign) -> str | None:
 
 def explicit_euler(f: Foreign, _: Values) -> Planted | None:
     """The depth moves on by the velocity of the row before."""
-    g, cells = _copy(f), []
+    changes = {}
     for k in range(2, f.steps + 1):
         text = _formula(f, DEPTH, k)
-        if text is None:
-            return None
-        if (START, k) not in f.where:
+        if text is None or (START, k) not in f.where:
             return None
         now, before = ref(f.where[START, k]), ref(f.where[START, k - 1])
         changed = re.sub(rf"(?<![\w$]){now}(?!\d)", before, text)
         if changed == text:
             return None
-        g.cells[f.where[DEPTH, k]] = changed
-        cells.append(f.where[DEPTH, k])
+        changes[f.where[DEPTH, k]] = changed
     # In row 2 the velocity of the row before is still nearly the same: row 2 or 3 shows it.
-    return Planted("explicit Euler", "other scheme", g, tuple(cells[:3]))
+    return _changed(f, "explicit Euler", "other scheme", changes, list(changes)[:3])
 
 
 def drag_without_half(f: Foreign, _: Values) -> Planted | None:
     """The factor 1/2 of the drag left out."""
-    g = _copy(f)
+    changes = {}
     for k in range(1, f.steps + 1):
         text = _formula(f, BRAKE, k)
         if text is None or "0.5*" not in text:
             return None
-        g.cells[f.where[BRAKE, k]] = text.replace("0.5*", "", 1)
-    return Planted("drag without 1/2", "other scheme", g, (f.where[BRAKE, 1],))
+        changes[f.where[BRAKE, k]] = text.replace("0.5*", "", 1)
+    return _changed(f, "drag without 1/2", "other scheme", changes)
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
     """The last nine rows are missing."""
     if _formula(f, DEPTH, 40) is None or f.name in ("guarded", "side-by-side"):
         return None
-    g = _copy(f)
+    g = copy.deepcopy(f)
     for (role, k), place in f.where.items():
         if k > f.steps - 9:
             del g.cells[place]
@@ -275,9 +260,8 @@ def wrong_head(f: Foreign, _: Values) -> Planted | None:
                              (" / m", " / mm"), ("nm", "µm"), ("mm", "µm")):  # fmt: skip
                 said = re.compile(re.escape(old) + r"(?!\w)")
                 if said.search(text) or (text == old.strip("()[]") == "m"):
-                    g = _copy(f)
-                    g.cells[here] = said.sub(new, text) if said.search(text) else "mm"
-                    return Planted("unit in a head", "unit", g, (here,))
+                    changed = said.sub(new, text) if said.search(text) else "mm"
+                    return _changed(f, "unit in a head", "unit", {here: changed})
     return None
 
 
@@ -289,9 +273,7 @@ def wrong_unit_input(f: Foreign, _: Values) -> Planted | None:
     value = f.cells[place]
     if not isinstance(value, float | int) or _formula(f, DEPTH, 3) is None:
         return None
-    g = _copy(f)
-    g.cells[place] = float(f"{value * 1000:.12g}")
-    return Planted("unit of an input", "unit", g, (place,))
+    return _changed(f, "unit of an input", "unit", {place: float(f"{value * 1000:.12g}")})
 
 
 def other_velocity(f: Foreign, _: Values) -> Planted | None:
@@ -310,7 +292,6 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
     """A final depth typed beside the table, with two digits swapped."""
     if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
         return None
-    g = _copy(f)
     labels = [
         p
         for p, t in f.cells.items()
@@ -319,13 +300,12 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
     if labels:
         sheet, row, column = labels[0]
         unit = 1 if "µm" in str(f.cells[labels[0]]) else 1e-6
-        g.cells[sheet, row, column + 1] = 7.76 * unit
+        changes: dict[Place, str | float] = {(sheet, row, column + 1): 7.76 * unit}
     else:
         sheet, _, _ = f.where[DEPTH, 1]
         row, column = max(p[1] for p in f.cells if p[0] == sheet) + 3, 2
-        g.cells[sheet, row, column] = "final depth (µm)"
-        g.cells[sheet, row, column + 1] = 7.76
-    return Planted("misprint", "printed number", g, ((sheet, row, column + 1),))
+        changes = {(sheet, row, column + 1): 7.76, (sheet, row, column): "final depth (µm)"}
+    return _changed(f, "misprint", "printed number", changes)
 
 
 FAULTS: tuple[Callable[[Foreign, Values], Planted | None], ...] = (
