@@ -3,11 +3,12 @@
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
 from replication.check.findings import Findings, joined
-from replication.check.inputs import NEAR, Input
+from replication.check.inputs import NEAR, Input, follows
 from replication.check.lines import Line, address
 from replication.check.scheme import BRAKES, REPORT, Case, orders
 from replication.check.table import Table
@@ -31,8 +32,9 @@ def irregular(
     formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
     if len(formulas) < max(3, 0.5 * len(places)):
         return
-    for shape in (_exact, _masked):
-        shapes = {place: shape(formula) for place, formula in formulas.items()}
+    # Some people type the number of the row into each formula: then the shapes without numbers.
+    for masked in (False, True):
+        shapes = {place: _shape(formula, masked) for place, formula in formulas.items()}
         usual, often = Counter(shapes.values()).most_common(1)[0]
         if often >= 0.5 * len(formulas):
             break
@@ -44,34 +46,24 @@ def irregular(
             if shapes[place] != usual:
                 yield place, _odd(formulas[place], pattern, calculation)
         elif calculation.number(place) is not None:
-            usual_text = _filled(pattern, place, calculation)
-            yield (
-                place,
-                ("typed number", f"a number is typed where {short(usual_text)} would stand"),
-            )
+            stand = f"a number is typed where {_filled(pattern, place, calculation)} would stand"
+            yield place, ("typed number", stand)
 
 
-def _exact(formula: Formula) -> tuple[str, ...]:
-    return formula.shape
-
-
-def _masked(formula: Formula) -> tuple[str, ...]:
-    """Without numbers: some people type the number of the row into each formula."""
+def _shape(formula: Formula, masked: bool) -> tuple[str, ...]:
     pairs = zip(formula.pieces, formula.shape, strict=True)
-    return tuple("#" if piece.kind == "number" else shape for piece, shape in pairs)
+    return tuple("#" if masked and piece.kind == "number" else shape for piece, shape in pairs)
 
 
 def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
     """Whether a formula unlike its column has a number where the others have a reference."""
-    text = short(calculation.book[formula.place].formula or "")
-    usual = short(_filled(pattern, formula.place, calculation))
+    text = _short(calculation.book[formula.place].formula or "")
+    usual = _filled(pattern, formula.place, calculation)
     typed = Counter(formula.literals) - Counter(pattern.literals)
     if typed and len(formula.areas) < len(pattern.areas):
         numbers = " and ".join(f"{number:g}" for number in typed)
-        return (
-            "typed constant",
-            f"{numbers} is typed where its column reads a cell: {text}, not {usual}",
-        )
+        where = f"{numbers} is typed where its column reads a cell: {text}, not {usual}"
+        return "typed constant", where
     return "odd formula", f"{text} is unlike its column, where {usual} would stand"
 
 
@@ -80,13 +72,12 @@ def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
     from openpyxl.formula.translate import Translator, TranslatorError
 
     text = calculation.book[pattern.place].formula or ""
-    try:
-        return str(Translator(text, address(pattern.place)).translate_formula(address(place)))
-    except TranslatorError:
-        return text
+    with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
+        text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
+    return _short(text)
 
 
-def short(text: str) -> str:
+def _short(text: str) -> str:
     """A formula, cut where it would fill the screen."""
     return text if len(text) <= 90 else f"{text[:87]}..."
 
@@ -153,9 +144,9 @@ def each_cell(f: Findings) -> None:
             shown, found = f.shown(role, expected), column.get(k)
             if found and expected and math.isclose(found, expected, rel_tol=1e-9):
                 text += "; it gives the right value here"
-            f.add(kind, [place], shown, f.held(place), text)
+            f.add(kind, [place], shown, text)
     for place, (kind, text) in odd.items():
-        f.add(kind, [place], None, f.held(place), text)
+        f.add(kind, [place], None, text)
     f.differences = list(joined(f.differences, f.table.across))
 
 
@@ -170,11 +161,7 @@ def _expected(f: Findings, role: str, k: int) -> float | None:
     if role.startswith("velocity") and k > (role == "velocity_initial"):
         if role == "velocity_initial" and "velocity_final" in rows.columns:
             return rows("velocity_final", k - 1)
-        row = k if role == "velocity_final" else k - 1
-        if "deceleration" in rows.columns:
-            return f.rules.end.value(f.case, rows, row)
-        a, v = f.rules.brake.value(f.case, rows, row), rows("velocity_initial", row)
-        return None if a is None or v is None else v - a * f.case.step
+        return f.slowed(k if role == "velocity_final" else k - 1)
     return f.rules.value(role, f.case, rows, k)
 
 
@@ -195,10 +182,6 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     return abs(found - expected) > NEAR * size
 
 
-def _near(found: float, wanted: float | None) -> bool:
-    return wanted is not None and math.isclose(found, wanted, rel_tol=NEAR)
-
-
 def _breaks(f: Findings, place: Position) -> bool:
     """Whether a cell gives an error that comes from no other cell of the table."""
     formula = f.calculation.formulas.get(place)
@@ -211,32 +194,26 @@ def _breaks(f: Findings, place: Position) -> bool:
 def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
     """The kind of a cell that alone is not what the cells before it give."""
     place = f.table.place(role, k)
-    found, typed = (
-        f.setting.rows.columns[role].get(k),
-        place not in f.calculation.formulas,
-    )
+    found = f.setting.rows.columns[role].get(k)
+    typed = place not in f.calculation.formulas
+    alone = "typed number" if typed else "odd formula"
     what = f"{title(role)} of row {k} is not what the cells before it give"
     if error := f.calculation.error(place):
-        return (
-            "odd formula",
-            f"{title(role)} of row {k} gives {error}, as do all cells that read it",
-        )
+        text = f"{title(role)} of row {k} gives {error}, as do all cells that read it"
+        return "odd formula", text
     if found is None:
-        return (
-            "typed number" if typed else "odd formula",
-            f"no number in {title(role)} of row {k}",
-        )
+        return alone, f"no number in {title(role)} of row {k}"
     if role == "time" and k == 1 and found == 0:
         return "other scheme", "the times are those at the beginning of the rows"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
     beyond = next(rule for rule in BRAKES if rule.name == "area beyond the radius")
-    if role == "deceleration" and _near(found, beyond.value(f.case, f.setting.rows, k)):
+    if role == "deceleration" and follows(f.setting, "brake", beyond, k):
         return "other scheme", f"{beyond.name}: {beyond.says}"
     power = power_of_ten(found / expected) if expected else None
     if power:
         return "unit", f"{what}: a factor of 1e{abs(power)}"
-    return "typed number" if typed else "odd formula", what
+    return alone, what
 
 
 def order(f: Findings) -> None:
@@ -260,7 +237,7 @@ def order(f: Findings) -> None:
                 f"this one by {ulps} ulp: the formula calculates in another order, on which no "
                 "printed digit depends"
             )
-            f.add("operation order", cells, f.shown(role, wanted), f.held(cells[0]), text)
+            f.add("operation order", cells, f.shown(role, wanted), text)
 
 
 def _masses(f: Findings) -> Iterator[float]:

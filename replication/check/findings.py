@@ -82,9 +82,13 @@ class Findings:
         return {cell for fault in faults for cell in fault.cells}
 
     def add(
-        self, kind: str, cells: Sequence[Position], expected: Text, found: Text, text: str
+        self, kind: str, cells: Sequence[Position], expected: Text, text: str, found: Text = None
     ) -> None:
-        """Add a difference that concerns some cells, the first of them the one to look at."""
+        """Add a difference that concerns some cells, the first of them the one to look at.
+
+        What is `found` is what that cell holds, unless something else is given.
+        """
+        found = self.held(cells[0]) if found is None else found
         order = rank(cells[0], self.setting, self.calculation)
         if isinstance(expected, float) and not math.isfinite(expected):
             expected = None
@@ -95,6 +99,14 @@ class Findings:
         """The cells of a column from a row on."""
         last = self.table.steps if last is None else last
         return [self.table.place(role, k) for k in range(first, max(first, last) + 1)]
+
+    def slowed(self, k: int) -> float | None:
+        """The velocity at the end of a row, by the rules and from the row's other cells."""
+        rows = self.setting.rows
+        if "deceleration" in rows.columns:
+            return self.rules.end.value(self.case, rows, k)
+        a, v = self.rules.brake.value(self.case, rows, k), rows("velocity_initial", k)
+        return None if a is None or v is None else v - a * self.case.step
 
     def shown(self, role: str, value: float | None) -> float | None:
         """A value in SI as its column holds it, in the column's unit and with its sign."""

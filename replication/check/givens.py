@@ -10,7 +10,15 @@ from replication.check.findings import Findings
 from replication.check.inputs import NEAR, Input, agreement
 from replication.check.lines import address
 from replication.check.scheme import BRAKES, with_input
-from replication.check.words import power_of_ten, quantity, scaled, title, titles, unit_text
+from replication.check.words import (
+    power_of_ten,
+    quantity,
+    scaled,
+    times_too,
+    title,
+    titles,
+    unit_text,
+)
 from spreadsheets.foreign import Position
 
 __all__ = ["calibrate", "derived", "other_inputs", "typed_inputs", "units"]
@@ -22,7 +30,7 @@ def units(f: Findings) -> None:
         line, right = f.table.lines[role], unit_text(role, f.setting.powers[role])
         place = line.unit_place or f.table.place(role, 1)
         text = f"the head gives {title(role)} in {line.unit}, but the numbers are in {right}"
-        f.add("unit", [place], right, line.unit, f"{text}, a factor of 1e{abs(slip)}")
+        f.add("unit", [place], right, f"{text}, a factor of 1e{abs(slip)}", line.unit)
 
 
 def other_inputs(f: Findings) -> None:
@@ -50,8 +58,8 @@ def other_inputs(f: Findings) -> None:
         power = power_of_ten(own.si / nearest) if len(off) == 1 else None
         kind = "unit" if power else "other input"
         text += f": a factor of 1e{abs(power)}" if power else ""
-        found = own.si if own.place is None else f.calculation.number(own.place)
-        f.add(kind, [place], scaled(nearest, 1 / own.factor), found, text)
+        found = own.si if own.place is None else None
+        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found)
 
 
 def calibrate(f: Findings) -> None:
@@ -84,7 +92,7 @@ def _shifted(f: Findings, own: Input, power: int) -> bool:
         f"{quantity(own.si, own.role)}: a factor of 1e{abs(power)} is missing"
     )
     right = scaled(own.si, 1 / factor / own.factor)
-    f.add("unit", [own.place], right, f.calculation.number(own.place), text)
+    f.add("unit", [own.place], right, text)
     return True
 
 
@@ -119,23 +127,18 @@ def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Inp
     rests = titles(source.role for source in sources)
     expected = scaled(wanted, 1 / factor)
     if place in f.calculation.formulas:
-        power = power_of_ten(held / wanted)
-        if power:
-            size = "large" if power > 0 else "small"
-            text = f"{title(role)} is 1e{abs(power)} times too {size} for {rests}"
-            f.add("unit", [place], expected, number, f"{text}: a unit is not converted")
+        if power := power_of_ten(held / wanted):
+            text = f"{title(role)} is {times_too(power)} for {rests}: a unit is not converted"
+            f.add("unit", [place], expected, text)
         elif not right:
             text = f"{title(role)} is not what {rests} give"
-            f.add("odd formula", [place], expected, number, text)
+            f.add("odd formula", [place], expected, text)
     elif f.setting.read and (not right or any(s in f.setting.unread for s in sources)):
-        text = f"{title(role)} is typed as a number, though it rests on {rests}"
-        f.add(
-            "typed constant", [place], expected, number, f"{text}: a change there changes nothing"
-        )
+        text = f"{title(role)} is typed as a number, though it rests on {rests}: a change there changes nothing"  # noqa: E501
+        f.add("typed constant", [place], expected, text)
     if not exact or (role == "mass" and factor == 1):
-        case = {"mass": {"own_mass": held}, "diameter": {"own_diameter": held},
-                "resistance": {"resistance": held}}[role]  # fmt: skip
-        f.setting = f.setting.with_case(replace(f.case, **case))
+        field = role if role == "resistance" else f"own_{role}"
+        f.setting = f.setting.with_case(replace(f.case, **{field: held}))
 
 
 def typed_inputs(f: Findings) -> None:
@@ -156,10 +159,10 @@ def typed_inputs(f: Findings) -> None:
             ]
             # A number in a few formulas of many is one of their own, such as the row's.
             if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
-                found = f.calculation.book[cells[0]].formula or f.held(cells[0])
+                formula = f.calculation.book[cells[0]].formula
                 where = address(own.place, with_sheet=own.place[0] != cells[0][0])
                 text = f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change there changes nothing here"  # noqa: E501
-                f.add("typed constant", cells, where, found, text)
+                f.add("typed constant", cells, where, text, formula)
 
 
 def _typed_in(f: Findings, own: Input, role: str, k: int, place: Position) -> bool:

@@ -14,7 +14,7 @@ from statistics import median
 
 from reference.units import to_si
 from replication.check.lines import address
-from replication.check.scheme import BRAKES, Case, Rows, Rule, contact, with_input
+from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact, with_input
 from replication.check.table import Table
 from replication.check.words import (
     INPUTS,
@@ -28,7 +28,10 @@ from replication.check.words import (
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Input", "Setting", "agreement", "braked", "find", "numbers_beside", "solve"]
+__all__ = [
+    "Input", "Setting", "agreement", "filled", "find", "follows", "numbers_beside", "share",
+    "solve",
+]  # fmt: skip
 
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
@@ -136,11 +139,9 @@ def find(
     again = {
         role: _nearest(cells, read, calculation) for role, cells in _by_role(left, report).items()
     }
-    derived = {
-        role: own if own is not None and own.place else again[role][0]
-        for role in ("mass", "diameter", "resistance")
-        if ((own := setting.inputs.get(role)) is not None and own.place) or role in again
-    }
+    held = {role: own for role, own in setting.inputs.items() if own.place}
+    derived = {role: cells[0] for role, cells in again.items()} | held
+    derived = {role: own for role, own in derived.items() if role in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(setting, read=frozenset(read), derived=derived, unread=single)
 
@@ -403,29 +404,22 @@ def _powers(
     that contradict the fewest units named, then those nearest to the report's numbers.
     """
     speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
-    later = 1 if speed == "velocity_initial" else 0
-    rows = range(2, table.steps + 1)
+    rows = range(table.zero + 2, table.zero + table.steps + 1)
 
-    def number(role: str, k: int) -> float:
-        return table.number(role, k) or 0.0
-
-    def change(role: str, k: int) -> float:
-        here, before = table.number(role, k), table.number(role, k - 1)
-        return 0.0 if here is None or before is None else here - before
-
-    def typical(ratios: Iterable[float]) -> float:
-        usual = [abs(ratio) for ratio in ratios if ratio and math.isfinite(ratio)]
-        return median(usual) if usual else 0.0
-
-    def ratio(a: float, b: float) -> float:
-        return a / b if b else 0.0
+    def usual(role: str, over: str | None = None, later: int = 0) -> float:
+        """By how much a column changes from row to row, in units of another's number."""
+        line, other = table.lines.get(role), table.lines.get(over or role)
+        if line is None or other is None:
+            return 0.0
+        pairs = ((line.change(at + later), other.at(at) if over else 1.0) for at in rows)
+        ratios = [abs(a / b) for a, b in pairs if a and b and math.isfinite(a / b)]
+        return median(ratios) if ratios else 0.0
 
     # What the step would be, and what a column would be, if all cells were in SI units.
-    step = typical(change("time", k) for k in rows)
-    move = typical(ratio(change("depth", k), number(speed, k)) for k in rows)
-    brake = typical(ratio(change(speed, k + later), number("deceleration", k)) for k in rows)
+    step, move = usual("time"), usual("depth", speed)
+    brake = usual(speed, "deceleration", speed == "velocity_initial")
     named = {role: _power(line.unit) for role, line in table.lines.items()}
-    start = next((v for k in range(table.steps + 1) if (v := abs(number(speed, k)))), 1.0)
+    start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
     impact = inputs["velocity"].si if "velocity" in inputs else 0.0
     impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed], _round(impact / start)} - {None}
@@ -441,8 +435,8 @@ def _powers(
         for dt in [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]:
             v = 10.0 ** (power or 0)
             wanted = {
-                "time": ratio(dt, step),
-                "depth": ratio(dt * v, move),
+                "time": dt / step if step else 0.0,
+                "depth": dt * v / move if move else 0.0,
                 "deceleration": v / dt * brake,
             }
             powers = {
@@ -546,27 +540,38 @@ def agreement(
     setting: Setting, near: float | None = None, rules: Sequence[Rule] = BRAKES[:2]
 ) -> float:
     """Which share of the rows brakes as its depth and velocity say, by the best of some rules."""
-    return max(_agrees(setting, rule, setting.near if near is None else near) for rule in rules)
+    return max(share(setting, "brake", rule, near) for rule in rules)
 
 
-def _agrees(setting: Setting, rule: Rule, near: float) -> float:
+def share(setting: Setting, part: str, rule: Rule, near: float | None = None) -> float:
+    """Which share of its rows follows a rule."""
+    rows = range(PARTS[part][1], setting.table.steps + 1)
+    each = [follows(setting, part, rule, k, near) for k in rows]
+    judged = [good for good in each if good is not None]
+    return sum(judged) / len(judged) if judged else 0.0
+
+
+def follows(
+    setting: Setting, part: str, rule: Rule, k: int, near: float | None = None
+) -> bool | None:
+    """Whether a row follows a rule; None where cells are missing."""
     rows, case = setting.rows, setting.case
-    held = "deceleration" in rows.columns
-    good = total = 0
-    for k in range(1, setting.table.steps + 1):
-        wanted, found = rule.value(case, rows, k), braked(rows, case, k)
-        if wanted is not None and found is not None:
-            # Where no column holds the deceleration, the velocities' own rounding is in it.
-            slack = 0.0 if held else 4e-16 * abs(rows("velocity_initial", k) or 0.0) / case.step
-            good += abs(found - wanted) <= near * (1 if held else 1e3) * abs(wanted) + slack
-            total += 1
-    return good / total if total else 0.0
+    near = setting.near if near is None else near
+    wanted, found = rule.value(case, rows, k), filled(part, rows, case, k)
+    if wanted is None or found is None:
+        return None
+    speed = abs(rows("velocity_initial", k) or 0.0)
+    size = speed if part == "end" else abs(wanted)
+    # Where no column holds the deceleration, the velocities' own rounding is in it.
+    rounded = part == "brake" and "deceleration" not in rows.columns
+    return abs(found - wanted) <= near * (size + rounded * 1e-2 * speed / case.step)
 
 
-def braked(rows: Rows, case: Case, k: int) -> float | None:
-    """The deceleration of a row: its cell, or what the velocities say."""
-    if "deceleration" in rows.columns:
-        return rows("deceleration", k)
+def filled(part: str, rows: Rows, case: Case, k: int) -> float | None:
+    """What a row has in the column of a part; the deceleration from the velocities if need be."""
+    role = PARTS[part][0]
+    if role != "deceleration" or role in rows.columns:
+        return rows(role, k)
     v, final = rows("velocity_initial", k), rows("velocity_final", k)
     return None if v is None or final is None else (v - final) / case.step
 
@@ -620,7 +625,7 @@ def solve(rows: Rows, case: Case) -> tuple[float, float] | None:
     """
     points = []
     for k in range(1, max(rows.columns["depth"]) + 1):
-        a, x, v = braked(rows, case, k), rows("depth", k), rows("velocity_initial", k)
+        a, x, v = filled("brake", rows, case, k), rows("depth", k), rows("velocity_initial", k)
         if a is not None and x and v is not None and (area := contact(case, x)):
             points.append((v * v, a * case.mass / (math.pi * area)))
     pairs = zip(points, points[len(points) // 2 :], strict=False)

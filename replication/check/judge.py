@@ -80,7 +80,7 @@ def _stop(f: Findings) -> None:
     if below is not None:
         cells = f.cells(role, below + 1)
         text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
-        f.add("other scheme", cells, None, f.held(cells[0]), text)
+        f.add("other scheme", cells, None, text)
         return
     run = march(f.case, f.rules, limit=_LIMIT)["velocity_final"]
     whole = max(run, default=0)
@@ -90,26 +90,15 @@ def _stop(f: Findings) -> None:
     of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
     place = f.table.place(role, steps)
     if 2 * steps < whole:
-        f.add("not calculated", [place], None, None, f"{text}: {steps} of {of}")
+        f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
     else:
-        f.add(
-            "other scheme",
-            [place],
-            None,
-            f.held(place),
-            f"other stop: {text}, {steps} of {of}",
-        )
+        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
 
 
 def _final(f: Findings, k: int) -> float | None:
     """The velocity at the end of a row, computed where the table ends before it shows it."""
-    rows = f.setting.rows
-    final = rows("velocity_final", k)
-    if final is not None or k < f.table.steps:
-        return final
-    v, a = rows("velocity_initial", k), rows("deceleration", k)
-    a = f.rules.brake.value(f.case, rows, k) if a is None else a
-    return None if v is None or a is None else v - a * f.case.step
+    final = f.setting.rows("velocity_final", k)
+    return f.slowed(k) if final is None and k == f.table.steps else final
 
 
 def _verdict(f: Findings) -> Verdict:

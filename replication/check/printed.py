@@ -77,16 +77,9 @@ def held(
     case = _CASES[resistances.index(True)]
     table_a1 = case == _CASES[0]
     for role, name in _HEADER.items():
-        own = setting.inputs.get(role) or setting.derived.get(role)
-        if own is not None and own.place is None:
-            own = setting.derived.get(role)
-        value = calculation.number(own.place) if own is not None else None
-        if (
-            own is not None
-            and own.place
-            and value is not None
-            and (table_a1 or role != "resistance")
-        ):
+        own = setting.derived.get(role) or setting.inputs.get(role)
+        value = calculation.number(own.place) if own else None
+        if own and own.place and value is not None and (table_a1 or role != "resistance"):
             yield _judged(name, own.place, Fraction(value) * own.factor)
     for k in range(_ROWS if table_a1 else 0):
         for role, column in setting.rows.columns.items():
@@ -120,11 +113,8 @@ def _labelled(calculation: Calculation, table: Table) -> Iterator[tuple[str, Pos
     for (sheet, row, column), text in calculation.values.items():
         kind = result_of(text) if isinstance(text, str) else None
         if kind is not None:
-            for place in (
-                (sheet, row, column + 1),
-                (sheet, row, column + 2),
-                (sheet, row + 1, column),
-            ):
+            for down, right in ((0, 1), (0, 2), (1, 0)):
+                place = (sheet, row + down, column + right)
                 inside = any(line.covers(place) for line in lines)
                 if calculation.number(place) is not None and not inside:
                     yield kind, place

@@ -6,66 +6,45 @@ from dataclasses import replace
 from statistics import median
 
 from replication.check.findings import Findings
-from replication.check.inputs import NEAR, agreement, braked, solve
+from replication.check.inputs import agreement, filled, follows, share, solve
 from replication.check.scheme import (
     ADVANCES,
     BRAKES,
     ENDINGS,
+    PARTS,
     REPORT,
     STARTS,
-    Rule,
     Rules,
     march,
 )  # fmt: skip
-from replication.check.words import power_of_ten, quantity, title
+from replication.check.words import power_of_ten, quantity, times_too, title
 from spreadsheets.foreign import Position
 
 __all__ = ["as_rounded", "choose"]
 
-_ROLE = {"start": "depth", "advance": "depth", "brake": "deceleration", "end": "velocity_final"}
-_FIRST = {"start": 1, "advance": 2, "brake": 1, "end": 1}
 _FACTORS = (
     (2.0, "2"), (0.5, "1/2"), (math.pi, "pi"), (1 / math.pi, "1/pi"), (4.0, "4"), (0.25, "1/4"),
     (8.0, "8"), (0.125, "1/8"), (4 / 3, "4/3"), (0.75, "3/4"), (3.0, "3"), (1 / 3, "1/3"),
 )  # fmt: skip
 
 
+_UNKNOWN = "other scheme", "these cells follow no scheme known here"
+
+
 def _near(a: float, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
-def share(f: Findings, part: str, rule: Rule) -> float:
-    """Which share of its rows follows a rule."""
-    each = [follows(f, part, rule, k) for k in range(_FIRST[part], f.table.steps + 1)]
-    judged = [good for good in each if good is not None]
-    return sum(judged) / len(judged) if judged else 0.0
-
-
-def follows(f: Findings, part: str, rule: Rule, k: int) -> bool | None:
-    """Whether a row follows a rule; None where cells are missing."""
-    rows = f.setting.rows
-    wanted = rule.value(f.case, rows, k)
-    found = braked(rows, f.case, k) if part == "brake" else rows(_ROLE[part], k)
-    if wanted is None or found is None:
-        return None
-    speed = abs(rows("velocity_initial", k) or 0.0)
-    size = speed if part == "end" else abs(wanted)
-    # Where no column holds the deceleration, the velocities' own rounding is in it.
-    rounded = part == "brake" and "deceleration" not in rows.columns
-    slack = 1e-15 * speed / f.case.step if rounded else 0.0
-    return abs(found - wanted) <= NEAR * size + slack
-
-
 def choose(f: Findings) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
-    chosen = {"start": next((r for r in STARTS if follows(f, "start", r, 1)), STARTS[0])}
+    chosen = {"start": next((r for r in STARTS if follows(f.setting, "start", r, 1)), STARTS[0])}
     unknown = []
     for part, rules in (("advance", ADVANCES), ("brake", BRAKES), ("end", ENDINGS)):
         if part == "end" and "deceleration" not in f.table.lines:
             continue  # the brake is known by it
-        shares = {rules[0]: share(f, part, rules[0])}
+        shares = {rules[0]: share(f.setting, part, rules[0])}
         if shares[rules[0]] < 0.9:
-            shares |= {rule: share(f, part, rule) for rule in rules[1:]}
+            shares |= {rule: share(f.setting, part, rule) for rule in rules[1:]}
         best = max(shares, key=lambda rule: shares[rule])
         if shares[best] < 0.5:
             unknown.append(part)
@@ -80,51 +59,45 @@ def choose(f: Findings) -> None:
 def named(f: Findings) -> None:
     """A difference for each rule that is not the report's."""
     for part, rule in f.rules.others():
-        role, first = _column(f, part), _FIRST[part]
-        own = REPORT.part(part)
-        first = next(
-            (k for k in range(first, f.table.steps) if not follows(f, part, own, k)), first
-        )
-        wanted = own.value(f.case, f.setting.rows, first) if role == _ROLE[part] else None
-        last = first if part == "start" else None
-        cells = f.cells(role, first, last)
-        f.add("other scheme", cells, f.shown(role, wanted), f.held(cells[0]),
-                 f"{rule.name}: {rule.says}")  # fmt: skip
+        own, role, (fills, first) = REPORT.part(part), _column(f, part), PARTS[part]
+        differ = (k for k in range(first, f.table.steps) if not follows(f.setting, part, own, k))
+        first = next(differ, first)
+        wanted = own.value(f.case, f.setting.rows, first) if role == fills else None
+        cells = f.cells(role, first, first if part == "start" else None)
+        f.add("other scheme", cells, f.shown(role, wanted), f"{rule.name}: {rule.says}")
 
 
 def _column(f: Findings, part: str) -> str:
     """The column that shows a part of the scheme."""
-    candidates = (_ROLE[part], "velocity_final", "velocity_initial")
+    candidates = (PARTS[part][0], "velocity_final", "velocity_initial")
     return next(role for role in candidates if role in f.table.lines)
 
 
 def _unknown(f: Findings, part: str) -> None:
     """A column that follows no rule known here: say what else would explain it."""
     role = _column(f, part)
-    cells = f.cells(role, _FIRST[part])
-    wanted = REPORT.part(part).value(f.case, f.setting.rows, _FIRST[part])
+    first = PARTS[part][1]
+    wanted = REPORT.part(part).value(f.case, f.setting.rows, first)
     kind, text = _cause(f, part, role)
-    f.add(kind, cells, f.shown(role, wanted), f.held(cells[0]), text)
+    f.add(kind, f.cells(role, first), f.shown(role, wanted), text)
 
 
 def _cause(f: Findings, part: str, role: str) -> tuple[str, str]:
-    pairs = [_increment(f, part, k) for k in range(_FIRST[part], f.table.steps + 1)]
+    pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [found / wanted for found, wanted in filter(None, pairs) if wanted]
     middle = median(ratios) if ratios else 0.0
     if middle and sum(_near(ratio, middle) for ratio in ratios) >= 0.5 * len(ratios):
         return _factor(f, part, middle, role)
     if part == "brake":
-        return _stresses(f, role)
-    return "other scheme", "these cells follow no scheme known here"
+        return _stresses(f, role) or _UNKNOWN
+    return _UNKNOWN
 
 
 def _increment(f: Findings, part: str, k: int) -> tuple[float, float] | None:
     """What a row adds to the one before, and what it would add by the report's rule."""
     rows = f.setting.rows
-    start = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}[
-        part
-    ]
-    found = braked(rows, f.case, k) if part == "brake" else rows(_ROLE[part], k)
+    starts = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}
+    start, found = starts[part], filled(part, rows, f.case, k)
     wanted = REPORT.part(part).value(f.case, rows, k)
     if start is None or found is None or wanted is None:
         return None
@@ -136,11 +109,7 @@ def _factor(f: Findings, part: str, ratio: float, role: str) -> tuple[str, str]:
     what = "force" if part == "brake" else "step"
     literals = f.literals(role)
     if power := power_of_ten(ratio):
-        size = "large" if power > 0 else "small"
-        return (
-            "unit",
-            f"every {what} is 1e{abs(power)} times too {size}: a unit is not converted",
-        )
+        return "unit", f"every {what} is {times_too(power)}: a unit is not converted"
     for number in literals:
         if part == "brake" and _near(number / math.pi, ratio):
             return "typed constant", f"pi is typed as {number:g}"
@@ -150,16 +119,15 @@ def _factor(f: Findings, part: str, ratio: float, role: str) -> tuple[str, str]:
     return "other scheme", f"every {what} is {named} times that of the report's scheme"
 
 
-def _stresses(f: Findings, role: str) -> tuple[str, str]:
+def _stresses(f: Findings, role: str) -> tuple[str, str] | None:
     """Whether another target density or resistance explains all decelerations."""
-    unknown = "other scheme", "these cells follow no scheme known here"
     solved = solve(f.setting.rows, f.case)
     if solved is None:
-        return unknown
+        return None
     tried = dict(zip(("target_density", "resistance"), solved, strict=True))
     setting = f.setting.with_case(replace(f.case, **tried))
     if agreement(setting, 1e-8) < 0.5:
-        return unknown
+        return None
     said, kind = [], "other scheme"
     for name, value in tried.items():
         own = getattr(f.case, name)
@@ -170,7 +138,7 @@ def _stresses(f: Findings, role: str) -> tuple[str, str]:
             said.append(f"{title(name)} {quantity(value, name)}, not {quantity(own, name)}")
     f.setting = setting
     where = "stands in these formulas" if kind == "typed constant" else "would give every row"
-    return (kind, f"{' and '.join(said)}, {where}") if said else unknown
+    return (kind, f"{' and '.join(said)}, {where}") if said else None
 
 
 def as_rounded(f: Findings, digits: int) -> None:
@@ -183,7 +151,7 @@ def as_rounded(f: Findings, digits: int) -> None:
     f.rules = min(able, key=lambda rules: len(list(_misprints(f, rules, digits))))
     named(f)
     for place, expected, text in _misprints(f, f.rules, digits):
-        f.add("typed number", [place], expected, f.held(place), text)
+        f.add("typed number", [place], expected, text)
 
 
 def _run(f: Findings, rules: Rules) -> dict[str, dict[int, float]]:

@@ -12,10 +12,11 @@ from fractions import Fraction
 from functools import cache
 
 from reference.units import UnitError, same_dimension, to_si
+from replication.text import with_unit
 
 __all__ = [
     "COLUMNS", "INPUTS", "column_roles", "count", "input_roles", "is_unit", "power_of_ten",
-    "quantity", "result_of", "scaled", "title", "titles", "unit_in", "unit_text",
+    "quantity", "result_of", "scaled", "times_too", "title", "titles", "unit_in", "unit_text",
 ]  # fmt: skip
 
 COLUMNS = {
@@ -272,19 +273,15 @@ def result_of(label: str) -> str | None:
 # What this program calls them, and numbers in their units.
 
 _TITLES = {
-    "time": "the time", "velocity_initial": "the initial velocity", "depth": "the depth",
-    "deceleration": "the deceleration", "velocity_final": "the final velocity",
-    "velocity": "the impact velocity", "radius": "the radius", "diameter": "the diameter",
-    "particle_density": "the particle density", "target_density": "the target density",
-    "mass": "the mass", "beta": "beta", "flow_stress": "the flow stress",
-    "resistance": "the target resistance", "step": "the time step",
-    "stop_velocity": "the stop velocity",
+    "velocity_initial": "the initial velocity", "velocity_final": "the final velocity",
+    "velocity": "the impact velocity", "beta": "beta", "resistance": "the target resistance",
+    "step": "the time step",
 }  # fmt: skip
 
 
 def title(role: str) -> str:
     """What a column or an input is called in a sentence."""
-    return _TITLES[role]
+    return _TITLES.get(role) or f"the {role.replace('_', ' ')}"
 
 
 def titles(roles: Iterable[str]) -> str:
@@ -298,8 +295,7 @@ def quantity(value: float, role: str) -> str:
     >>> quantity(11e-6, "radius"), quantity(5.0, "beta")
     ('1.1e-05 m', '5')
     """
-    unit = {**COLUMNS, **INPUTS}[role]
-    return f"{value:.10g}" if unit == "1" else f"{value:.10g} {unit}"
+    return with_unit(f"{value:.10g}", {**COLUMNS, **INPUTS}[role])
 
 
 _NAMED = {
@@ -333,6 +329,15 @@ def power_of_ten(ratio: float) -> int | None:
         return None
     power = math.log10(ratio)
     return round(power) if abs(power - round(power)) < 1e-9 else None
+
+
+def times_too(power: int) -> str:
+    """By which power of ten something is too large or too small.
+
+    >>> times_too(-3)
+    '1e3 times too small'
+    """
+    return f"1e{abs(power)} times too {'large' if power > 0 else 'small'}"
 
 
 def scaled(value: float, factor: Fraction) -> float:
