@@ -18,8 +18,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from posixpath import join, normpath
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 from xml.etree import ElementTree as ET
 
 from openpyxl.formula.translate import Translator, TranslatorError
@@ -52,6 +53,7 @@ _SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
 """How .xls files begin, and encrypted workbooks of any kind."""
 
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
+_TOO_MUCH = f"is refused: it unpacks to too many bytes; {_LIMITS}"
 
 
 class WorkbookError(ValueError):
@@ -133,9 +135,7 @@ def _read(path: Path, shown: Path | None = None) -> Book:
             return _Reader(archive, shown).book()
     except WorkbookError as error:
         raise WorkbookError(f"{shown}: {error}") from error
-    except ET.ParseError as error:
-        raise WorkbookError(f"{shown}: is damaged: its XML is not well formed ({error})") from error
-    except (KeyError, IndexError, ValueError, EOFError, RecursionError) as error:
+    except (ET.ParseError, KeyError, IndexError, ValueError, EOFError, RecursionError) as error:
         raise WorkbookError(f"{shown}: is damaged: {error}") from error
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
         raise WorkbookError(f"{shown}: cannot be unpacked: {error}") from error
@@ -170,12 +170,12 @@ def _check_unpacked(path: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             for name in archive.namelist():
                 with archive.open(name) as stream:
-                    while left >= 0 and (chunk := stream.read(2**20)):
+                    while chunk := stream.read(2**20):
                         left -= len(chunk)
+                        if left < 0:
+                            raise WorkbookError(f"{path}: {_TOO_MUCH}")
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
         raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
-    if left < 0:
-        raise WorkbookError(f"{path}: is refused: it unpacks to too many bytes; {_LIMITS}")
 
 
 def _run(command: list[str], path: Path) -> None:
@@ -225,7 +225,7 @@ class _Reader:
         main = next((p for k, p in root.values() if k == "officeDocument"), "xl/workbook.xml")
         tree, related = self.tree(main), self.relations(main)
         strings = next((p for k, p in related.values() if k == "sharedStrings"), None)
-        texts = self.texts(strings) if strings in self.parts else []
+        texts = self.parse(strings, _Strings()) if strings in self.parts else []
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
         tables: dict[str, _Table] = {}
         names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
@@ -234,7 +234,7 @@ class _Reader:
             kind, part = related[identity]
             if kind == "worksheet":
                 name = sheet.attrib["name"]
-                sheets[name] = self.worksheet(part, texts)
+                sheets[name] = self.parse(part, _Sheet(self, texts))
                 tables |= self.tables(part, name)
         if not sheets:
             raise WorkbookError("has no worksheet")
@@ -247,16 +247,6 @@ class _Reader:
             yield "it holds macros: they are not run"
         if any("/externalLinks/" in part for part in self.parts):
             yield "it has links to other files: they are not followed"
-
-    def worksheet(self, part: str, texts: list[str]) -> dict[tuple[int, int], Cell]:
-        target = _Sheet(self, texts)
-        self.parse(part, target)
-        return target.finished()
-
-    def texts(self, part: str) -> list[str]:
-        target = _Strings()
-        self.parse(part, target)
-        return target.texts
 
     def tables(self, sheet_part: str, sheet: str) -> dict[str, "_Table"]:
         found = {}
@@ -277,16 +267,15 @@ class _Reader:
         return {
             r.attrib["Id"]: (
                 r.attrib["Type"].rpartition("/")[2],
-                _resolved(path.parent, r.attrib["Target"]),
+                # The part meant: "/" starts at the root, ".." goes up.
+                normpath(join("/", path.parent, r.attrib["Target"])).lstrip("/"),
             )
             for r in self.tree(rels)
             if r.attrib.get("TargetMode") != "External"
         }
 
     def tree(self, part: str) -> ET.Element:
-        root = self.parse(part, _Tree(), MAX_PART)
-        assert isinstance(root, ET.Element)
-        return root
+        return cast(ET.Element, self.parse(part, _Tree(), MAX_PART))
 
     def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
         """Feed a part to a target, counting what comes out of the archive, not what it says."""
@@ -297,7 +286,7 @@ class _Reader:
                 self.left -= len(chunk)
                 taken += len(chunk)
                 if self.left < 0 or taken > limit:
-                    raise WorkbookError(f"is refused: it unpacks to too many bytes; {_LIMITS}")
+                    raise WorkbookError(_TOO_MUCH)
                 parser.feed(chunk)
         return parser.close()
 
@@ -344,8 +333,8 @@ class _Strings(_Refusing):
         if name == "si":
             self.texts.append("".join(self.pieces)[:MAX_TEXT])
 
-    def close(self) -> None:
-        pass
+    def close(self) -> list[str]:
+        return self.texts
 
 
 class _Sheet(_Refusing):
@@ -413,12 +402,10 @@ class _Sheet(_Refusing):
             elif index in self.masters:
                 master, origin = self.masters[index]
                 try:
-                    moved = Translator(f"={master}", _address(origin)).translate_formula(
-                        _address(here)
-                    )
+                    filler = Translator(f"={master}", _address(origin))
+                    return str(filler.translate_formula(_address(here)))
                 except TranslatorError as error:
                     raise WorkbookError(f"is damaged: {error} at {_address(here)}") from error
-                return str(moved)
         if kind == "array" and text:
             self.arrays.append((self.formula.get("ref", _address(here)), f"={text}"))
         return f"={text}" if text else None
@@ -442,10 +429,7 @@ class _Sheet(_Refusing):
         # A writer that stores nan or inf stores what no engine reads: the same as nothing.
         return (number, False) if math.isfinite(number) else (None, False)
 
-    def close(self) -> None:
-        pass
-
-    def finished(self) -> dict[tuple[int, int], Cell]:
+    def close(self) -> dict[tuple[int, int], Cell]:
         """The cells, with the text of an array formula in each cell that it fills."""
         for ref, text in self.arrays:
             (top, left), (bottom, right) = _corners(ref)
@@ -495,22 +479,9 @@ def _without_tables(
         return _THIS_ROW.sub(address, formula)
 
     return {
-        place: cell._replace(formula=rewritten(place, cell.formula))
-        if cell.formula and "[" in cell.formula
-        else cell
+        place: cell._replace(formula=cell.formula and rewritten(place, cell.formula))
         for place, cell in cells.items()
     }
-
-
-def _resolved(folder: PurePosixPath, target: str) -> str:
-    """The part that a relation means; "/" starts at the root, ".." goes up."""
-    parts: list[str] = []
-    for step in (target if target.startswith("/") else f"{folder}/{target}").split("/"):
-        if step == "..":
-            del parts[-1:]
-        elif step not in ("", "."):
-            parts.append(step)
-    return "/".join(parts)
 
 
 _ADDRESS = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")

@@ -5,7 +5,7 @@ distances, as in R1C1 notation (the fingerprints of ExceLint). Names are what th
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -53,6 +53,11 @@ class Area(NamedTuple):
     def corner(self) -> Position:
         """The first cell."""
         return self.sheet, self.top, self.left
+
+    @property
+    def ends(self) -> tuple[Position, Position]:
+        """The first cell and the last."""
+        return self.corner, (self.sheet, self.bottom, self.right)
 
     def places(self) -> Iterator[Position]:
         """Each of them, row by row."""
@@ -156,11 +161,12 @@ def _unreadable(text: str) -> str | None:
     return f"it is nested more than {MAX_DEPTH} levels deep" if deepest > MAX_DEPTH else None
 
 
-_CELL = r"(\$?)([A-Za-z]{1,3})(\$?)([1-9][0-9]{0,6})"
-_REFERENCE = re.compile(
-    rf"(?:(?P<sheet>'(?:[^']|'')+'|[^'!\[\]]+)!)?"
-    rf"(?:{_CELL}(?::{_CELL})?|(\$?)([A-Za-z]{{1,3}}):(\$?)([A-Za-z]{{1,3}})"
-    rf"|(\$?)([1-9][0-9]{{0,6}}):(\$?)([1-9][0-9]{{0,6}}))#?"
+_COLUMN, _ROW = r"(\$?[A-Za-z]{1,3})", r"(\$?[1-9][0-9]{0,6})"
+_SHEET = r"(?:('(?:[^']|'')+'|[^'!\[\]]+)!)?"
+_REFERENCES = (  # a cell or some, whole columns, whole rows
+    re.compile(rf"{_SHEET}{_COLUMN}{_ROW}(?::{_COLUMN}{_ROW})?#?"),
+    re.compile(rf"{_SHEET}{_COLUMN}():{_COLUMN}()"),
+    re.compile(rf"{_SHEET}(){_ROW}:(){_ROW}"),
 )
 
 
@@ -206,7 +212,7 @@ class _Pieces:
             yield Piece("sign", value)
 
     def operand(self, value: str) -> Iterator[Piece]:
-        match = _REFERENCE.fullmatch(value)
+        match = next((m for pattern in _REFERENCES if (m := pattern.fullmatch(value))), None)
         if match is not None and (area := self.area(match)) is not None:
             yield area
             return
@@ -225,33 +231,26 @@ class _Pieces:
         yield from inner if len(inner) == 1 else (Piece("sign", "("), *inner, Piece("sign", ")"))
 
     def area(self, match: re.Match[str]) -> Piece | None:
-        named = match["sheet"]
+        named, left, top, right, bottom = match.groups()
         sheet = self.place[0] if named is None else self.sheets.get(_unquoted(named).upper())
-        if sheet is None:
-            return None
-        g = match.groups()[1:]
-        if g[1] is not None:
-            ends = _ends(g[0:4]) + _ends(g[0:4] if g[5] is None else g[4:8])
-        elif g[9] is not None:
-            ends = _ends(("", g[9], "$", "1")) + _ends(("", g[11], "$", str(LAST_ROW)))
-            ends = (ends[0], (ends[1][0], bool(g[8])), ends[2], (ends[3][0], bool(g[10])))
-        else:
-            ends = (
-                (int(g[13]), bool(g[12])),
-                (1, True),
-                (int(g[15]), bool(g[14])),
-                (LAST_COLUMN, True),
-            )
+        if right is None:  # a lone cell is its own other end
+            right, bottom = left, top
+        ends = (
+            _end(top, "$1"), _end(left, "$A"),
+            _end(bottom, f"${LAST_ROW}"), _end(right, f"${get_column_letter(LAST_COLUMN)}"),
+        )  # fmt: skip
         rows, columns = sorted((ends[0][0], ends[2][0])), sorted((ends[1][0], ends[3][0]))
-        if rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
+        if sheet is None or rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
             return None
         area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
         return Piece("area", match[0], area, ends)
 
 
-def _ends(corner: Sequence[str]) -> tuple[tuple[int, bool], tuple[int, bool]]:
-    """Row and column of a corner such as $B$7, given as its four parts, and which are fixed."""
-    return (int(corner[3]), bool(corner[2])), (column_index_from_string(corner[1]), bool(corner[0]))
+def _end(text: str, whole: str) -> tuple[int, bool]:
+    """A row or column such as $7 or B, and whether it is fixed; `whole` where none is given."""
+    number = (text or whole).lstrip("$")
+    fixed = (text or whole).startswith("$")
+    return int(number) if number.isdigit() else column_index_from_string(number), fixed
 
 
 def _unquoted(sheet: str) -> str:

@@ -127,7 +127,7 @@ def each_cell(f: Findings) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
     lines = (*f.table.lines.values(), *f.table.helpers)
     odd = {p: why for line in lines for p, why in irregular(line, f.table, f.calculation)}
-    accused = f.accused
+    accused, before = f.accused, len(f.differences)
     for role, column in f.setting.rows.columns.items():
         for k in range(f.table.steps + 1):
             place, expected = f.table.place(role, k), _expected(f, role, k)
@@ -147,7 +147,7 @@ def each_cell(f: Findings) -> None:
             f.add(kind, [place], shown, text)
     for place, (kind, text) in odd.items():
         f.add(kind, [place], None, text)
-    f.differences = list(joined(f.differences, f.table.across))
+    f.differences[before:] = joined(f.differences[before:], f.table.across)
 
 
 def _expected(f: Findings, role: str, k: int) -> float | None:

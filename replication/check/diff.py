@@ -6,14 +6,17 @@ inserted row is one, and each formula is compared with where its references have
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from difflib import SequenceMatcher
+from itertools import groupby, takewhile
 from pathlib import Path
 
+from openpyxl.utils.cell import get_column_letter
+
 from replication.check.findings import Difference
-from replication.check.lines import address, area_of
+from replication.check.lines import area_of, runs
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Formula, Piece
@@ -117,23 +120,18 @@ class _Diff:
         self, place: Position, kind: str, expected: object, found: object, text: str,
         cells: Sequence[Position] = (),
     ) -> None:  # fmt: skip
-        rank = self.rank(place, kind)
-        shown = [
+        was, now = (
             v if isinstance(v, float | str) or v is None else str(v) for v in (expected, found)
-        ]
-        self.differences.append(
-            Difference(place, kind, shown[0], shown[1], text, tuple(cells) or (place,), rank)
         )
+        cells = tuple(cells) or (place,)
+        rank = self.rank(place, kind)
+        self.differences.append(Difference(place, kind, was, now, text, cells, rank))
 
     def rank(self, place: Position, kind: str) -> tuple[float, ...]:
         """Layout first, then typed cells, then formulas in order of calculation."""
         if kind not in ("formula", "value"):
-            return (
-                0,
-                list(self.after.book.sheets).index(place[0])
-                if place[0] in self.after.book.sheets
-                else 0,
-            )
+            sheets = list(self.after.book.sheets)
+            return (0, sheets.index(place[0]) if place[0] in sheets else 0)
         return (1, self.after.order.get(place, -1), kind == "value")
 
     # ---- where each cell has gone
@@ -142,7 +140,7 @@ class _Diff:
         """Match the rows and columns of two sheets, then what was moved elsewhere."""
         old = _skeletons(self.before, name)
         new = _skeletons(self.after, other)
-        columns = _matched(_profiles(old, 1), _profiles(new, 1))
+        columns = _matched(_profiles(old), _profiles(new))
         rows = _matched(_lines(old, columns.keys()), _lines(new, columns.values()))
         for (row, column), what in old.items():
             there = rows.get(row), columns.get(column)
@@ -169,10 +167,8 @@ class _Diff:
             there = by_form.pop(_form(block, left), None)
             if there is None:
                 continue
-            down, right = (
-                _corner(there)[0] - _corner(block)[0],
-                _corner(there)[1] - _corner(block)[1],
-            )
+            old_corner, new_corner = _corner(block), _corner(there)
+            down, right = new_corner[0] - old_corner[0], new_corner[1] - old_corner[1]
             for row, column in block:
                 self.where[name, row, column] = (other, row + down, column + right)
                 del left[row, column]
@@ -189,11 +185,9 @@ class _Diff:
         """Rows and columns that stand further down or right, each run of them once."""
         for what, places in (("rows", rows), ("columns", columns)):
             for first, last, by in _shifted(places):
-                show = (lambda n: str(n)) if what == "rows" else _letter
-                was, now = (
-                    f"{show(first)} to {show(last)}",
-                    f"{show(first + by)} to {show(last + by)}",
-                )
+                show: Callable[[int], str] = str if what == "rows" else get_column_letter
+                was = f"{show(first)} to {show(last)}"
+                now = f"{show(first + by)} to {show(last + by)}"
                 place = (other, first + by, 1) if what == "rows" else (other, 1, first + by)
                 self.add(place, "moved", was, now, f"{what} {was} of {name!r} are now {now}")
 
@@ -206,37 +200,24 @@ class _Diff:
         kind: str,
     ) -> None:
         """Differences of one kind, those of neighbouring cells in a column as one."""
-        run: list[Position] = []
-        head: tuple[object, object, str] | None = None
-
-        def close() -> None:
-            if run and head is not None:
-                more = f", and in {len(run) - 1} cells after it" if len(run) > 1 else ""
-                self.add(run[0], kind, head[0], head[1], head[2] + more, tuple(run))
-
-        for old, new in pairs:
-            found = compare(old, new)
-            if found is None:
-                continue
-            below = run and run[-1] == (new[0], new[1] - 1, new[2])
-            if not below or head is None or found[2] != head[2]:
-                close()
-                run, head = [], found
-            run.append(new)
-        close()
+        found = {new: differs for old, new in pairs if (differs := compare(old, new))}
+        for run in runs({place: text for place, (*_, text) in found.items()}):
+            was, now, text = found[run[0]]
+            more = f", and in {len(run) - 1} cells after it" if len(run) > 1 else ""
+            self.add(run[0], kind, was, now, text + more, run)
 
     def formulas(self, old: Position, new: Position) -> tuple[object, object, str] | None:
         if self.values_only:
             return None
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
-        if (a is None) != (b is None):
-            if a is None:
-                return self.before.values.get(old), texts[1], "a formula stands in place of a value"
+        if a and b:
+            return None if self.same(a, b) else (*texts, "the formulas differ")
+        if b:
+            return self.before.values.get(old), texts[1], "a formula stands in place of a value"
+        if a:
             return texts[0], self.after.values.get(new), "a value stands in place of a formula"
-        if a is None or b is None or self.same(a, b):
-            return None
-        return texts[0], texts[1], "the formulas differ"
+        return None
 
     def same(self, a: Formula, b: Formula) -> bool:
         """Whether a formula reads the same cells in the same way, wherever they are now."""
@@ -248,22 +229,15 @@ class _Diff:
         if p.area is None or q.area is None:
             same = p.text.upper() == q.text.upper() if p.kind == "function" else p.text == q.text
             return p.kind == q.kind and same
-        ends = [((p.area.top, p.area.left), (q.area.top, q.area.left)),
-                ((p.area.bottom, p.area.right), (q.area.bottom, q.area.right))]  # fmt: skip
-        for old, new in ends:
-            gone = self.where.get((p.area.sheet, *old))
-            if gone is not None and gone != (q.area.sheet, *new):
-                return False
-            if gone is None and (p.area.sheet, *old) in self.before.values:
-                return False
-        return True
+        return all(
+            self.where.get(old, None if old in self.before.values else new) == new
+            for old, new in zip(p.area.ends, q.area.ends, strict=True)
+        )
 
     def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
-        if isinstance(a, float) and isinstance(b, float) and not isinstance(a, bool):
-            if self.tolerance.equal(a, b):
-                return None
-            return a, b, "the values differ"
+        if isinstance(a, float) and isinstance(b, float):
+            return None if self.tolerance.equal(a, b) else (a, b, "the values differ")
         return None if a == b else (a, b, "the contents differ")
 
 
@@ -277,15 +251,11 @@ def _value(calculation: Calculation, place: Position) -> Value | None:
 def _same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
     """Sheets by name; the ones left over by what they hold."""
     same = {name: name for name in before.book.sheets if name in after.book.sheets}
-    left = [name for name in before.book.sheets if name not in same]
-    free = [name for name in after.book.sheets if name not in same]
-    for name in left:
+    for name in [name for name in before.book.sheets if name not in same]:
         own = _skeletons(before, name)
-        for other in free:
-            if own and own == _skeletons(after, other):
-                same[name] = other
-                free.remove(other)
-                break
+        free = (other for other in after.book.sheets if other not in same.values())
+        if own and (like := next((o for o in free if _skeletons(after, o) == own), None)):
+            same[name] = like
     return same
 
 
@@ -308,24 +278,20 @@ def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
 
 def _alike(a: str, b: str | None) -> bool:
     """Whether two cells may be the same one, changed: neither is gone, and texts stay texts."""
-    if b is None:
-        return False
-    return a == b or not (a.startswith("'") or b.startswith("'")) or (a[0] == b[0])
+    return b is not None and (a[0] == b[0] or "'" not in (a[0], b[0]))
 
 
-def _profiles(cells: Mapping[Cell, str], axis: int) -> dict[int, tuple[str, ...]]:
+def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
     """Each column as what stands in it, repetitions left out."""
     found: dict[int, list[str]] = {}
     for cell in sorted(cells):
-        line = found.setdefault(cell[axis], [])
-        if not line or line[-1] != cells[cell]:
-            line.append(cells[cell])
-    return {i: tuple(line) for i, line in sorted(found.items())}
+        found.setdefault(cell[1], []).append(cells[cell])
+    return {i: tuple(what for what, _ in groupby(line)) for i, line in sorted(found.items())}
 
 
-def _lines(cells: Mapping[Cell, str], columns: object) -> dict[int, tuple[str, ...]]:
+def _lines(cells: Mapping[Cell, str], columns: Iterable[int]) -> dict[int, tuple[str, ...]]:
     """Each row as what stands in some columns."""
-    kept = set(columns)  # type: ignore[call-overload]
+    kept = set(columns)
     found: dict[int, list[str]] = {}
     for row, column in sorted(cells):
         line = found.setdefault(row, [])
@@ -339,22 +305,23 @@ def _matched(
 ) -> dict[int, int]:
     """Which line became which. What is not found again but stands between the same is the same."""
     a, b = list(old), list(new)
-    keys = [old[i] for i in a], [new[i] for i in b]
-    start = 0
-    while start < min(len(a), len(b)) and keys[0][start] == keys[1][start]:
-        start += 1
-    end = 0
-    while end < min(len(a), len(b)) - start and keys[0][-1 - end] == keys[1][-1 - end]:
-        end += 1
+    lines = [old[i] for i in a], [new[i] for i in b]
+    start = _alike_first(*lines)
+    end = min(_alike_first(*(own[::-1] for own in lines)), min(len(a), len(b)) - start)
     pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
-    middle = keys[0][start : len(a) - end], keys[1][start : len(b) - end]
-    for tag, i1, i2, j1, j2 in SequenceMatcher(None, *middle).get_opcodes():
+    gone, come = (own[start : len(own) - end] for own in lines)
+    for tag, i1, i2, j1, j2 in SequenceMatcher(None, gone, come).get_opcodes():
         if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
             pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
         elif tag == "replace" and (i2 - i1) * (j2 - j1) <= _MAX_SIMILAR:
-            similar = _similar(middle[0][i1:i2], middle[1][j1:j2])
+            similar = _similar(gone[i1:i2], come[j1:j2])
             pairs += [(start + i1 + i, start + j1 + j) for i, j in similar]
     return {a[i]: b[j] for i, j in sorted(pairs)}
+
+
+def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
+    """How many entries two lists have in common before the first that differs."""
+    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
 
 
 def _similar(
@@ -372,15 +339,10 @@ def _similar(
 
 def _shifted(places: Mapping[int, int]) -> Iterator[tuple[int, int, int]]:
     """First, last and distance of each run that stands elsewhere."""
-    run: list[int] = []
-    by = 0
-    for old, new in [*sorted(places.items()), (None, None)]:
-        if old is not None and new is not None and new - old == by and run:
-            run.append(old)
-            continue
-        if run and by:
+    for by, pairs in groupby(sorted(places.items()), key=lambda pair: pair[1] - pair[0]):
+        run = [old for old, _ in pairs]
+        if by:
             yield run[0], run[-1], by
-        run, by = ([old], new - old) if old is not None and new is not None else ([], 0)
 
 
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
@@ -415,7 +377,3 @@ def _span(cells: Sequence[Position]) -> str:
     rows, columns = [c[1] for c in cells], [c[2] for c in cells]
     sheet = cells[0][0]
     return area_of((sheet, min(rows), min(columns)), (sheet, max(rows), max(columns)))
-
-
-def _letter(column: int) -> str:
-    return address(("", 1, column)).rstrip("1")

@@ -2,11 +2,12 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from replication.check.inputs import Setting
+from replication.check.lines import runs
 from replication.check.scheme import REPORT, Case
 from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
@@ -126,23 +127,10 @@ class Findings:
         return {abs(number) for formula in formulas if formula for number in formula.literals}
 
 
-def joined(found: Iterable[Difference], across: bool) -> Iterator[Difference]:
-    """Neighbouring cells of one line with the same kind and cause, as one difference."""
-    line, along = (1, 2) if across else (2, 1)
-    runs: list[list[Difference]] = []
-    for d in sorted(found, key=lambda d: (d.kind, d.place[0], d.place[line], d.place[along])):
-        last = runs[-1][-1] if runs else None
-        if last and (last.kind, _like(last)) == (d.kind, _like(d)):
-            end = last.cells[-1]
-            step = int(d.place[along]) - int(end[along])
-            if (end[0], end[line], step) == (d.place[0], d.place[line], 1):
-                runs[-1].append(d)
-                continue
-        runs.append([d])
-    for run in runs:
-        yield replace(run[0], cells=tuple(cell for d in run for cell in d.cells))
-
-
-def _like(difference: Difference) -> str:
-    """The explanation without its numbers."""
-    return re.sub(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", "#", difference.explanation)
+def joined(found: Sequence[Difference], across: bool) -> Iterator[Difference]:
+    """Differences of single cells; those of neighbours with the same kind and cause as one."""
+    at = {d.place: d for d in found}
+    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
+    causes = {p: (d.kind, re.sub(number, "#", d.explanation)) for p, d in at.items()}
+    for run in runs(causes, across):
+        yield replace(at[run[0]], cells=tuple(run))

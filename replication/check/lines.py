@@ -12,7 +12,7 @@ from replication.check.words import column_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["LEAST", "Line", "address", "area_of", "lines"]
+__all__ = ["LEAST", "Line", "address", "area_of", "lines", "runs"]
 
 LEAST = 4
 """Fewer numbers are no line; the report itself prints five rows."""
@@ -131,6 +131,22 @@ def address(place: Position, with_sheet: bool = False) -> str:
 def area_of(first: Position, last: Position) -> str:
     """The cells from one to another, as an address without the sheet."""
     return address(first) if first == last else f"{address(first)}:{address(last)}"
+
+
+def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
+    """Neighbouring cells of a column (of a row, if `across`) with the same label, together."""
+    line, along = (1, 2) if across else (2, 1)
+    run: list[Position] = []
+    for place in sorted(labels, key=lambda place: (place[0], place[line], place[along])):
+        if run:
+            last = run[-1]
+            after = (last[0], last[line], int(last[along]) + 1)
+            if after != (place[0], place[line], place[along]) or labels[last] != labels[place]:
+                yield run
+                run = []
+        run.append(place)
+    if run:
+        yield run
 
 
 def lines(calculation: Calculation) -> Iterator[Line]:

@@ -197,9 +197,7 @@ def held(difference: Mapping[str, Any]) -> str:
 
 
 def _shown(value: object) -> str:
-    if value is None:
-        return "nothing"
-    return repr(value) if isinstance(value, float) else safe(value, 120)
+    return "nothing" if value is None else safe(value, 120)
 
 
 def safe(text: object, limit: int = 90) -> str:

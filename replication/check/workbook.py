@@ -9,7 +9,7 @@ from reference.units import same_dimension
 from replication.check.findings import NO_FAULT, Difference, rank
 from replication.check.inputs import find, numbers_beside
 from replication.check.judge import Verdict, judge
-from replication.check.lines import LEAST, Line, address, headed, lines
+from replication.check.lines import LEAST, Line, address, headed, lines, runs
 from replication.check.printed import Held, held, report_inputs
 from replication.check.table import tables
 from replication.check.words import COLUMNS, INPUTS, count
@@ -222,7 +222,8 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
             )
         )
 
-    for run in _runs([place for place in calculation.formulas if is_stale(place)], calculation):
+    shapes = {place: f.shape for place, f in calculation.formulas.items() if is_stale(place)}
+    for run in runs(shapes, tables[0].across):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         yield Difference(
             run[0], "stale value", _text(calculation.values.get(run[0])),
@@ -234,26 +235,6 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
 
 def _text(value: object) -> float | str | None:
     return value if isinstance(value, float | str) or value is None else str(value)
-
-
-def _runs(places: Sequence[Position], calculation: Calculation) -> Iterator[list[Position]]:
-    """Cells below or beside each other with formulas of one shape, together."""
-    left = dict.fromkeys(places)
-    for place in places:
-        if place not in left:
-            continue
-        runs = []
-        for down, right in ((1, 0), (0, 1)):
-            run, shape = [place], calculation.formulas[place].shape
-            while (after := (place[0], run[-1][1] + down, run[-1][2] + right)) in left:
-                if calculation.formulas[after].shape != shape:
-                    break
-                run.append(after)
-            runs.append(run)
-        longest = max(runs, key=len)
-        for cell in longest:
-            del left[cell]
-        yield longest
 
 
 def _unmet(
