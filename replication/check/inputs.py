@@ -491,17 +491,13 @@ def _completed(
     add("velocity", speeds[min(speeds)], "rows")
     add("radius", report["radius"][0], "report")
     if "mass" in inputs:
-        volume = 4 / 3 * math.pi * inputs["radius"].si * inputs["radius"].si * inputs["radius"].si
-        add(
-            "particle_density",
-            inputs["mass"].si / volume if volume else 0.0,
-            "follows",
-            "mass",
-            "radius",
-        )
+        r = inputs["radius"].si
+        volume = 4 / 3 * math.pi * r * r * r
+        density = inputs["mass"].si / volume if volume else 0.0
+        add("particle_density", density, "follows", "mass", "radius")
     if "step" not in inputs:
-        step, typed = _step(columns, report), _typed(calculation)
-        add("step", step, "formulas" if step in typed else "rows")
+        step = _step(columns, report)
+        add("step", step, "formulas" if step in _typed(calculation) else "rows")
     for role in ("particle_density", "target_density", "resistance"):
         add(role, report[role][0], "report")
     return inputs
@@ -587,10 +583,7 @@ def _solved_back(setting: Setting, calculation: Calculation, report: Report) -> 
             if agreed is not None:
                 return agreed
     solved = solve(setting.rows, setting.case)  # with the report's particle, if no cell holds it
-    if not unknown or solved is None:
-        return setting
-    stresses = dict(zip(("target_density", "resistance"), solved, strict=True))
-    tried = {role: _nearby(value, typed) for role, value in stresses.items() if role in unknown}
+    tried = {role: _nearby(value, typed) for role, value in solved.items() if role in unknown}
     return _tried(setting, tried, "rows", BRAKES[:2], typed) or setting
 
 
@@ -617,11 +610,11 @@ def _nearby(value: float, typed: Iterable[float]) -> float:
     return next(near, _shortest(value, 1e-8))
 
 
-def solve(rows: Rows, case: Case) -> tuple[float, float] | None:
+def solve(rows: Rows, case: Case) -> dict[str, float]:
     """Target density and resistance for which the rows brake as they do, drag at the beginning.
 
     a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
-    Each pair of rows gives both; the medians withstand some wrong rows.
+    Each pair of rows gives both; the medians withstand some wrong rows. Nothing if there are none.
     """
     points = []
     for k in range(1, max(rows.columns["depth"]) + 1):
@@ -631,8 +624,9 @@ def solve(rows: Rows, case: Case) -> tuple[float, float] | None:
     pairs = zip(points, points[len(points) // 2 :], strict=False)
     apart = [(p, q) for p, q in pairs if p[0] - q[0] > 0.05 * p[0]]
     if len(apart) < 3:
-        return None
+        return {}
     slopes = [(p[1] - q[1]) / (p[0] - q[0]) for p, q in apart]
     ends = [p[1] - slope * p[0] for (p, _), slope in zip(apart, slopes, strict=True)]
     density, resistance = 2 * median(slopes), median(ends)
-    return (density, resistance) if density > 0 and resistance > 0 else None
+    solved = {"target_density": density, "resistance": resistance}
+    return solved if density > 0 and resistance > 0 else {}

@@ -7,6 +7,8 @@ from importlib import resources
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
+from openpyxl.utils.cell import get_column_letter
+
 from reference.units import written
 from replication.check.findings import NO_FAULT, Difference
 from replication.check.lines import address
@@ -99,7 +101,7 @@ def _sheet(
             "id": _anchor(place, sheets) if place in origins else "",
         }
 
-    heads = ["…" if c is None else address((name, 1, c)).rstrip("1") for c in columns]
+    heads = ["…" if c is None else get_column_letter(c) for c in columns]
     lines = [("…" if row is None else str(row), [cell(row, c) for c in columns]) for row in rows]
     return _Drawn(name, heads, lines)
 

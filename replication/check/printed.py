@@ -66,15 +66,14 @@ def held(
     `alone`: it is the only table, so labelled results are its own; `ends`: it goes to the stop.
     """
     stated = ("velocity", "radius", "particle_density", "step")
-    resistances = [
-        math.isclose(r, setting.case.resistance, rel_tol=1e-9) for r in report["resistance"]
-    ]
+    cases = [case for case, resistance in zip(_CASES, report["resistance"], strict=True)
+             if math.isclose(resistance, setting.case.resistance, rel_tol=1e-9)]  # fmt: skip
     alike = (
         math.isclose(setting.inputs[role].si, report[role][0], rel_tol=1e-9) for role in stated
     )
-    if not any(resistances) or not all(alike):
+    if not cases or not all(alike):
         return
-    case = _CASES[resistances.index(True)]
+    case = cases[0]
     table_a1 = case == _CASES[0]
     for role, name in _HEADER.items():
         own = setting.derived.get(role) or setting.inputs.get(role)

@@ -121,10 +121,7 @@ def _factor(f: Findings, part: str, ratio: float, role: str) -> tuple[str, str]:
 
 def _stresses(f: Findings, role: str) -> tuple[str, str] | None:
     """Whether another target density or resistance explains all decelerations."""
-    solved = solve(f.setting.rows, f.case)
-    if solved is None:
-        return None
-    tried = dict(zip(("target_density", "resistance"), solved, strict=True))
+    tried = solve(f.setting.rows, f.case)
     setting = f.setting.with_case(replace(f.case, **tried))
     if agreement(setting, 1e-8) < 0.5:
         return None

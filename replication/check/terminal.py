@@ -5,7 +5,7 @@ from textwrap import fill
 from typing import Any
 
 from replication.check.record import held, safe
-from replication.text import aligned
+from replication.text import aligned, with_unit
 
 __all__ = ["text"]
 
@@ -55,6 +55,10 @@ def _said(difference: Record) -> str:
 def _list(title: str, lines: Sequence[str], of: int) -> Iterator[str]:
     if lines:
         yield from ("", title, *lines)
+    yield from _more(of)
+
+
+def _more(of: int) -> Iterator[str]:
     if of > _MOST:
         yield f"  and {of - _MOST} more, which --json lists"
 
@@ -66,25 +70,17 @@ def _table(taken: Record, before: Record) -> Iterator[str]:
     sheet = repr(safe(taken["sheet"], 40))
     yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
     columns = [
-        (
-            f"    {name.replace('_', ' ')}",
-            column["cells"],
-            f"in {column['unit']}",
-            _by(column, "head"),
-        )
+        (name, column["cells"], f"in {column['unit']}", _by(column, "head"))
         for name, column in taken["columns"].items()
     ]
     inputs = [
-        (
-            f"    {name.replace('_', ' ')}",
-            safe(own["cell"] or "-", 40),
-            _value(own),
-            _by(own, "label"),
-        )
+        (name, safe(own["cell"] or "-", 40), with_unit(f"{own['value']:.10g}", own["unit"]),
+         _by(own, "label"))
         for name, own in taken["inputs"].items()
         if own != before.get(name)
-    ]
-    yield from aligned([*columns, *inputs])
+    ]  # fmt: skip
+    rows = [(f"    {name.replace('_', ' ')}", *entry) for name, *entry in (*columns, *inputs)]
+    yield from aligned(rows)
     if len(inputs) < len(taken["inputs"]):
         yield "    the other inputs are those above"
 
@@ -105,11 +101,6 @@ def _by(entry: Record, word: str) -> str:
     if by == "follows":
         return f"follows from {entry[word]}"
     return _WAYS.get(by) or f"{by} {safe(entry[word], 40)!r}"
-
-
-def _value(own: Record) -> str:
-    number = f"{own['value']:.10g}"
-    return number if own["unit"] == "1" else f"{number} {own['unit']}"
 
 
 def _explained(depths: Sequence[Record]) -> Iterator[str]:
@@ -145,7 +136,7 @@ def _claims(claims: Sequence[Record]) -> Iterator[str]:
     shown = shown or [c for c in claims if c["id"].startswith(("depth-", "ratio-"))]
     rows = [
         (
-            f"  {claim['printed']}{'' if claim['unit'] == '1' else ' ' + claim['unit']}",
+            f"  {with_unit(claim['printed'], claim['unit'])}",
             safe(claim["cell"], 40),
             f"{claim['found']:.7g}",
             "as printed" if claim["met"] else f"not in {claim['interval']}",
@@ -154,5 +145,4 @@ def _claims(claims: Sequence[Record]) -> Iterator[str]:
         for claim in shown[:_MOST]
     ]
     yield from aligned(rows) if rows else ()
-    if len(shown) > _MOST:
-        yield f"  and {len(shown) - _MOST} more, which --json lists"
+    yield from _more(len(shown))

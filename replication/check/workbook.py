@@ -13,6 +13,7 @@ from replication.check.lines import LEAST, Line, address, headed, lines, runs
 from replication.check.printed import Held, held, report_inputs
 from replication.check.table import tables
 from replication.check.words import COLUMNS, INPUTS, count
+from replication.text import with_unit
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Area, parse
@@ -171,9 +172,7 @@ def _nothing(calculation: Calculation) -> str:
             f"no table of depth and velocity is found; {typed:,} cells hold numbers as text, with "
             "which nothing can be calculated: convert them to numbers"
         )
-    wrong = sorted(
-        filter(calculation.error, calculation.formulas), key=calculation.order.__getitem__
-    )
+    wrong = [place for place in calculation.order if calculation.error(place)]
     if wrong:
         return (
             f"no table of depth and velocity is found; {count(len(wrong), 'formula')} give errors, "
@@ -244,11 +243,10 @@ def _unmet(
     for number in holds:
         if not number.met:
             claim = number.claim
-            unit = "" if claim.unit == "1" else f" {claim.unit}"
             yield Difference(
                 number.place, "printed number", claim.text, number.found,
-                f"the report prints {claim.shown}{unit}, {claim.title} ({claim.place}), which "
-                f"stands for values in {claim.interval()}",
+                f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
+                f"({claim.place}), which stands for values in {claim.interval()}",
                 (number.place,), (3, *rank(number.place, verdict.setting, calculation)),
             )  # fmt: skip
 
@@ -256,15 +254,18 @@ def _unmet(
 def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
     """Formulas without a stored value, and those that are not computed here."""
     reasons: dict[str, list[Position]] = {}
-    for place in calculation.formulas:
-        if calculation.book[place].value is None and calculation.values.get(place) != "":
-            reason = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
-            reasons.setdefault(reason, []).append(place)
-    for place, reason in calculation.uncomputed.items():
-        reasons.setdefault(
-            f"not computed here, their stored values are taken: {reason}", []
-        ).append(place)
+    nothing = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
+    reasons[nothing] = [
+        place
+        for place in calculation.formulas
+        if calculation.book[place].value is None and calculation.values.get(place) != ""
+    ]
+    for place, why in calculation.uncomputed.items():
+        reason = f"not computed here, their stored values are taken: {why}"
+        reasons.setdefault(reason, []).append(place)
     for reason, places in reasons.items():
+        if not places:
+            continue
         formulas = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}"
         formula = calculation.book[places[0]].formula
         yield Difference(

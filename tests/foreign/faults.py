@@ -4,10 +4,11 @@ import copy
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters
 
-Values = dict[Place, float | str | bool]
+Values = dict[Place, Any]
 
 
 @dataclass
@@ -36,12 +37,6 @@ def _changed(
     return Planted(fault, kind, g, tuple(cells) or (next(iter(changes)),), status=status)
 
 
-def _number(values: Values, place: Place) -> float:
-    value = values[place]
-    assert isinstance(value, float)
-    return value
-
-
 def _formula(f: Foreign, role: str, k: int) -> str | None:
     place = f.where.get((role, k))
     content = f.cells.get(place) if place else None
@@ -53,7 +48,7 @@ def stale_value(f: Foreign, values: Values) -> Planted | None:
     if _formula(f, BRAKE, 60) is None:
         return None
     place = f.where[BRAKE, 60]
-    wrong: Values = {place: _number(values, place) * (1 + 1e-11)}
+    wrong: Values = {place: values[place] * (1 + 1e-11)}
     return Planted("stale value", "stale value", f, (place,), wrong)
 
 
@@ -62,7 +57,7 @@ def typed_number(f: Foreign, values: Values) -> Planted | None:
     if _formula(f, DEPTH, 40) is None:
         return None
     place = f.where[DEPTH, 40]
-    typed = float(f"{_number(values, place) * 1.005:.6g}")
+    typed = float(f"{values[place] * 1.005:.6g}")
     return _changed(f, "typed number", "typed number", {place: typed})
 
 
@@ -72,8 +67,7 @@ def typed_right_number(f: Foreign, values: Values) -> Planted | None:
     if _formula(f, role, 77) is None:
         return None
     place = f.where[role, 77]
-    right = _number(values, place)
-    return _changed(f, "typed number, right value", "typed number", {place: right})
+    return _changed(f, "typed number, right value", "typed number", {place: values[place]})
 
 
 def odd_formula(f: Foreign, _: Values) -> Planted | None:
@@ -292,11 +286,7 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
     """A final depth typed beside the table, with two digits swapped."""
     if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
         return None
-    labels = [
-        p
-        for p, t in f.cells.items()
-        if isinstance(t, str) and t.startswith(("Endtiefe", "Final depth"))
-    ]
+    labels = [p for p, t in f.cells.items() if str(t).startswith(("Endtiefe", "Final depth"))]
     if labels:
         sheet, row, column = labels[0]
         unit = 1 if "µm" in str(f.cells[labels[0]]) else 1e-6

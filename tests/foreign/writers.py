@@ -54,18 +54,18 @@ def with_xlsxwriter(f: Foreign, path: Path, values: Values, wrong: Values | None
             place = sheets[sheet], row - 1, column - 1
             if isinstance(content, str) and content.startswith("="):
                 value = {**values, **(wrong or {})}.get((sheet, row, column), "")
-                exact = _Number(value) if isinstance(value, float) else value
+                exact = Exact(value) if isinstance(value, float) else value
                 place[0].write_formula(place[1], place[2], content, value=exact)
             elif isinstance(content, str):
                 place[0].write_string(place[1], place[2], content)
             else:
-                place[0].write_number(place[1], place[2], _Number(content))
+                place[0].write_number(place[1], place[2], Exact(content))
         for name, meaning in f.names.items():
             book.define_name(name, f"={meaning}")
     return path
 
 
-class _Number(float):
+class Exact(float):
     """A float that is written with all its digits, not with the writer's 16."""
 
     def __format__(self, _: str) -> str:

@@ -111,11 +111,8 @@ def test_json_has_the_promised_keys_and_every_digit(coldspray: Run, spoiled: Pat
     assert sum(record["summary"].values()) == len(record["differences"])
     first = record["first"]
     assert first in record["differences"]
-    assert (first["sheet"], first["cell"], first["kind"]) == (
-        "Calcul pas à pas",
-        "G61",
-        "typed number",
-    )
+    assert (first["sheet"], first["cell"]) == ("Calcul pas à pas", "G61")
+    assert first["kind"] == "typed number"
     right = midpoint.run(BETA_5).rows[40]
     assert (first["found"], first["expected"]) == (3.7e-6, right.depth)
     assert record["taken"][0]["columns"].keys() <= COLUMNS.keys()
@@ -155,14 +152,9 @@ def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
     f = layouts.printed_digits(BETA_5)
     f.cells[f.where[BRAKE, 3]] = 1.55e9
     found = check(written(f, tmp_path))
-    assert found.first is not None
     missed = {number.claim.id: number for number in found.held if not number.met}
     assert list(missed) == ["a1-deceleration-3"]
-    assert {d.kind for d in found.differences} == {
-        "typed number",
-        "printed number",
-        "not calculated",
-    }
+    assert found.summary.keys() == {"typed number", "printed number", "not calculated"}
     assert all(number.claim in load().claims.values() for number in found.held)
     assert len(found.held) == 30
 
@@ -189,13 +181,9 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [
-        ("=1/0", "#DIV/0!"),
-        ("=NoName*G60", "nothing is called NoName"),
-        ("=G61+1", "#CIRC!"),
-        (None, "no number"),
-    ],
-)
+    [("=1/0", "#DIV/0!"), ("=NoName*G60", "nothing is called NoName"), ("=G61+1", "#CIRC!"),
+     (None, "no number")],
+)  # fmt: skip
 def test_errors_and_gaps_are_named_where_they_begin(
     tmp_path: Path, content: str | None, words: str
 ) -> None:
@@ -206,7 +194,6 @@ def test_errors_and_gaps_are_named_where_they_begin(
     else:
         f.cells[place] = content
     first = check(written(f, tmp_path)).first
-    assert first is not None
     assert first.place == place
     assert words in first.explanation
 
@@ -223,7 +210,6 @@ def test_a_row_that_is_gone_is_the_first_difference(tmp_path: Path) -> None:
     f = layouts.table_a1(BETA_5)
     f.cells = {place: content for place, content in f.cells.items() if place[1] != 50}
     first = check(written(f, tmp_path)).first
-    assert first is not None
     assert first.place == ("Sheet1", 50, 3)
     assert "no number in the initial velocity of row 42" in first.explanation
 
@@ -249,14 +235,12 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
     (verdict,) = found.verdicts
     assert END not in verdict.setting.table.lines
     assert verdict.rules.name == "centered"
-    assert found.first is not None
     assert found.first.place == (s, 7, 5)
 
 
 def test_a_contact_area_that_shrinks_beyond_the_radius_is_named(tmp_path: Path) -> None:
     f = layouts.table_a1(replace(BETA_5, velocity=800.0))
     first = check(written(f, tmp_path)).first
-    assert first is not None
     assert first.kind == "other scheme"
     assert "keeps pi R²" in first.explanation
 
@@ -389,12 +373,9 @@ def test_the_page_draws_the_sheet_and_runs_nothing(
     assert "\u202e" not in text
     assert "style=" not in text
     tree = html5lib.HTMLParser(strict=True).parse(text)
-    cells = [
-        td
-        for td in tree.iter("{http://www.w3.org/1999/xhtml}td")
-        if "origin" in td.get("class", "")
-    ]
-    assert [cell.get("id") for cell in cells if "typed-constant" not in cell.get("class", "")]
+    cells = tree.iter("{http://www.w3.org/1999/xhtml}td")
+    classes = [td.get("class", "") for td in cells if td.get("id")]
+    assert any("origin" in names and "typed-constant" not in names for names in classes)
     links = set(re.findall(r'href="#([^"]+)"', text))
     assert links <= set(re.findall(r'id="([^"]+)"', text))
 

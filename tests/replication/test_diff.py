@@ -45,25 +45,21 @@ def test_a_changed_input_comes_first(diff: Diff) -> None:
     status, record = diff(lambda f: f.put("Sheet1", "B5", 450.0))
     assert status == 1
     first = record["first"]
-    assert (first["cell"], first["kind"], first["expected"], first["found"]) == (
-        "B5",
-        "value",
-        500.0,
-        450.0,
-    )
+    assert (first["cell"], first["kind"]) == ("B5", "value")
+    assert (first["expected"], first["found"]) == (500.0, 450.0)
     assert set(record["summary"]) == {"value"}
     assert len(record["differences"]) < 10
 
 
 def test_a_formula_and_what_follows_are_told_apart(diff: Diff) -> None:
-    status, record = diff(lambda f: f.put("Sheet1", "D60", "=D59+C60*0.0000000003"))
+    def change(f: Foreign) -> None:
+        f.put("Sheet1", "D60", "=D59+C60*0.0000000003")
+
+    status, record = diff(change)
     assert status == 1
     assert (record["first"]["kind"], record["first"]["cell"]) == ("formula", "D60")
     assert record["summary"]["formula"] == 1
-    values_only = diff(lambda f: f.put("Sheet1", "D60", "=D59+C60*0.0000000003"), "--values-only")[
-        1
-    ]
-    assert set(values_only["summary"]) == {"value"}
+    assert set(diff(change, "--values-only")[1]["summary"]) == {"value"}
 
 
 def test_a_value_over_a_formula_is_a_formula_gone(diff: Diff) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
+from foreign.writers import Exact
 
 from spreadsheets import foreign
 from spreadsheets.foreign import Cell, WorkbookError, read
@@ -81,10 +82,6 @@ def test_formulas_and_values_are_read_together(plain: Path) -> None:
 
 def test_every_digit_of_a_stored_number_is_kept(tmp_path: Path) -> None:
     import xlsxwriter
-
-    class Exact(float):
-        def __format__(self, _: str) -> str:
-            return repr(float(self))
 
     with xlsxwriter.Workbook(tmp_path / "exact.xlsx") as book:
         book.add_worksheet("S").write_number(0, 0, Exact(0.1 + 0.2))
