@@ -87,10 +87,14 @@ class Foreign:
     def given(self, sheet: str, address: str, *lines: tuple[Content, ...]) -> None:
         """Lines below each other: the input that each is, or "", its label, its number and so on.
 
-        The input is in the first cell of its line that holds a number.
+        The input is in the first cell of its line that holds a number; behind a label alone stands
+        what the impact has, in SI.
         """
         _, row, column = place(sheet, address)
         for r, (role, *contents) in enumerate(lines, row):
+            if role and len(contents) == 1 and isinstance(contents[0], str):
+                name = "target_resistance" if role == "resistance" else str(role)
+                contents.append(getattr(self.impact, name))
             self.line(sheet, f"{letters(column)}{r}", *contents)
             if role:
                 at = next(i for i, c in enumerate(contents) if isinstance(c, int | float))
@@ -134,12 +138,8 @@ def table_a1(impact: Impact) -> Foreign:
     f = Foreign("table-a1", impact)
     f.given(
         "Sheet1", "A1",
-        ("radius", "R =", impact.radius),
-        ("particle_density", "Density =", impact.particle_density),
-        ("", "M =", "=B2*4/3*PI()*B1*B1*B1"),
-        ("", "D =", "=2*B1"),
-        ("velocity", "Initial vel =", impact.velocity),
-        ("resistance", "Rt =", impact.target_resistance),
+        ("radius", "R ="), ("particle_density", "Density ="), ("", "M =", "=B2*4/3*PI()*B1*B1*B1"),
+        ("", "D =", "=2*B1"), ("velocity", "Initial vel ="), ("resistance", "Rt ="),
     )  # fmt: skip
     force = "=(0.5*7850*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"
     f.table("Sheet1", 8, [
@@ -193,14 +193,12 @@ def french(impact: Impact) -> Foreign:
     f = Foreign("french", impact)
     f.given(
         "Données", "B3",
-        ("radius", "rayon de la particule (m)", impact.radius),
-        ("particle_density", "masse volumique du cuivre (kg/m3)", impact.particle_density),
-        ("target_density", "masse volumique de la cible (kg/m3)", impact.target_density),
+        ("radius", "rayon de la particule (m)"),
+        ("particle_density", "masse volumique du cuivre (kg/m3)"),
+        ("target_density", "masse volumique de la cible (kg/m3)"),
         ("flow_stress", "contrainte d'écoulement (Pa)", 700000000),
-        ("beta", "bêta", impact.beta),
-        ("velocity", "vitesse d'impact (m/s)", impact.velocity),
-        ("step", "pas de temps (s)", impact.step),
-        ("stop_velocity", "vitesse d'arrêt (m/s)", impact.stop_velocity),
+        ("beta", "bêta"), ("velocity", "vitesse d'impact (m/s)"), ("step", "pas de temps (s)"),
+        ("stop_velocity", "vitesse d'arrêt (m/s)"),
     )  # fmt: skip
     f.line("Données", "B12", "résistance de la cible (Pa)", "=beta*Y_c")
     f.line("Données", "B13", "masse (kg)", "=rho_p*4/3*PI()*rayon*rayon*rayon")
@@ -289,7 +287,7 @@ def one_velocity(impact: Impact) -> Foreign:
     f.given(s, "A1", ("velocity", "V0 [m/s]", impact.velocity), ("step", "dt [s]", impact.step))
     f.given(s, "C1", ("diameter", "D [m]", 2 * impact.radius),
             ("resistance", "Rt [Pa]", impact.target_resistance))  # fmt: skip
-    f.given(s, "E1", ("target_density", "rho Ziel [kg/m3]", impact.target_density),
+    f.given(s, "E1", ("target_density", "rho Ziel [kg/m3]"),
             ("particle_density", "rho Kugel [kg/m3]", impact.particle_density))  # fmt: skip
     f.line(s, "A3", "m [kg]", "=PI()/6*D1^3*F2")
     f.table(s, 6, [
@@ -308,14 +306,10 @@ def side_by_side(impact: Impact) -> Foreign:
     s = "beta 3 and 5"
     f.given(
         s, "A1",
-        ("radius", "R (m)", impact.radius),
-        ("", "D (m)", "=2*B1"),
-        ("particle_density", "density of copper", impact.particle_density),
-        ("target_density", "density of steel", impact.target_density),
-        ("", "M (kg)", "=B3*4/3*PI()*B1*B1*B1"),
+        ("radius", "R (m)"), ("", "D (m)", "=2*B1"), ("particle_density", "density of copper"),
+        ("target_density", "density of steel"), ("", "M (kg)", "=B3*4/3*PI()*B1*B1*B1"),
         ("flow_stress", "Y (Pa)", 700e6),
-        ("velocity", "V (m/s)", impact.velocity),
-        ("step", "dt (s)", impact.step),
+        ("velocity", "V (m/s)"), ("step", "dt (s)"),
     )  # fmt: skip
     other = 3.0 if impact.beta == 5 else 5.0
     for (n, t, v, x, a, end), beta in (("HIJKLM", other), ("ABCDEF", impact.beta)):
@@ -458,12 +452,9 @@ def italian(impact: Impact) -> Foreign:
     f = Foreign("italian", impact)
     f.given(
         "calcolo", "A1",
-        ("radius", "raggio", impact.radius),
-        ("particle_density", "densità rame", impact.particle_density),
-        ("target_density", "densità acciaio", impact.target_density),
-        ("resistance", "Rt", impact.target_resistance),
-        ("velocity", "velocità", impact.velocity),
-        ("step", "passo", impact.step),
+        ("radius", "raggio"), ("particle_density", "densità rame"),
+        ("target_density", "densità acciaio"), ("resistance", "Rt"), ("velocity", "velocità"),
+        ("step", "passo"),
     )  # fmt: skip
     force = "=(0.5*$B$3*B{r}^2+$B$4)*PI()*(2*$B$1*C{r}-C{r}^2)/(4/3*PI()*$B$1^3*$B$2)"
     f.table("calcolo", 9, [
@@ -530,12 +521,8 @@ def no_deceleration(impact: Impact) -> Foreign:
     f = Foreign("no-deceleration", impact)
     f.given(
         "Daten", "I1",
-        ("radius", "Radius", impact.radius),
-        ("particle_density", "Dichte Cu", impact.particle_density),
-        ("target_density", "Dichte Stahl", impact.target_density),
-        ("resistance", "Widerstand", impact.target_resistance),
-        ("velocity", "V0", impact.velocity),
-        ("step", "dt", impact.step),
+        ("radius", "Radius"), ("particle_density", "Dichte Cu"), ("target_density", "Dichte Stahl"),
+        ("resistance", "Widerstand"), ("velocity", "V0"), ("step", "dt"),
         ("", "Masse", "=4/3*PI()*J1^3*J2"),
     )  # fmt: skip
     force = "(0.5*$J$3*C{r}^2+$J$4)*PI()*(2*$J$1*D{r}-D{r}^2)"
@@ -581,17 +568,11 @@ def velocity_at_end(impact: Impact) -> Foreign:
     f = Foreign("velocity-at-end", impact)
     f.given(
         "Input", "A1",
-        ("velocity", "V", impact.velocity),
-        ("radius", "R", impact.radius),
-        ("particle_density", "rho particle", impact.particle_density),
-        ("target_density", "rho target", impact.target_density),
-        ("flow_stress", "Yield strength target", impact.flow_stress),
-        ("beta", "beta", impact.beta),
-        ("step", "dt", impact.step),
-        ("stop_velocity", "v_stop", impact.stop_velocity),
+        ("velocity", "V"), ("radius", "R"), ("particle_density", "rho particle"),
+        ("target_density", "rho target"), ("flow_stress", "Yield strength target"),
+        ("beta", "beta"), ("step", "dt"), ("stop_velocity", "v_stop"),
         ("",),
-        ("", "m", "=4/3*PI()*B2^3*B3"),
-        ("", "Rt", "=B5*B6"),
+        ("", "m", "=4/3*PI()*B2^3*B3"), ("", "Rt", "=B5*B6"),
     )  # fmt: skip
     step = "Input!$B$7"
     force = "(0.5*Input!$B$4*C{p}^2+Input!$B$11)*PI()*(2*Input!$B$2*D{r}-D{r}^2)"
