@@ -45,8 +45,9 @@ def irregular(
         if place in formulas:
             if shapes[place] != usual:
                 yield place, _odd(formulas[place], pattern, calculation)
-        elif calculation.number(place) is not None:
-            stand = f"a number is typed where {_filled(pattern, place, calculation)} would stand"
+        elif (typed := calculation.values.get(place)) is not None:
+            what = "a text" if isinstance(typed, str) else "a number"
+            stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
             yield place, ("typed number", stand)
 
 
@@ -62,7 +63,8 @@ def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[
     typed = Counter(formula.literals) - Counter(pattern.literals)
     if typed and len(formula.areas) < len(pattern.areas):
         numbers = " and ".join(f"{number:g}" for number in typed)
-        where = f"{numbers} is typed where its column reads a cell: {text}, not {usual}"
+        are = "is" if len(typed) == 1 else "are"
+        where = f"{numbers} {are} typed where its column reads a cell: {text}, not {usual}"
         return "typed constant", where
     return "odd formula", f"{text} is unlike its column, where {usual} would stand"
 

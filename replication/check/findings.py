@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -70,11 +70,22 @@ class Findings:
         self.table = setting.table
         self.rules = REPORT
         self.differences: list[Difference] = []
+        self.spoils: dict[Position, Callable[[Case], Case]] = {}
+        """What a wrong input's cell makes of the case that is intended."""
 
     @property
     def case(self) -> Case:
         """The case that the rows follow."""
         return self.setting.case
+
+    @property
+    def intended(self) -> Case:
+        """The case that the rows should follow."""
+        return self.setting.intended
+
+    def intend(self, case: Case) -> None:
+        """Take another case for the one that the rows should follow."""
+        self.setting = replace(self.setting, intended=case)
 
     @property
     def accused(self) -> set[Position]:

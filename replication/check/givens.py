@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 from replication.check.cells import types
 from replication.check.findings import Findings
 from replication.check.inputs import NEAR, Input, agreement
 from replication.check.lines import address
-from replication.check.scheme import BRAKES, with_input
+from replication.check.scheme import BRAKES, Case, holding, with_input
 from replication.check.words import (
     power_of_ten,
     quantity,
@@ -38,7 +38,7 @@ def other_inputs(f: Findings) -> None:
     stated = {
         role: own
         for role, own in f.setting.inputs.items()
-        if role in f.report and role != "mass" and own.how not in ("report", "follows")
+        if role in f.report and role != "mass" and own.how not in ("report", "assumed", "follows")
     }
     off = {
         role: own
@@ -60,6 +60,16 @@ def other_inputs(f: Findings) -> None:
         text += f": a factor of 1e{abs(power)}" if power else ""
         found = own.si if own.place is None else None
         f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found)
+        if power:
+            f.spoils[place] = partial(_scaled_input, role=role, value=own.si, by=own.si / nearest)
+            f.intend(_scaled_input(f.intended, role, nearest, nearest / own.si))
+
+
+def _scaled_input(case: Case, role: str, value: float, by: float) -> Case:
+    """The case with an input of another `value`, which is the one that it has times `by`."""
+    if role in ("beta", "flow_stress"):
+        return with_input(case, "resistance", case.resistance * by)
+    return with_input(case, role, value)
 
 
 def calibrate(f: Findings) -> None:
@@ -78,15 +88,13 @@ def _shifted(f: Findings, own: Input, power: int) -> bool:
     """Whether the rows agree with an input times a power of ten; if so, take it so."""
     factor = Fraction(10) ** power
     value = scaled(own.si, factor)
-    if own.role == "flow_stress":
-        tried = with_input(f.case, "resistance", scaled(f.case.resistance, factor))
-    else:
-        tried = with_input(f.case, own.role, value)
-    setting = f.setting.with_case(tried)
+    change = partial(_scaled_input, role=own.role, value=value, by=float(factor))
+    setting = f.setting.with_case(change(f.case))
     if agreement(setting) < 0.9:
         return False
     f.setting = setting
     assert own.place is not None
+    f.spoils[own.place] = change
     text = (
         f"the formulas take {title(own.role)} as {quantity(value, own.role)}, not "
         f"{quantity(own.si, own.role)}: a factor of 1e{abs(power)} is missing"
@@ -99,17 +107,17 @@ def _shifted(f: Findings, own: Input, power: int) -> bool:
 def derived(f: Findings) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
     known = {own.role: own for own in (*f.setting.unread, *f.setting.inputs.values())}
-    resistance = f.case.resistance
+    resistance = f.intended.resistance
     if "beta" in known and "flow_stress" in known:
         resistance = known["beta"].si * known["flow_stress"].si
     for role, wanted, of in (
-        ("diameter", 2 * f.case.radius, ("radius",)),
-        ("mass", f.case.mass, ("radius", "particle_density")),
+        ("diameter", 2 * f.intended.radius, ("radius",)),
+        ("mass", f.intended.mass, ("radius", "particle_density")),
         ("resistance", resistance, ("beta", "flow_stress")),
     ):
         cell = f.setting.derived.get(role)
         sources = [known[name] for name in of if name in known]
-        if cell is not None and any(source.place for source in sources):
+        if cell is not None and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, wanted, sources)
 
 
@@ -125,20 +133,30 @@ def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Inp
     typed = any(power_of_ten(float(source.factor)) is None for source in sources)
     right = exact or (typed and math.isclose(held, wanted, rel_tol=1e-8))
     rests = titles(source.role for source in sources)
+    accused = len(f.differences)
     expected = scaled(wanted, 1 / factor)
     if place in f.calculation.formulas:
         if power := power_of_ten(held / wanted):
             text = f"{title(role)} is {times_too(power)} for {rests}: a unit is not converted"
             f.add("unit", [place], expected, text)
         elif not right:
-            text = f"{title(role)} is not what {rests} give"
+            give = "gives" if len(sources) == 1 else "give"
+            text = f"{title(role)} is not what {rests} {give}"
+            if not held:
+                text = f"{title(role)} is 0; the report's is assumed"
             f.add("odd formula", [place], expected, text)
     elif f.setting.read and (not right or any(s in f.setting.unread for s in sources)):
         text = f"{title(role)} is typed as a number, though it rests on {rests}: a change there changes nothing"  # noqa: E501
         f.add("typed constant", [place], expected, text)
-    if not exact or (role == "mass" and factor == 1):
-        field = role if role == "resistance" else f"own_{role}"
-        f.setting = f.setting.with_case(replace(f.case, **{field: held}))
+    if exact and not (role == "mass" and factor == 1):
+        return
+
+    if len(f.differences) > accused and not exact:
+        f.spoils[place] = partial(holding, role=role, value=held)
+        f.intend(holding(f.intended, role, wanted))
+    else:
+        f.intend(holding(f.intended, role, held))
+    f.setting = f.setting.with_case(holding(f.case, role, held))
 
 
 def typed_inputs(f: Findings) -> None:

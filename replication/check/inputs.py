@@ -7,14 +7,15 @@ own numbers, or solved back from the rows, and is said to be so.
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from statistics import median
 
 from reference.units import to_si
 from replication.check.lines import address
-from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact, with_input
+from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact, holding, with_input
 from replication.check.table import Table
 from replication.check.words import (
     INPUTS,
@@ -67,6 +68,8 @@ class Input:
 class Setting:
     """A table with its inputs, and the powers of ten between its columns and SI units.
 
+    `case` is what the rows follow, `intended` what they should: the two differ where a cell for
+    mass, diameter or resistance does not hold what its own inputs give.
     `slips` are units of heads that contradict the rest: role -> the power of ten that is wrong.
     `negative`: decelerations are negative in the workbook. `digits`: how many digits the numbers
     have, if they are typed and rounded. `read` are all cells outside the table
@@ -77,6 +80,7 @@ class Setting:
     table: Table
     inputs: Mapping[str, Input]
     case: Case
+    intended: Case
     powers: Mapping[str, int]
     slips: Mapping[str, int]
     rows: Rows
@@ -92,8 +96,12 @@ class Setting:
         return NEAR if self.digits is None else 10.0 ** (2 - self.digits)
 
     def with_case(self, case: Case) -> "Setting":
-        """The same table with another case."""
+        """The same table whose rows follow another case."""
         return replace(self, case=case, rows=Rows(self.rows.columns, case))
+
+    def revised(self, change: Callable[[Case], Case]) -> "Setting":
+        """The same table with a change in what its rows follow and in what they should."""
+        return replace(self.with_case(change(self.case)), intended=change(self.intended))
 
 
 def find(
@@ -120,7 +128,7 @@ def find(
     choices = {
         role: typed or cells
         for role, cells in nearest.items()
-        if (typed := [cell for cell in cells if cell.place not in calculation.formulas])
+        if (typed := [cell for cell in cells if _reads_nothing(cell, calculation)])
         or role not in _FOLLOWS
     }
     for role, place in mapped.items():
@@ -128,19 +136,27 @@ def find(
     others = (cell for cell in candidates if read and cell.place not in read and cell.label)
     typed = [cell for cell in others if cell.place not in calculation.formulas]
     unread = _by_role(typed, report, read=True)
-    if "stop_velocity" not in choices and len(unread.get("stop_velocity", ())) == 1:
-        # Whoever ends the rows by hand reads the stop velocity with his eyes.
-        choices["stop_velocity"] = unread.pop("stop_velocity")
-    setting = _settled(table, choices, calculation, report)
+    # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
+    # the mass need not read the density.
+    for role in ("stop_velocity", "particle_density"):
+        if role not in choices and len(unread.get(role, ())) == 1:
+            choices[role] = unread.pop(role)
+    if not _FOLLOWS["resistance"] <= {*choices, *unread}:
+        labelled = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
+        if labelled:  # whatever else its formula reads, it is the resistance
+            choices.setdefault("resistance", labelled)
+    feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
+    setting = _settled(table, choices, feeding, calculation, report)
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
-    setting = setting.with_case(replace(setting.case, pi=next(rounded, math.pi)))
+    pi = next(rounded, math.pi)
+    setting = setting.revised(lambda case: replace(case, pi=pi))
     taken = {own.place for own in setting.inputs.values()}
     left = [cell for cell in reads if cell.place not in taken]
     again = {
         role: _nearest(cells, read, calculation) for role, cells in _by_role(left, report).items()
     }
     held = {role: own for role, own in setting.inputs.items() if own.place}
-    derived = {role: cells[0] for role, cells in again.items()} | held
+    derived = {role: cells[0] for role, cells in again.items()} | held | dict(setting.derived)
     derived = {role: own for role, own in derived.items() if role in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(setting, read=frozenset(read), derived=derived, unread=single)
@@ -158,6 +174,12 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
         edge = list({p for area in areas for p in area.places() if p not in found})
         found.update(dict.fromkeys(edge, distance))
     return found
+
+
+def _reads_nothing(cell: Input, calculation: Calculation) -> bool:
+    """Whether a cell holds a number, or a formula of numbers alone."""
+    formula = calculation.formulas.get(cell.place) if cell.place else None
+    return formula is None or not formula.areas
 
 
 def _nearest(
@@ -318,7 +340,11 @@ _FOLLOWS = {
 
 
 def _settled(
-    table: Table, choices: Mapping[str, list[Input]], calculation: Calculation, report: Report
+    table: Table,
+    choices: Mapping[str, list[Input]],
+    feeding: Mapping[str, Input],
+    calculation: Calculation,
+    report: Report,
 ) -> Setting:
     """One cell for each role: where there are several, those that the rows agree with."""
     for role, enough in _FOLLOWS.items():  # what follows from others can be done without
@@ -333,7 +359,7 @@ def _settled(
     tried: list[tuple[float, Setting]] = []
     for picked in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        setting = _setting(table, inputs, calculation, report)
+        setting = _setting(table, inputs, feeding, calculation, report)
         tried.append((agreement(setting), setting))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
@@ -344,7 +370,11 @@ def _settled(
 
 
 def _setting(
-    table: Table, chosen: Mapping[str, Input], calculation: Calculation, report: Report
+    table: Table,
+    chosen: Mapping[str, Input],
+    feeding: Mapping[str, Input],
+    calculation: Calculation,
+    report: Report,
 ) -> Setting:
     """The setting with these cells as inputs; what is missing solved back from the rows."""
     powers, slips = _powers(table, chosen, report)
@@ -369,8 +399,9 @@ def _setting(
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     digits = _digits(table, calculation)
-    setting = Setting(table, inputs, case, powers, slips, Rows(columns, case), negative, digits)
-    return _solved_back(setting, calculation, report)
+    rows = Rows(columns, case)
+    setting = Setting(table, inputs, case, case, powers, slips, rows, negative, digits)
+    return _solved_back(setting, feeding, calculation, report)
 
 
 def _check(own: Input) -> None:
@@ -572,36 +603,74 @@ def filled(part: str, rows: Rows, case: Case, k: int) -> float | None:
     return None if v is None or final is None else (v - final) / case.step
 
 
-def _solved_back(setting: Setting, calculation: Calculation, report: Report) -> Setting:
-    """Inputs that no cell holds: the report's if the rows agree, else from the rows."""
+def _solved_back(
+    setting: Setting, feeding: Mapping[str, Input], calculation: Calculation, report: Report
+) -> Setting:
+    """Inputs that no cell holds: the report's if the rows agree, else from the rows.
+
+    If they do not agree with mass, diameter and resistance as these should be, they may with what
+    the cells `feeding` the rows hold.
+    """
     unknown = [role for role, own in setting.inputs.items() if own.how == "report"]
     typed = _typed(calculation) if unknown else set()
-    for rules in (BRAKES[:2], BRAKES):
-        for values in itertools.product(*(report[role] for role in unknown)):
-            tried = dict(zip(unknown, values, strict=True))
-            agreed = _tried(setting, tried, "report", rules, typed)
-            if agreed is not None:
-                return agreed
+    for fed in ((), *_fed(setting, feeding, calculation)):
+        for rules in (BRAKES[:2], BRAKES):
+            for values in itertools.product(*(report[role] for role in unknown)):
+                tried = dict(zip(unknown, values, strict=True))
+                agreed = _tried(setting, tried, "report", rules, typed, fed)
+                if agreed is not None:
+                    return agreed
     solved = solve(setting.rows, setting.case)  # with the report's particle, if no cell holds it
     tried = {role: _nearby(value, typed) for role, value in solved.items() if role in unknown}
-    return _tried(setting, tried, "rows", BRAKES[:2], typed) or setting
+    agreed = _tried(setting, tried, "rows", BRAKES[:2], typed)
+    return agreed or replace(setting, inputs=_assumed(setting.inputs, unknown))
+
+
+def _assumed(inputs: Mapping[str, Input], roles: Iterable[str]) -> dict[str, Input]:
+    """The inputs, some of them the report's although the rows do not tell."""
+    return {**inputs, **{role: replace(inputs[role], how="assumed") for role in roles}}
+
+
+def _fed(
+    setting: Setting, feeding: Mapping[str, Input], calculation: Calculation
+) -> Iterator[tuple[Input, ...]]:
+    """Mass, diameter and resistance as their cells hold them, where that is not what it should be.
+
+    A formula that is wrong does not tell its unit by its value: every power of a thousand may be.
+    """
+    wrong = []
+    for role, cell in feeding.items():
+        number = calculation.number(cell.place) if cell.place else None
+        wanted = getattr(setting.intended, role)
+        if number is None or (number == 0 and role != "resistance"):
+            continue
+        if number > 0 and power_of_ten(wanted / number) is not None:
+            continue  # right, or a unit is not converted, which the rows tell otherwise
+        thousands = () if cell.unit else (Fraction(1000) ** power for power in range(-5, 6))
+        factors = dict.fromkeys((cell.factor, *thousands))
+        wrong.append([replace(cell, role=role, si=scaled(number, by), factor=by) for by in factors])
+    if wrong:
+        yield from itertools.islice(itertools.product(*wrong), 2 * _MAX_CHOICES)
 
 
 def _tried(
-    setting: Setting, tried: Mapping[str, float], how: str, rules: Sequence[Rule], typed: set[float]
-) -> Setting | None:
-    """The setting with some inputs, if the rows agree with it."""
-    case = setting.case
+    setting: Setting, tried: Mapping[str, float], how: str, rules: Sequence[Rule],
+    typed: set[float], fed: Sequence[Input] = (),
+) -> Setting | None:  # fmt: skip
+    """The setting with some inputs, and with some cells feeding its rows, if the rows agree."""
     for role, value in tried.items():
-        case = with_input(case, role, value)
-    other = setting.with_case(case)
-    if agreement(other, rules=rules) < 0.5:
+        setting = setting.revised(partial(with_input, role=role, value=value))
+    for cell in fed:
+        setting = setting.with_case(holding(setting.case, cell.role, cell.si))
+    if agreement(setting, rules=rules) < 0.5:
         return None
-    inputs = {
-        role: replace(setting.inputs[role], si=value, how="formulas" if value in typed else how)
-        for role, value in tried.items()
-    }
-    return replace(other, inputs={**setting.inputs, **inputs})
+    inputs = dict(setting.inputs)
+    for role, value in tried.items():
+        known = "formulas" if value in typed else how
+        inputs[role] = replace(inputs[role], si=value, how=known)
+    hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
+    inputs = _assumed(inputs, (role for role in hidden if role in tried))
+    return replace(setting, inputs=inputs, derived={cell.role: cell for cell in fed})
 
 
 def _nearby(value: float, typed: Iterable[float]) -> float:

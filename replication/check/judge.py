@@ -53,10 +53,11 @@ def judge(
     """
     f = Findings(setting, calculation, report)
     units(f)
-    other_inputs(f)
     if setting.digits is None:
         calibrate(f)
         derived(f)
+    other_inputs(f)
+    if setting.digits is None:
         choose(f)
         each_cell(f)
         typed_inputs(f)
@@ -72,7 +73,7 @@ def _stop(f: Findings) -> None:
     steps, stop = f.table.steps, f.case.stop_velocity
     finals = {k: v for k in range(1, steps + 1) if (v := _final(f, k)) is not None}
     below = next((k for k, v in finals.items() if v < stop), None)
-    right = max(march(f.case, limit=steps + 1)["depth"])
+    right = max(march(f.intended, limit=steps + 1)["depth"])
     if not finals or below == steps or (below != steps and right == steps):
         return  # with as many rows as there should be, where they end follows from the rest
     last = finals[max(finals)]
@@ -88,11 +89,7 @@ def _stop(f: Findings) -> None:
         return  # the rules that the rows follow do not lead to the stop by themselves
     text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
     of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
-    place = f.table.place(role, steps)
-    if 2 * steps < whole:
-        f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
-    else:
-        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
+    f.add("not calculated", [f.table.place(role, steps)], None, f"{text}: {steps} of {of}")
 
 
 def _final(f: Findings, k: int) -> float | None:
@@ -104,16 +101,15 @@ def _final(f: Findings, k: int) -> float | None:
 def _verdict(f: Findings) -> Verdict:
     """All of it, with the final depths and the difference that explains them."""
     steps, rows = f.table.steps, f.setting.rows
-    run = march(f.case, limit=_LIMIT)
-    ends = run["velocity_final"].get(max(run["depth"]), math.inf) < f.case.stop_velocity
+    run = march(f.intended, limit=_LIMIT)
+    ends = run["velocity_final"].get(max(run["depth"]), math.inf) < f.intended.stop_velocity
     pairs = [
-        (value, rows.columns[role].get(k))
+        (value, run[role].get(k))
         for role in set(run) & set(rows.columns)
-        for k, value in run[role].items()
+        for k, value in rows.columns[role].items()
+        if k in run[role] or k > max(run["depth"])
     ]
-    differing = sum(
-        own is not None and abs(own - value) > 1e-9 * abs(value) for value, own in pairs
-    )
+    differing = sum(right is None or abs(own - right) > 1e-9 * abs(right) for own, right in pairs)
     found = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
     right = run["depth"][max(run["depth"])] if ends else None
     return Verdict(f.setting, f.rules, found, rows("depth", steps), right, differing)
@@ -122,10 +118,14 @@ def _verdict(f: Findings) -> Verdict:
 def _with_effect(f: Findings, difference: Difference) -> Difference:
     """The difference with the final depth that it alone would give."""
     fixed: dict[tuple[str, int], float] = {}
-    rules = REPORT
+    rules, case = REPORT, f.intended
+    if not f.rules.brake.says:
+        rules = replace(rules, brake=f.rules.brake)
     if difference.kind == "other scheme":
         named = [part for part, rule in f.rules.others() if rule.says in difference.explanation]
         rules = replace(rules, **{part: f.rules.part(part) for part in named})
+    elif difference.place in f.spoils:
+        case = f.spoils[difference.place](case)
     elif difference.kind in ("typed number", "odd formula", "typed constant"):
         for place in difference.cells:
             role, k = f.table.places.get(place, ("", 0))
@@ -134,5 +134,5 @@ def _with_effect(f: Findings, difference: Difference) -> Difference:
                 fixed[role, k] = value
     else:
         return difference
-    depths = march(f.case, rules, fixed, limit=f.table.steps, until=f.table.steps)["depth"]
+    depths = march(case, rules, fixed, limit=f.table.steps, until=f.table.steps)["depth"]
     return replace(difference, effect=depths.get(f.table.steps))

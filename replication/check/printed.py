@@ -21,7 +21,7 @@ _INPUTS = {
     "particle_density": ("a1-density",),
     "beta": ("depth-beta-5-beta", "depth-beta-3-beta"),
     "flow_stress": ("flow-stress",),
-    "step": ("a-step",),
+    "step": ("a-step", "coarse-step"),
     "stop_velocity": ("a-stop-velocity",),
     "mass": ("a1-mass",),
 }
@@ -46,7 +46,7 @@ class Held:
 
 
 def report_inputs() -> dict[str, tuple[float, ...]]:
-    """The report's inputs in SI, for both betas; its target density as inferred."""
+    """The report's inputs in SI, for both betas and steps; its target density as inferred."""
     ledger = load()
     values = {}
     for role, names in _INPUTS.items():
@@ -99,6 +99,8 @@ def _results(
         yield _judged(f"depth-{case}", last, Fraction(depth))
     for kind, place in cells.items():
         value = calculation.number(place) or 0.0
+        if not ends and place in calculation.formulas:
+            continue  # it is not the final depth that the formulas give so far
         if kind == "depth" and depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)

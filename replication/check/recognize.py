@@ -50,10 +50,20 @@ def choose(f: Findings) -> None:
             unknown.append(part)
         else:
             chosen[part] = best
+    own, beyond = BRAKES[0], next(r for r in BRAKES if r.name == "area beyond the radius")
+    if chosen.get("brake") in (own, beyond) and not _reaches_radius(f):
+        # What the area is beyond the radius does not matter to a sheet that should not get there.
+        shares = {rule: share(f.setting, "brake", rule) for rule in (own, beyond)}
+        chosen["brake"] = own if shares[own] >= shares[beyond] else replace(beyond, says="")
     f.rules = replace(REPORT, **chosen)
     for part in unknown:
         _unknown(f, part)
     named(f)
+
+
+def _reaches_radius(f: Findings) -> bool:
+    """Whether the sheet, if it were right, would get as deep as the particle's radius."""
+    return max(march(f.intended)["depth"].values()) >= f.intended.radius
 
 
 def named(f: Findings) -> None:

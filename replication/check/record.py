@@ -104,7 +104,7 @@ def _verdict(check: Check) -> str:
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
     for verdict in check.verdicts:
         own, right = verdict.final_depth, verdict.right_depth
-        if own is not None and right is not None and _apart(own, right):
+        if verdict.ends and own is not None and right is not None and _apart(own, right):
             return f"{sentence}; the final depth is {_um(own)}, and should be {_um(right)}."
     if all(v.right_depth and v.final_depth and v.ends for v in check.verdicts):
         return f"{sentence}; the final depth is right all the same."
@@ -123,7 +123,7 @@ def _depth(verdict: Verdict) -> dict[str, Any]:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
     own, right = verdict.final_depth, verdict.right_depth
     explains = None
-    if own is not None and right is not None and _apart(own, right):
+    if verdict.ends and own is not None and right is not None and _apart(own, right):
         effects = {d: d.effect for d in verdict.differences if d.effect is not None}
         if effects:
             nearest = min(effects, key=lambda d: abs(effects[d] - own))

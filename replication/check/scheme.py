@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 __all__ = [
     "ADVANCES", "BRAKES", "ENDINGS", "PARTS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules",
-    "deceleration", "march", "orders", "with_input",
+    "deceleration", "holding", "march", "orders", "with_input",
 ]  # fmt: skip
 
 PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration", 1),
@@ -302,6 +302,12 @@ def march(
         if k == until or (until is None and final < case.stop_velocity):
             break
     return columns
+
+
+def holding(case: Case, role: str, value: float) -> Case:
+    """The case with mass, diameter or resistance as a cell holds it, all else as it is."""
+    own = {"diameter": "own_diameter", "mass": "own_mass", "resistance": "resistance"}
+    return replace(case, **{own[role]: value})
 
 
 def with_input(case: Case, role: str, value: float) -> Case:

@@ -88,6 +88,7 @@ def _table(taken: Record, before: Record) -> Iterator[str]:
 _WAYS = {
     "rows": "in no cell; solved back from the rows",
     "report": "in no cell; the report's, with which the rows agree",
+    "assumed": "in no cell; the report's is assumed",
     "formulas": "in no cell; typed into the formulas",
     "values": "by its values",
     "value": "by its value",
