@@ -172,6 +172,8 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     column = f.setting.rows.columns[role]
     found = column.get(k)
     if found is None:
+        if _text(f, f.table.place(role, k)):
+            return True
         inside = bool(column) and min(column) < k < max(column)
         return _breaks(f, f.table.place(role, k)) or (
             inside and not f.calculation.error(f.table.place(role, k))
@@ -184,13 +186,20 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     return abs(found - expected) > NEAR * size
 
 
+def _text(f: Findings, place: Position) -> bool:
+    """Whether a text is typed into a cell of the table."""
+    value = f.calculation.values.get(place)
+    typed = place in f.table.places and place not in f.calculation.formulas
+    return typed and isinstance(value, str) and bool(value.strip())
+
+
 def _breaks(f: Findings, place: Position) -> bool:
     """Whether a cell gives an error that comes from no other cell of the table."""
     formula = f.calculation.formulas.get(place)
     if formula is None or not f.calculation.error(place):
         return False
     read = (cell for area in formula.areas if area.cells == 1 for cell in [area.corner])
-    return not any(cell != place and f.calculation.error(cell) for cell in read)
+    return not any(cell != place and (f.calculation.error(cell) or _text(f, cell)) for cell in read)
 
 
 def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
@@ -203,6 +212,8 @@ def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, 
     if error := f.calculation.error(place):
         text = f"{title(role)} of row {k} gives {error}, as do all cells that read it"
         return "odd formula", text
+    if found is None and _text(f, place):
+        return alone, f"{title(role)} of row {k} is a text, not a number"
     if found is None:
         return alone, f"no number in {title(role)} of row {k}"
     if role == "time" and k == 1 and found == 0:

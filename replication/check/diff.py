@@ -17,6 +17,7 @@ from openpyxl.utils.cell import get_column_letter
 
 from replication.check.findings import Difference
 from replication.check.lines import area_of, runs
+from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Formula, Piece
@@ -25,6 +26,10 @@ __all__ = ["KINDS", "Comparison", "Tolerance", "diff"]
 
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
+
+LAST_DIGITS = 1e-14
+"""Relative distance within which only the last digits differ: files may keep 15 of them."""
+_LAST = "only the last digits of the values differ"
 
 _MAX_BLOCKS = 200
 _MAX_SIMILAR = 2_500
@@ -59,11 +64,14 @@ def _print_alike(a: float, b: float, digits: int) -> bool:
 
     >>> _print_alike(9.476105709802965e-07, 9.47610570980297e-07, 15)
     True
+    >>> _print_alike(10.037311494880546, 10.0373114948806, 15)
+    True
     """
     texts = [f"{number:.{digits - 1}e}" for number in (a, b)]
     half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - digits}")
     rounded = float(texts[0]) == a or float(texts[1]) == b
-    near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half
+    noise = 4 * Decimal(math.ulp(a))  # what was rounded may itself differ in its last bits
+    near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + noise
     return texts[0] == texts[1] or (rounded and near)
 
 
@@ -74,6 +82,11 @@ class Comparison:
     paths: tuple[Path, Path]
     calculations: tuple[Calculation, Calculation]
     differences: list[Difference] = field(default_factory=list)
+
+    @property
+    def last_digits(self) -> list[Difference]:
+        """The differences that only the last digits show."""
+        return [d for d in self.differences if d.explanation.startswith(_LAST)]
 
     @property
     def first(self) -> Difference | None:
@@ -125,6 +138,8 @@ class _Diff:
         )
         cells = tuple(cells) or (place,)
         rank = self.rank(place, kind)
+        if text.startswith(_LAST):
+            rank = (2, *rank)
         self.differences.append(Difference(place, kind, was, now, text, cells, rank))
 
     def rank(self, place: Position, kind: str) -> tuple[float, ...]:
@@ -153,10 +168,10 @@ class _Diff:
         self.shifts(name, other, rows, columns)
         for block in _blocks(left):
             cells = [(name, *c) for c in block]
-            self.add(cells[0], "removed", _span(cells), None, f"{len(cells)} cells are gone", cells)
+            self.add(cells[0], "removed", _span(cells), None, _of(cells, "gone"), cells)
         for block in _blocks(free):
             cells = [(other, *c) for c in block]
-            self.add(cells[0], "added", None, _span(cells), f"{len(cells)} cells are new", cells)
+            self.add(cells[0], "added", None, _span(cells), _of(cells, "new"), cells)
 
     def moved(self, name: str, other: str, left: dict[Cell, str], free: dict[Cell, str]) -> None:
         """Blocks that stand elsewhere: the same cells at the same distances."""
@@ -203,7 +218,8 @@ class _Diff:
         found = {new: differs for old, new in pairs if (differs := compare(old, new))}
         for run in runs({place: text for place, (*_, text) in found.items()}):
             was, now, text = found[run[0]]
-            more = f", and in {len(run) - 1} cells after it" if len(run) > 1 else ""
+            after = count(len(run) - 1, "cell")
+            more = f", also in {after} after it" if len(run) > 1 else ""
             self.add(run[0], kind, was, now, text + more, run)
 
     def formulas(self, old: Position, new: Position) -> tuple[object, object, str] | None:
@@ -237,8 +253,16 @@ class _Diff:
     def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
-            return None if self.tolerance.equal(a, b) else (a, b, "the values differ")
+            if self.tolerance.equal(a, b):
+                return None
+            small = math.isclose(a, b, rel_tol=LAST_DIGITS)
+            return a, b, _LAST if small else "the values differ"
         return None if a == b else (a, b, "the contents differ")
+
+
+def _of(cells: Sequence[Position], what: str) -> str:
+    """What some cells are: "1 cell is gone", "2 cells are new"."""
+    return f"{count(len(cells), 'cell')} {'is' if len(cells) == 1 else 'are'} {what}"
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:

@@ -409,8 +409,8 @@ def _check(own: Input) -> None:
     if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
         where = "its rows" if own.place is None else address(own.place, True)
         raise ValueError(
-            f"{where}: taken for {title(own.role)}, is {own.si:g}; a number greater than zero is "
-            f"wanted, or --map {own.role}=CELL"
+            f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
+            f"zero; if another cell is meant, give --map {own.role}=CELL"
         )
 
 

@@ -28,7 +28,7 @@ _FACTORS = (
 )  # fmt: skip
 
 
-_UNKNOWN = "other scheme", "these cells follow no scheme known here"
+_UNKNOWN = "other scheme", "these cells follow no scheme that this program knows"
 
 
 def _near(a: float, b: float) -> bool:

@@ -40,6 +40,8 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     found = comparison.differences
     cells = sum(len(d.cells) for d in found if d.kind in ("formula", "value"))
     verdict = f"{count(len(found), 'difference')}, in the contents of {count(cells, 'cell')}"
+    if last := len(comparison.last_digits):
+        verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     return {
         "file": " and ".join(map(str, comparison.paths)),
         "verdict": f"{verdict}." if found else "Equal: every cell holds the same.",
@@ -186,10 +188,12 @@ def held(difference: Mapping[str, Any]) -> str:
     """What a cell holds and what it should hold; of `diff`, what it was and what it is.
 
     >>> held({"kind": "value", "expected": 500.0, "found": None})
-    'was 500.0, is nothing'
+    'was 500.0, is blank'
     """
     expected, found = difference["expected"], difference["found"]
     if difference["kind"] not in KINDS:
+        if difference["kind"] in ("added", "removed"):
+            return _shown(found if expected is None else expected)
         return f"was {_shown(expected)}, is {_shown(found)}"
     if expected is not None:
         return f"holds {_shown(found)}, should hold {_shown(expected)}"
@@ -197,7 +201,7 @@ def held(difference: Mapping[str, Any]) -> str:
 
 
 def _shown(value: object) -> str:
-    return "nothing" if value is None else safe(value, 120)
+    return "blank" if value is None else safe(value, 120)
 
 
 def safe(text: object, limit: int = 90) -> str:

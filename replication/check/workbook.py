@@ -121,7 +121,7 @@ def _mapped(
             columns.append(_measuring(headed(line, calculation)))
         else:
             wanted = "one cell" if given in INPUTS else "one column or one row"
-            raise ValueError(f"--map {given}={where}: {wanted} is wanted")
+            raise ValueError(f"--map {given}={where}: give {wanted}")
     return columns, cells
 
 
@@ -131,7 +131,7 @@ def _measuring(line: Line) -> Line:
     if line.unit and not same_dimension(line.unit, wanted):
         raise ValueError(
             f"--map {line.given}: the head of these cells gives {line.unit}, a unit of something "
-            f"else; {wanted} or a multiple of it is wanted"
+            f"else; it should be {wanted} or a multiple of it"
         )
     return line
 
@@ -141,7 +141,8 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
     book = calculation.book
     sheets = {name.upper(): name for name in book.sheets}
     if given not in ("velocity", *COLUMNS, *INPUTS):
-        raise ValueError(f"--map {given[:40]!r}: choose of {', '.join([*COLUMNS, *INPUTS])}")
+        known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
+        raise ValueError(f"--map {given[:40]!r} is not a known name; choose one of {known}")
     names = {name.upper(): meaning for name, meaning in book.names.items()}
     read = (parse(f"={where}", (sheet, 1, 1), sheets, names).areas for sheet in book.sheets)
     areas = list(dict.fromkeys(found[0] for found in read if len(found) == 1))
@@ -156,7 +157,7 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
     if not areas:
         known = ", ".join(repr(name) for name in list(sheets.values())[:8])
         raise ValueError(
-            f"--map {given}={where[:60]!r}: a range such as Sheet1!D8:D139 is wanted; "
+            f"--map {given}={where[:60]!r}: give a range such as Sheet1!D8:D139; "
             f"the sheets are {known}"
         )
     rows = max((r for r, _ in book.sheets[areas[0].sheet]), default=1)

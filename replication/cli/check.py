@@ -43,7 +43,7 @@ def _mapping(given: Sequence[str]) -> dict[str, str]:
     for text in given:
         name, _, where = text.partition("=")
         if not where:
-            raise ValueError(f"--map {text[:60]!r}: NAME=RANGE is wanted, such as depth=D8:D139")
+            raise ValueError(f"--map {text[:60]!r}: give NAME=RANGE, such as depth=D8:D139")
         mapping[name.strip().replace("-", "_")] = where.strip()
     return mapping
 
