@@ -113,7 +113,7 @@ def read(path: Path) -> Book:
         with path.open("rb") as file:
             sealed = file.read(len(_SEALED)) == _SEALED
         what = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
-        raise WorkbookError(f"{path}: {what}; give an .xlsx or .xlsm file that opens without a password")
+        raise WorkbookError(f"{path}: {what}; give an .xlsx or .xlsm file without a password")
     with TemporaryDirectory(prefix="coldspray-") as folder:
         book = _read(_converted(path, Path(folder)), shown=path)
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"

@@ -187,9 +187,10 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
 
 
 def _text(f: Findings, place: Position) -> bool:
-    """Whether a text is typed into a cell of the table."""
+    """Whether a text is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
-    typed = place in f.table.places and place not in f.calculation.formulas
+    _, k = f.table.places.get(place, ("", 0))
+    typed = k > 0 and place not in f.calculation.formulas
     return typed and isinstance(value, str) and bool(value.strip())
 
 

@@ -210,7 +210,7 @@ def drag_without_half(f: Foreign, _: Values) -> Planted | None:
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
-    """The last nine rows are missing."""
+    """The last nine rows are missing, which is no fault."""
     if _formula(f, DEPTH, 40) is None or f.name in ("guarded", "side-by-side"):
         return None
     g = copy.deepcopy(f)
@@ -225,8 +225,8 @@ def early_stop(f: Foreign, _: Values) -> Planted | None:
         if isinstance(content, str) and content == f"={ref(last)}":
             g.cells[place] = f"={ref(f.where[DEPTH, f.steps - 9])}"
     role = END if (END, 40) in f.where else START
-    return Planted("stop at another velocity", "other scheme", g,
-                   (f.where[role, f.steps - 9],))  # fmt: skip
+    last = f.where[role, f.steps - 9]
+    return Planted("rows that end early", "not calculated", g, (last,), status=0)
 
 
 def _beside(f: Foreign, first: int, last: int) -> list[Place]:
@@ -270,6 +270,48 @@ def wrong_unit_input(f: Foreign, _: Values) -> Planted | None:
     return _changed(f, "unit of an input", "unit", {place: float(f"{value * 1000:.12g}")})
 
 
+def _beside_table(f: Foreign) -> dict[Place, str]:
+    """Formulas that stand outside the rows of the table."""
+    rows = {*_beside(f, 0, f.steps), *f.where.values()} if (DEPTH, 1) in f.where else set()
+    formulas = {p: c for p, c in f.cells.items() if isinstance(c, str) and c.startswith("=")}
+    return {place: text for place, text in formulas.items() if place not in rows}
+
+
+def _changed_formulas(f: Foreign, fault: str, pattern: str, to: str) -> Planted | None:
+    """The formulas beside the table that follow a pattern, otherwise; the first is named."""
+    texts = {p: re.sub(pattern, to, text) for p, text in _beside_table(f).items()}
+    changes = {place: text for place, text in texts.items() if text != f.cells[place]}
+    return (
+        _changed(f, fault, "odd formula", dict([next(iter(changes.items()))])) if changes else None
+    )
+
+
+def wrong_pi(f: Foreign, _: Values) -> Planted | None:
+    """The mass with three digits of pi."""
+    return _changed_formulas(
+        f, "wrong mass formula, pi", r"(4/3\*)PI\(\)|PI\(\)(/6)", r"\g<1>3.14\2"
+    )
+
+
+def wrong_mass(f: Foreign, _: Values) -> Planted | None:
+    """The mass with the square of the radius or without a third."""
+    return _changed_formulas(f, "wrong mass formula", r"4/3\*PI\(\)|PI\(\)/6", "4*PI()")
+
+
+def wrong_diameter(f: Foreign, _: Values) -> Planted | None:
+    """The diameter is the radius."""
+    return _changed_formulas(f, "wrong diameter formula", r"^=2\*(\$?[A-Z]+\$?\d+)$", r"=\1")
+
+
+def wrong_resistance(f: Foreign, _: Values) -> Planted | None:
+    """The resistance is a sum where it should be a product."""
+    if not {"beta", "flow_stress"} <= set(f.inputs) or f.name == "side-by-side":
+        return None
+    return _changed_formulas(
+        f, "wrong resistance formula", r"^=([\w$]+)\*([A-Za-z_$]+\d*)$", r"=\1+\2"
+    )
+
+
 def other_velocity(f: Foreign, _: Values) -> Planted | None:
     """Not the report's impact velocity, all else right."""
     place = f.inputs.get("velocity")
@@ -301,5 +343,6 @@ def misprint(f: Foreign, _: Values) -> Planted | None:
 FAULTS: tuple[Callable[[Foreign, Values], Planted | None], ...] = (
     stale_value, typed_number, typed_right_number, odd_formula, odd_sign, typed_constant,
     typed_column, operation_order, no_half_step, middle_velocity, explicit_euler,
-    drag_without_half, early_stop, wrong_head, wrong_unit_input, other_velocity, misprint,
+    drag_without_half, early_stop, wrong_pi, wrong_mass, wrong_diameter, wrong_resistance,
+    wrong_head, wrong_unit_input, other_velocity, misprint,
 )  # fmt: skip

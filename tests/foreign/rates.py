@@ -3,6 +3,7 @@
 `python tests/foreign/rates.py` prints the tables of docs/check.md; the tests measure them again.
 """
 
+import math
 import shutil
 import sys
 import tempfile
@@ -19,6 +20,7 @@ from foreign.layouts import Foreign, by_hand
 
 from replication.cases import BETA_3, BETA_5
 from replication.check.workbook import Check, check
+from replication.models.sheet import run
 
 DRAWN = range(24)
 AFRESH = range(3000, 3040)
@@ -82,7 +84,8 @@ def planted(
 ) -> tuple[str, list[tuple[str, bool, bool]]]:
     """One fault in every workbook that can have it: its name; each workbook, found, found alone.
 
-    Found: named rightly, placed on the right cell, called the first; alone: nothing else accused.
+    Found: named rightly, placed on the right cell, called the first, and the depth that should be
+    is the right one; alone: nothing else accused.
     """
     fault, found = "", []
     for f, values in books or to_spoil():
@@ -100,6 +103,10 @@ def planted(
 
 
 def _found(spoiled: Planted, done: Check) -> bool:
+    right = run(spoiled.workbook.impact).depth
+    depths = [verdict.right_depth for verdict in done.verdicts]
+    if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
+        return False
     if spoiled.status:
         first = done.first
         return first is not None and first.kind == spoiled.kind and first.place in spoiled.cells
