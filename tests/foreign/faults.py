@@ -272,7 +272,8 @@ def wrong_unit_input(f: Foreign, _: Values) -> Planted | None:
 
 def _beside_table(f: Foreign) -> dict[Place, str]:
     """Formulas that stand outside the rows of the table."""
-    rows = {*_beside(f, 0, f.steps), *f.where.values()} if (DEPTH, 1) in f.where else set()
+    steps = [k for role, k in f.where if role == DEPTH]
+    rows = {*_beside(f, min(steps), max(steps)), *f.where.values()}
     formulas = {p: c for p, c in f.cells.items() if isinstance(c, str) and c.startswith("=")}
     return {place: text for place, text in formulas.items() if place not in rows}
 

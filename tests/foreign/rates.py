@@ -103,7 +103,7 @@ def planted(
 
 
 def _found(spoiled: Planted, done: Check) -> bool:
-    right = run(spoiled.workbook.impact).depth
+    right = run(spoiled.workbook.impact).final_depth
     depths = [verdict.right_depth for verdict in done.verdicts]
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
