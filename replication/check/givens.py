@@ -108,7 +108,7 @@ def _shifted(f: Findings, own: Input, power: int) -> bool:
 def derived(f: Findings) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
     known = {own.role: own for own in (*f.setting.unread, *f.setting.inputs.values())}
-    rows = replace(f.case, own_mass=None, own_diameter=None)
+    rows = replace(f.case, own_mass=None, own_diameter=None) if f.spoils else None
     resistance = f.intended.resistance
     if "beta" in known and "flow_stress" in known:
         resistance = known["beta"].si * known["flow_stress"].si
@@ -120,8 +120,7 @@ def derived(f: Findings) -> None:
         cell = f.setting.derived.get(role)
         sources = [known[name] for name in of if name in known]
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
-        follows = getattr(rows, role)
-        if cell is not None and follows != wanted and math.isclose(cell.si, follows, rel_tol=NEAR):
+        if cell is not None and rows and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
             continue
         if cell is not None and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, wanted, sources)

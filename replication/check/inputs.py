@@ -146,6 +146,10 @@ def find(
         if labelled:  # whatever else its formula reads, it is the resistance
             choices.setdefault("resistance", labelled)
     feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
+    for role, of in (("mass", "radius particle_density"), ("resistance", "beta flow_stress")):
+        own = _reading([choices.get(name, []) for name in of.split()], reads, calculation)
+        if role not in feeding and own is not None:
+            feeding[role] = replace(own, role=role)
     setting = _settled(table, choices, feeding, calculation, report)
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     pi = next(rounded, math.pi)
@@ -180,6 +184,20 @@ def _reads_nothing(cell: Input, calculation: Calculation) -> bool:
     """Whether a cell holds a number, or a formula of numbers alone."""
     formula = calculation.formulas.get(cell.place) if cell.place else None
     return formula is None or not formula.areas
+
+
+def _reading(
+    sources: Sequence[Sequence[Input]], reads: Sequence[Input], calculation: Calculation
+) -> Input | None:
+    """The cell without a known label whose formula reads these inputs and nothing else."""
+    wanted = {cells[0].place for cells in sources if cells}
+    if len(wanted) < len(sources):
+        return None
+    for cell in reads:
+        formula = calculation.formulas.get(cell.place) if cell.place and not cell.roles else None
+        if formula and {_source(area.corner, calculation) for area in formula.areas} == wanted:
+            return cell
+    return None
 
 
 def _nearest(

@@ -51,10 +51,12 @@ def choose(f: Findings) -> None:
         else:
             chosen[part] = best
     own, beyond = BRAKES[0], next(r for r in BRAKES if r.name == "area beyond the radius")
-    if chosen.get("brake") in (own, beyond) and not _reaches_radius(f):
+    if "brake" in chosen and not _reaches_radius(f):
         # What the area is beyond the radius does not matter to a sheet that should not get there.
-        shares = {rule: share(f.setting, "brake", rule) for rule in (own, beyond)}
-        chosen["brake"] = own if shares[own] >= shares[beyond] else replace(beyond, says="")
+        rest = [share(f.setting, "brake", rule) for rule in (own, chosen["brake"])]
+        deeper = share(f.setting, "brake", beyond)
+        if deeper > rest[0] and deeper >= rest[1]:
+            chosen["brake"] = replace(beyond, says="")
     f.rules = replace(REPORT, **chosen)
     for part in unknown:
         _unknown(f, part)

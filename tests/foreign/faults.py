@@ -275,7 +275,8 @@ def _beside_table(f: Foreign) -> dict[Place, str]:
     steps = [k for role, k in f.where if role == DEPTH]
     rows = {*_beside(f, min(steps), max(steps)), *f.where.values()}
     formulas = {p: c for p, c in f.cells.items() if isinstance(c, str) and c.startswith("=")}
-    return {place: text for place, text in formulas.items() if place not in rows}
+    # A stray row below a table has the drag's 0.5 in it.
+    return {p: text for p, text in formulas.items() if p not in rows and "0.5*" not in text}
 
 
 def _changed_formulas(f: Foreign, fault: str, pattern: str, to: str) -> Planted | None:
