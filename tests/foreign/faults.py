@@ -310,7 +310,7 @@ def wrong_resistance(f: Foreign, _: Values) -> Planted | None:
     if not {"beta", "flow_stress"} <= set(f.inputs) or f.name == "side-by-side":
         return None
     return _changed_formulas(
-        f, "wrong resistance formula", r"^=([\w$]+)\*([A-Za-z_$]+\d*)$", r"=\1+\2"
+        f, "wrong resistance formula", r"^=([A-Za-z_$]+\d*)\*([A-Za-z_$]+\d*)$", r"=\1+\2"
     )
 
 

@@ -245,6 +245,100 @@ def test_a_contact_area_that_shrinks_beyond_the_radius_is_named(tmp_path: Path) 
     assert "keeps pi R²" in first.explanation
 
 
+def by_hand(rows: int = 131, **changes: str | float | None) -> Foreign:
+    """A plain sheet whose mass, diameter and resistance are formulas, with some cells changed."""
+    f, s = Foreign("by-hand", BETA_5), "Sheet1"
+    cells: dict[str, str | float | None] = {
+        "B1": 11e-6, "B2": 8900.0, "B3": "=4/3*PI()*B1^3*B2", "B4": "=2*B1", "B5": 500.0,
+        "B6": "=H1*H2", "H1": 5.0, "H2": 7e8, "E1": 7850.0, "E2": 2e-10,
+        "G1": "beta", "G2": "Yt", "D1": "target density", "D2": "dt",
+        "A8": 0.0, "C8": "=B5", "D8": 0.0, "E8": 0.0,
+    }  # fmt: skip
+    labels = ("R =", "Density =", "M =", "D =", "Initial vel =", "Rt =")
+    cells |= {f"A{r}": label for r, label in enumerate(labels, 1)}
+    heads = {"A7": "Time", "C7": "dx/dt initial", "D7": "x", "E7": "d²x/dt²", "F7": "dx/dt final"}
+    cells |= heads
+    for r in range(9, 9 + rows):
+        cells |= {
+            f"A{r}": f"=A{r - 1}+$E$2",
+            f"C{r}": "=C8" if r == 9 else f"=F{r - 1}",
+            f"D{r}": "=D8+C9*$E$2/2" if r == 9 else f"=D{r - 1}+C{r}*$E$2",
+            f"E{r}": f"=(0.5*$E$1*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3",
+            f"F{r}": f"=C{r}-E{r}*$E$2",
+        }
+    for address, content in (cells | changes).items():
+        if content is not None:
+            f.put(s, address, content)
+    return f
+
+
+@pytest.mark.parametrize(
+    ("address", "formula", "kind"),
+    [
+        ("B3", "=4/3*PI()*B4^3*B2", "odd formula"),
+        ("B3", "=4/3*PI()*B1^3*E1", "odd formula"),
+        ("B3", "=4/3*PI()*B1^2*B2", "odd formula"),
+        ("B3", "=4/3*3.14*B1^3*B2", "odd formula"),
+        ("B3", "=4/3*PI()*B1^3*B2/1.01", "odd formula"),
+        ("B3", 4.96e-11, "typed constant"),
+        ("B4", "=B1", "odd formula"),
+        ("B6", "=H1+H2", "odd formula"),
+        ("B6", "=J1*J2", "odd formula"),
+        ("B6", "=5*700", "unit"),
+        ("H2", 700.0, "unit"),
+        ("B1", 11e-3, "unit"),
+    ],
+)
+def test_a_wrong_input_is_the_one_fault_and_the_right_depth_is_without_it(
+    tmp_path: Path, address: str, formula: str | float, kind: str
+) -> None:
+    changes = {"G1": None, "G2": None, "H1": None, "H2": None} if formula == "=5*700" else {}
+    found = check(written(by_hand(**{**changes, address: formula}), tmp_path))
+    (cause,) = found.causes
+    assert (cause.place, cause.kind) == (layouts.place("Sheet1", address), kind)
+    (verdict,) = found.verdicts
+    assert verdict.right_depth == pytest.approx(midpoint.run(BETA_5).final_depth, rel=1e-12)
+    record = check_record(found)
+    assert f"should be {verdict.right_depth * 1e6:.7g} um" in record["verdict"]
+    (depth,) = record["final_depths"]
+    assert depth["explained_by"] == f"Sheet1!{address}"
+    assert depth["differing"] > 400
+
+
+def test_a_formula_of_constants_is_a_cell(tmp_path: Path) -> None:
+    blank = {"G1": None, "G2": None, "H1": None, "H2": None}
+    found = check(written(by_hand(**blank, B6="=5*7e8"), tmp_path))
+    resistance = found.verdicts[0].setting.inputs["resistance"]
+    assert found.first is None
+    assert (resistance.si, resistance.place, resistance.how) == (3.5e9, ("Sheet1", 6, 2), "label")
+    found = check(written(by_hand(**blank, B6="=J1*J2"), tmp_path))
+    assert found.verdicts[0].setting.inputs["resistance"].how == "assumed"
+
+
+@pytest.mark.parametrize("rows", [4, 60, 130])
+def test_rows_that_end_early_are_no_fault(tmp_path: Path, rows: int) -> None:
+    found = check(written(by_hand(rows), tmp_path))
+    record = check_record(found)
+    assert set(found.summary) == {"not calculated"}
+    assert record["verdict"].startswith("Clean as far as it goes")
+    assert record["final_depths"][0]["explained_by"] is None
+
+
+@pytest.mark.parametrize("row", [14, 60, 139])
+def test_a_text_in_a_row_is_named_and_not_what_reads_it(tmp_path: Path, row: int) -> None:
+    found = check(written(by_hand(**{f"E{row}": "abc"}), tmp_path))
+    (cause,) = found.causes
+    assert (cause.place, cause.found) == (("Sheet1", row, 5), "abc")
+    assert "text" in cause.explanation
+
+
+def test_the_report_s_coarse_step_is_no_other_input(tmp_path: Path) -> None:
+    coarse = replace(BETA_5, step=5e-10)
+    found = check(written(by_hand(midpoint.run(coarse).steps, E2=5e-10), tmp_path))
+    assert (found.first, set(found.summary)) == (None, {"not calculated"})
+    assert found.verdicts[0].ends
+
+
 def test_two_faults_come_in_the_order_of_calculation(tmp_path: Path) -> None:
     f = layouts.sideways(BETA_5)
     f.cells[f.where[END, 80]] = 300.0
@@ -282,11 +376,11 @@ def test_a_wrong_map_is_believed_and_found_wanting(coldspray: Run, tmp_path: Pat
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ("depth", "NAME=RANGE is wanted"),
-        ("deep=A1:A9", "choose of time, velocity_initial"),
-        ("depth=Nowhere!A1:A9", "a range such as Sheet1!D8:D139 is wanted"),
-        ("depth=A1:C9", "one column or one row is wanted"),
-        ("radius=A1:A9", "one cell is wanted"),
+        ("depth", "give NAME=RANGE"),
+        ("deep=A1:A9", "choose one of time, velocity_initial"),
+        ("depth=Nowhere!A1:A9", "give a range such as Sheet1!D8:D139"),
+        ("depth=A1:C9", "give one column or one row"),
+        ("radius=A1:A9", "give one cell"),
         ("depth=E1:E3", "fewer than 4 numbers"),
         ("radius='Données'!B3", "holds no number"),
         ("depth=E21:E152", "a unit of something else"),

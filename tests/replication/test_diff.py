@@ -51,6 +51,19 @@ def test_a_changed_input_comes_first(diff: Diff) -> None:
     assert len(record["differences"]) < 10
 
 
+def test_last_digits_come_last_and_are_said_to_be_so(diff: Diff) -> None:
+    def change(f: Foreign) -> None:
+        f.put("Sheet1", "B1", 1.1e-5 * (1 + 4e-15))
+        f.put("Sheet1", "B5", 450.0)
+
+    status, record = diff(change)
+    assert (status, record["first"]["cell"]) == (1, "B5")
+    last = ["only the last digits" in d["explanation"] for d in record["differences"]]
+    assert last == sorted(last)
+    assert record["differences"][last.index(True)]["cell"] == "B1"
+    assert f"{sum(last)} of them, listed last, in the last digits only" in record["verdict"]
+
+
 def test_a_formula_and_what_follows_are_told_apart(diff: Diff) -> None:
     def change(f: Foreign) -> None:
         f.put("Sheet1", "D60", "=D59+C60*0.0000000003")
@@ -128,6 +141,8 @@ def test_tolerances(diff: Diff) -> None:
     assert Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
     assert not Tolerance(ulp=1).equal(1.0, 1.0 + 2**-51)
     assert not Tolerance(digits=3).equal(7.664, 7.666)
+    assert Tolerance(digits=15).equal(10.037311494880546, 10.0373114948806)
+    assert not Tolerance(digits=15).equal(10.0373114948805, 10.0373114948806)
 
 
 @pytest.mark.parametrize(
