@@ -5,6 +5,7 @@ from textwrap import fill
 from typing import Any
 
 from replication.check.record import held, safe
+from replication.check.words import count
 from replication.text import aligned, with_unit
 
 __all__ = ["text"]
@@ -107,7 +108,8 @@ def _by(entry: Record, word: str) -> str:
 def _explained(depths: Sequence[Record]) -> Iterator[str]:
     for depth in depths:
         if depth["explained_by"]:
-            cells = f"{depth['differing']:,} cells of its table differ from the right run"
+            differ = "differs" if depth["differing"] == 1 else "differ"
+            cells = f"{count(depth['differing'], 'cell')} of its table {differ} from the right run"
             cell = safe(depth["explained_by"], 60)
             yield _wrapped(f"{cell} alone explains the final depth; {cells}", "    ")
 
