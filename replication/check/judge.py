@@ -89,7 +89,14 @@ def _stop(f: Findings) -> None:
         return  # the rules that the rows follow do not lead to the stop by themselves
     text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
     of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
-    f.add("not calculated", [f.table.place(role, steps)], None, f"{text}: {steps} of {of}")
+    place = f.table.place(role, steps)
+    # With other inputs than the report's the rows prepared for those run out, and an excerpt has
+    # few; but who leaves off shortly before the report does stops at another velocity.
+    changed = any(difference.kind == "other input" for difference in f.differences)
+    if changed or 2 * steps < whole:
+        f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
+    else:
+        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
 
 
 def _final(f: Findings, k: int) -> float | None:

@@ -210,7 +210,7 @@ def drag_without_half(f: Foreign, _: Values) -> Planted | None:
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
-    """The last nine rows are missing, which is no fault."""
+    """The last nine rows are missing."""
     if _formula(f, DEPTH, 40) is None or f.name in ("guarded", "side-by-side"):
         return None
     g = copy.deepcopy(f)
@@ -226,7 +226,7 @@ def early_stop(f: Foreign, _: Values) -> Planted | None:
             g.cells[place] = f"={ref(f.where[DEPTH, f.steps - 9])}"
     role = END if (END, 40) in f.where else START
     last = f.where[role, f.steps - 9]
-    return Planted("rows that end early", "not calculated", g, (last,), status=0)
+    return Planted("stop at another velocity", "other scheme", g, (last,))
 
 
 def _beside(f: Foreign, first: int, last: int) -> list[Place]:
