@@ -26,8 +26,6 @@ from xml.etree import ElementTree as ET
 from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
-__all__ = ["Book", "Cell", "Position", "WorkbookError", "read"]
-
 Position = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""
 

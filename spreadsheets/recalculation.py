@@ -13,8 +13,6 @@ from typing import Any
 from spreadsheets.foreign import Book, Position, Value
 from spreadsheets.references import Area, Formula, parse
 
-__all__ = ["Calculation", "calculate"]
-
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
 

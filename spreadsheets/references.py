@@ -15,8 +15,6 @@ from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
 from spreadsheets.foreign import MAX_FORMULA, Position
 
-__all__ = ["Area", "Formula", "parse"]
-
 MAX_DEPTH = 64
 """Levels of nesting in Excel. One engine ends the process at some thousands."""
 _MAX_EXPANSIONS = 200

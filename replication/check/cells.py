@@ -17,8 +17,6 @@ from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 from spreadsheets.references import Formula
 
-__all__ = ["each_cell", "order", "types"]
-
 
 def irregular(
     line: Line, table: Table, calculation: Calculation

@@ -22,8 +22,6 @@ from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Formula, Piece
 
-__all__ = ["KINDS", "Comparison", "Tolerance", "diff"]
-
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
 

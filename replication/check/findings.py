@@ -13,8 +13,6 @@ from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["KINDS", "NO_FAULT", "Difference", "Findings", "joined", "rank"]
-
 KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "operation order",
     "other scheme", "other input", "unit", "printed number", "not calculated",

@@ -22,8 +22,6 @@ from replication.check.words import (
 )
 from spreadsheets.foreign import Position
 
-__all__ = ["calibrate", "derived", "other_inputs", "typed_inputs", "units"]
-
 
 def units(f: Findings) -> None:
     """Units in heads that contradict the rest."""

@@ -29,11 +29,6 @@ from replication.check.words import (
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = [
-    "Input", "Setting", "agreement", "filled", "find", "follows", "numbers_beside", "share",
-    "solve",
-]  # fmt: skip
-
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
 worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""

@@ -17,8 +17,6 @@ from replication.check.recognize import as_rounded, choose
 from replication.check.scheme import REPORT, Rules, march
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Verdict", "judge"]
-
 _LIMIT = 20_000
 """Rows that a run computed for comparison may have."""
 

@@ -12,8 +12,6 @@ from replication.check.words import column_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["LEAST", "Line", "address", "area_of", "lines", "runs"]
-
 LEAST = 4
 """Fewer numbers are no line; the report itself prints five rows."""
 _GAP = 3

@@ -16,8 +16,6 @@ from replication.check.record import held, safe
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["html", "junit"]
-
 _ROWS, _COLUMNS = 400, 40
 """More rows or columns of a sheet are drawn only around what is marked."""
 _NEAR = 3

@@ -12,8 +12,6 @@ from replication.check.words import result_of
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Held", "held", "report_inputs"]
-
 _INPUTS = {
     "velocity": ("a1-initial-velocity",),
     "radius": ("a1-radius",),

@@ -20,8 +20,6 @@ from replication.check.scheme import (
 from replication.check.words import power_of_ten, quantity, times_too, title
 from spreadsheets.foreign import Position
 
-__all__ = ["as_rounded", "choose"]
-
 _FACTORS = (
     (2.0, "2"), (0.5, "1/2"), (math.pi, "pi"), (1 / math.pi, "1/pi"), (4.0, "4"), (0.25, "1/4"),
     (8.0, "8"), (0.125, "1/8"), (4 / 3, "4/3"), (0.75, "3/4"), (3.0, "3"), (1 / 3, "1/3"),

@@ -15,8 +15,6 @@ from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check
 from spreadsheets.foreign import Position
 
-__all__ = ["check_record", "diff_record", "held", "safe"]
-
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""

@@ -9,11 +9,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-__all__ = [
-    "ADVANCES", "BRAKES", "ENDINGS", "PARTS", "REPORT", "STARTS", "Case", "Rows", "Rule", "Rules",
-    "deceleration", "holding", "march", "orders", "with_input",
-]  # fmt: skip
-
 PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration", 1),
          "end": ("velocity_final", 1)}  # fmt: skip
 """The column that each part of a scheme fills, and the first row that it does."""

@@ -16,8 +16,6 @@ from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-__all__ = ["Table", "tables"]
-
 _MAX_LINES = 60
 _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""

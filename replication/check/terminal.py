@@ -8,8 +8,6 @@ from replication.check.record import held, safe
 from replication.check.words import count
 from replication.text import aligned, with_unit
 
-__all__ = ["text"]
-
 _MOST = 12
 """Entries of a list that are shown; whoever has more of one kind has other troubles first."""
 _ASIDE = {"other input", "not calculated", "printed number"}

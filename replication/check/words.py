@@ -14,11 +14,6 @@ from functools import cache
 from reference.units import UnitError, same_dimension, to_si
 from replication.text import with_unit
 
-__all__ = [
-    "COLUMNS", "INPUTS", "column_roles", "count", "input_roles", "is_unit", "power_of_ten",
-    "quantity", "result_of", "scaled", "times_too", "title", "titles", "unit_in", "unit_text",
-]  # fmt: skip
-
 COLUMNS = {
     "time": "s",
     "velocity_initial": "m/s",

@@ -18,8 +18,6 @@ from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
 from spreadsheets.references import Area, parse
 
-__all__ = ["Check", "check"]
-
 _STALE = 1e-14
 """Relative distance beyond which a stored value is stale: LibreOffice saves 15 digits."""
 
