@@ -174,7 +174,7 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     assert judgement.against_evidence
     assert not claim.interval().excludes(judgement.lower, judgement.upper)
     said = wording.explanation(judge, claim, readings)
-    assert "no inputs that give the printed number also give the numbers" in said
+    assert "no inputs that give this number also give the numbers" in said
     assert "all of it" not in said
     assert "none of it" not in said
 
