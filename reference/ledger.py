@@ -24,7 +24,7 @@ from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
 from reference.derivations import DERIVATIONS, Sides
 from reference.equations import Dimension, EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, decimal_text, parse
-from reference.units import same_dimension, to_si, unit_dimension
+from reference.units import raised, same_dimension, to_si, unit_dimension
 
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
@@ -37,9 +37,6 @@ class LedgerError(ValueError):
     """Something in the ledger is wrong; the message names the entry and what would be right."""
 
 
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
 def shown(text: str) -> str:
     r"""Printed text as a page shows it, without the marks of LaTeX.
 
@@ -49,8 +46,7 @@ def shown(text: str) -> str:
     text = re.sub(r"\\frac\{(\d+)\}\{(\d+)\}", r"\1/\2", text).replace(r"\times", "×")
     text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
     text = re.sub(r"\^\{([^{}]*)\}", r"^(\1)", text)
-    text = re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPTS), text)
-    return re.sub(r"~\s+", "~", text)
+    return re.sub(r"~\s+", "~", raised(text))
 
 
 # The tables of ledger.toml, whose head says what each key means.

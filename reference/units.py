@@ -103,7 +103,25 @@ def same_dimension(unit: str, other: str) -> bool:
     return unit_dimension(unit) == unit_dimension(other)
 
 
-_POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SUPERSCRIPTS = str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")
+
+
+def superscript(power: str) -> str:
+    """A power as raised characters.
+
+    >>> superscript("-10")
+    '⁻¹⁰'
+    """
+    return power.translate(_SUPERSCRIPTS)
+
+
+def raised(text: str) -> str:
+    """Text with its powers raised.
+
+    >>> raised("kg m^-1 s^-2")
+    'kg m⁻¹ s⁻²'
+    """
+    return re.sub(r"\^(-?\d+)", lambda power: superscript(power[1]), text)
 
 
 def written(unit: str) -> str:
@@ -116,7 +134,7 @@ def written(unit: str) -> str:
         return ""
     text = {"percent": "%", "gram_force": "gf"}.get(unit, unit)
     text = re.sub(r"\bu(?=[a-z])", "µ", text)
-    return re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_POWERS), text)
+    return raised(text)
 
 
 _QUANTITY = re.compile(r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*(?P<unit>.*)")

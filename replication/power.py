@@ -207,8 +207,8 @@ def _inferred(truth: Audit) -> Iterator[dict[str, Fraction]]:
     """The values that the ledger takes for its inferred inputs, then others that are as good."""
     names = [INFERRED + name for name in truth.ledger.inferred]
     yield {name: truth.ledger.value(name) for name in names}
+    ends = {name: truth.judge.inference(name).inner.ends for name in names}
     for k in range(_VALUES + 1):
-        ends = {name: truth.judge.inference(name).inner.ends for name in names}
         yield {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
 
 

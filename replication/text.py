@@ -1,9 +1,11 @@
 """Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+
+from reference.units import superscript
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -21,12 +23,7 @@ def powers_of_ten(text: str) -> str:
     >>> powers_of_ten("from 7.6e+09 to 1e-07")
     'from 7.6×10⁹ to 1×10⁻⁷'
     """
-    return re.sub(
-        r"(?<=\d)e([-+]\d+)", lambda power: f"×10{str(int(power[1])).translate(_RAISED)}", text
-    )
-
-
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+    return re.sub(r"(?<=\d)e([-+]\d+)", lambda power: f"×10{superscript(str(int(power[1])))}", text)
 
 
 def with_unit(text: str, unit: str) -> str:
@@ -80,19 +77,3 @@ def aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = (zip(row, widths, strict=True) for row in rows)
     return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]
-
-
-def pipe_table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    r"""A table in Markdown.
-
-    >>> print(pipe_table(("a", "b"), [("1", "2|3")]))
-    | a | b |
-    | --- | --- |
-    | 1 | 2\|3 |
-    """
-    lines = [heads, ("---",) * len(heads), *rows]
-    return "\n".join(f"| {' | '.join(map(_escaped, line))} |" for line in lines)
-
-
-def _escaped(cell: str) -> str:
-    return cell.replace("|", "\\|")

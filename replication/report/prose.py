@@ -7,6 +7,7 @@ from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 from reference.ledger import shown
+from reference.units import superscript
 from replication.text import powers_of_ten
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ class Named(NamedTuple):
 
 
 _LOWERED = str.maketrans("0123456789aehklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
-_RAISED = str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")
 _SIGNS = {
     "<=": "≤", ">=": "≥", " * ": " · ", " - ": " − ", "-": "−", "inf": "∞", "um": "µm",
 }  # fmt: skip
@@ -116,7 +116,7 @@ class Prose:
 
 
 def _sign(found: re.Match[str]) -> str:
-    return _SIGNS.get(found[0]) or found[0][1:].translate(_RAISED)
+    return _SIGNS.get(found[0]) or superscript(found[0][1:])
 
 
 def _word(letter: str) -> str:
