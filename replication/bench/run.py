@@ -185,7 +185,7 @@ def bench(
     results = []
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that all is compiled anew
-        arrays.compiled.cache_clear()
+        arrays.ufunc.cache_clear()
         numba.vectorize(["f8(f8)"])(error_for)  # to start the compiler is no method's cost
         for case in [build(name) for name in names]:
             tasks = [*own_tasks(case), *peer_tasks(case)]

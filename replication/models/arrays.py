@@ -52,25 +52,21 @@ def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
 
     @wraps(model)
     def function(*values: Any, **named: Any) -> Any:
-        if len(values) == count:
-            for value in values:
-                if type(value) is not float or not LEAST <= value <= GREATEST:
-                    break
-            else:
-                result = model(*values)
-                if result == result:  # not NaN
-                    return result
+        if len(values) == count and _are_plain(values):
+            result = model(*values)
+            if result == result:  # not NaN
+                return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
         return _contained(compute, bound.arguments, (float,))
 
     def compute(**inputs: Any) -> Any:
         numbers = _numbers(inputs)
-        if set(map(type, numbers.values())) == {float}:
+        if _alone(numbers):
             _check(numbers)
             result = model(*numbers.values())
         else:
-            result = _each(ufunc(model), numbers)
+            (result,) = _each(ufunc(model), numbers, (float,))
         _require_finite(result, numbers, bounded, at_most)
         return result
 
@@ -105,50 +101,49 @@ def history(
     (['0.0000', '4.5634', '7.6749'], ['500.00', '378.56', '0.00'])
     """
     inputs = locals()
+    case = velocity, radius, particle_density, target_density, resistance
+    line = type(time).__name__ == "ndarray" and time.ndim == 1 and time.dtype.char == "d"
+    if line and _are_plain(case):
+        results = ufunc(motion.history)(time, *case)
+        if results[0].dot(results[0]) < math.inf:  # none is NaN
+            return results
     return _contained(_histories, inputs, (float, float))
+
+
+def _are_plain(values: Sequence[Any]) -> bool:
+    """Whether these are floats that need no other check: the short way for a single case."""
+    for value in values:  # noqa: SIM110 - a third of the time that `all` takes
+        if type(value) is not float or not LEAST <= value <= GREATEST:
+            return False
+    return True
 
 
 def _histories(**inputs: Any) -> Any:
     numbers = _numbers(inputs)
-    time, *case = numbers.values()
-    # The time is checked by the result, which is NaN where it is negative or not finite.
-    _check({name: value for name, value in numbers.items() if name != "time"})
-    if set(map(type, case)) != {float} or (type(time) is not float and time.ndim != 1):
-        results = _by_rows(_history_loop, numbers, (float, float))
-    elif type(time) is float:
+    cases = numbers.copy()
+    time = cases.pop("time")  # one that cannot be is told by its result, which is NaN
+    if _alone(numbers):
+        _check(cases)
         depth, speed = [0.0], [0.0]
-        motion.history(*[[time], *case, depth, speed])
+        motion.history([time], **cases, depth=depth, speed=speed)
         results = depth[0], speed[0]
     else:
-        results = _history(time, case)
+        results = _by_cases(time, cases)
     _require_finite(results[0], numbers)
     return results
 
 
-def _history(time: Any, case: Sequence[float]) -> Any:
+def _by_cases(time: Any, cases: dict[str, Any]) -> Any:
+    """Histories; the times along an axis in which no case changes share the case's series."""
     import numpy as np
 
-    results = np.empty_like(time), np.empty_like(time)
-    compiled(motion.history)(time, *case, *results)
-    return results
-
-
-def _history_loop(rows: Any, depth: Any, speed: Any) -> None:
-    """Rows of a time and a case; rows of the same case that follow each other share its series."""
-    first = 0
-    while first < len(rows):
-        _, V, R, rho_p, rho_t, R_t = rows[first]
-        last = first + 1
-        while (
-            last < len(rows)
-            and rows[last, 1] == V
-            and rows[last, 2] == R
-            and (rho_p == rows[last, 3] and rho_t == rows[last, 4] and R_t == rows[last, 5])
-        ):
-            last += 1
-        part = slice(first, last)
-        motion.history(rows[part, 0], V, R, rho_p, rho_t, R_t, depth[part], speed[part])
-        first = last
+    times = np.asarray(time)
+    many = [name for name, value in cases.items() if type(value) is not float]
+    if times.ndim and all(cases[name].shape[-1] == 1 for name in many):
+        cases.update({name: cases[name][..., 0] for name in many})
+        return _each(ufunc(motion.history), cases, (float, float), 20, times)
+    results = _each(ufunc(motion.history), cases, (float, float), 20, times[..., None])
+    return tuple(result[..., 0] for result in results)
 
 
 def run_many(
@@ -177,13 +172,13 @@ def run_many(
 
 def _sheets(centered: bool, **inputs: Any) -> Any:
     cases = _numbers(inputs)
-    _check(cases)
-    if set(map(type, cases.values())) == {float}:
-        depths, steps = sheet.last_row(*[*cases.values(), centered])
+    if _alone(cases):
+        _check(cases)
+        depths, steps = sheet.last_row(**cases, centered=centered)
         if steps <= sheet.MAX_STEPS and depths < math.inf:
             return depths, steps
     else:
-        depths, steps = _by_rows(_sheet_loop, {**cases, "centered": float(centered)}, (float, int))
+        depths, steps = _each(partial(ufunc(_sheet), centered), cases, (float, int), 20)
     for index, case in _elements(steps > sheet.MAX_STEPS, cases):
         problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
         raise ElementError("the sheet", problem, index)
@@ -194,10 +189,19 @@ def _sheets(centered: bool, **inputs: Any) -> Any:
     return depths, steps
 
 
-def _sheet_loop(rows: Any, depth: Any, steps: Any) -> None:
-    for k in range(len(rows)):
-        V, R, rho_p, rho_t, R_t, dt, v_stop, centered = rows[k]
-        depth[k], steps[k] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered > 0)
+def _sheet(
+    centered: bool,
+    V: float,
+    R: float,
+    rho_p: float,
+    rho_t: float,
+    R_t: float,
+    dt: float,
+    v_stop: float,
+    depth: Any,
+    steps: Any,
+) -> None:
+    depth[0], steps[0] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered)
 
 
 # What is refused
@@ -205,6 +209,10 @@ def _sheet_loop(rows: Any, depth: Any, steps: Any) -> None:
 
 def _numbers(inputs: Inputs) -> dict[str, Any]:
     return {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+
+
+def _alone(numbers: Inputs) -> bool:
+    return set(map(type, numbers.values())) == {float}
 
 
 def _real(name: str, value: Any) -> Any:
@@ -264,8 +272,10 @@ def _require_finite(result: Any, inputs: Inputs, bounded: str = "", at_most: str
 def _elements(bad: Any, inputs: Inputs) -> Iterator[tuple[tuple[int, ...], dict[str, float]]]:
     import numpy as np
 
-    arrays = {name: np.broadcast_to(value, np.shape(bad)) for name, value in inputs.items()}
-    for place in np.argwhere(bad):
+    places = np.argwhere(bad)
+    if len(places):
+        arrays = {name: np.broadcast_to(value, np.shape(bad)) for name, value in inputs.items()}
+    for place in places:
         index = tuple(map(int, place))
         yield index, {name: float(array[index]) for name, array in arrays.items()}
 
@@ -288,44 +298,45 @@ def _placed(
 # How it is computed
 
 
-def _each(function: "np.ufunc", cases: Inputs) -> Any:
-    """A ufunc of cases that broadcast, checked; of many, by all cores."""
+def _each(
+    function: Model, inputs: Inputs, kinds: Sequence[type], weight: int = 1, time: Any = None
+) -> tuple[Any, ...]:
+    """What a ufunc gives for inputs that broadcast, checked: an array of each kind.
+
+    Where there are times, their last axis is the ufunc's own. Many cases are shared out to all
+    cores; by `weight`, a case is so many times the work of a final depth.
+    """
     import numpy as np
 
-    shape = np.broadcast(*cases.values()).shape
+    times = [] if time is None else [time]
+    shape, own = (), ()
+    if times:
+        shape, own = time.shape[:-1], time.shape[-1:]
+    if not _alone(inputs):
+        shape = np.broadcast_shapes(shape, *map(np.shape, inputs.values()))
+    pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
+    if pieces < 2:
+        _check(inputs)
+        found = function(*times, *inputs.values())
+        return found if len(kinds) > 1 else (found,)
     axis = shape.index(max(shape))
-    views = {name: np.broadcast_to(value, shape) for name, value in cases.items()}
-    arrays = [name for name, value in cases.items() if type(value) is not float]
-    _check(cases, {name: value for name, value in cases.items() if type(value) is float})
-    result = np.empty(shape)
+    times = [np.broadcast_to(time, shape + own) for time in times]
+    views = {name: np.broadcast_to(value, shape) for name, value in inputs.items()}
+    results = tuple(np.empty(shape + own, kind) for kind in kinds)
 
     def work(first: int, last: int) -> None:
         cut = (slice(None),) * axis + (slice(first, last),)
         part = {name: view[cut] for name, view in views.items()}
-        _check(cases, {name: part[name] for name in arrays})
-        function(*part.values(), out=result[cut])
+        _check(inputs, part)
+        out = tuple(result[cut] for result in results)
+        function(*(time[cut] for time in times), *part.values(), out=out)
 
-    _by_cores(shape[axis], result.size, work)
-    return result
-
-
-def _by_rows(loop: Model, inputs: Inputs, types: Sequence[type]) -> tuple[Any, ...]:
-    """What a loop fills in for inputs that broadcast, a row for each of their elements."""
-    import numpy as np
-
-    arrays = np.broadcast_arrays(*inputs.values())
-    rows = np.stack([array.ravel() for array in arrays], axis=-1)
-    results: list[Any] = [np.empty(len(rows), dtype=kind) for kind in types]
-
-    def work(first: int, last: int) -> None:
-        compiled(loop)(*(array[first:last] for array in (rows, *results)))
-
-    _by_cores(len(rows), 10 * len(rows), work)
-    return tuple(result.reshape(arrays[0].shape) for result in results)
+    _by_cores(shape[axis], pieces, work)
+    return results
 
 
-def _by_cores(count: int, size: int, work: Callable[[int, int], None]) -> None:
-    """Have the work done from 0 to count, in pieces by all cores if its size is worth it.
+def _by_cores(count: int, pieces: int, work: Callable[[int, int], None]) -> None:
+    """Have the work done from 0 to count, in so many pieces, by all cores.
 
     By threads of Python's own, as compiled code lets go of its lock: Numba's may not be started
     from two threads at once, and do not outlive a fork. Only the main thread starts any, so that
@@ -337,25 +348,18 @@ def _by_cores(count: int, size: int, work: Callable[[int, int], None]) -> None:
 
     import numba
 
-    cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
-    pieces = min(size // PIECE, count)
-    if cores == 1 or pieces < 2 or threading.current_thread() is not threading.main_thread():
-        work(0, count)
-        return
     edges = [count * k // pieces for k in range(pieces + 1)]
-    with ThreadPoolExecutor(cores) as pool:
-        list(pool.map(work, edges[:-1], edges[1:]))
-
-
-def ufunc(model: Model) -> "np.ufunc":
-    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs."""
-    made: np.ufunc = compiled(model).ufunc
-    return made
+    cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
+    if cores == 1 or threading.current_thread() is not threading.main_thread():
+        list(map(work, edges[:-1], edges[1:]))
+    else:
+        with ThreadPoolExecutor(cores) as pool:
+            list(pool.map(work, edges[:-1], edges[1:]))
 
 
 @cache
-def compiled(model: Model) -> Any:
-    """What Numba makes of a model, or of a loop. A ufunc in it must not outlive it: it is its code.
+def ufunc(model: Model) -> "np.ufunc":
+    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
 
     Compiled once and kept on disk; where no folder can be written to, compiled in every process.
     """
@@ -364,6 +368,7 @@ def compiled(model: Model) -> Any:
     from types import FunctionType
 
     import numba
+    from numba import b1, f8, i8
 
     _make_known()
     root = FunctionType(model.__code__, model.__globals__, model.__name__)
@@ -371,21 +376,26 @@ def compiled(model: Model) -> Any:
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    time = numba.types.Array(numba.f8, 1, "A", readonly=True)
-    several_results = {
-        motion.history: (time, *[numba.f8] * 5, numba.f8[::1], numba.f8[::1]),
-        _history_loop: (numba.f8[:, :], numba.f8[::1], numba.f8[::1]),
-        _sheet_loop: (numba.f8[:, :], numba.f8[::1], numba.i8[::1]),
-    }
-    if model in several_results:
-        compiler = partial(numba.njit, numba.void(*several_results[model]), nogil=True)
+    if model is motion.history:
+        types, shapes = [f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"
+        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
+    elif model is _sheet:
+        types, shapes = [b1, *[f8] * 7, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"
+        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
     else:
-        inputs = [numba.f8] * len(inspect.signature(model).parameters)
-        compiler = partial(numba.vectorize, [numba.f8(*inputs)])
+        types = [f8] * len(inspect.signature(model).parameters)
+        compiler = partial(numba.vectorize, [f8(*types)])
     try:
-        return compiler(cache=True)(root)
+        compiled = compiler(cache=True)(root)
     except (RuntimeError, OSError):
-        return compiler(cache=False)(root)
+        compiled = compiler(cache=False)(root)
+    _KEPT.append(compiled)
+    made: np.ufunc = compiled.ufunc
+    return made
+
+
+_KEPT: list[Any] = []
+"""What Numba has compiled: a ufunc in it must not outlive it, as it is its code."""
 
 
 @cache
