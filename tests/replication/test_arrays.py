@@ -150,6 +150,29 @@ def test_histories_broadcast_in_any_order() -> None:
     np.testing.assert_array_equal(alone[0].ravel(), rows[0][64])
 
 
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.longdouble, int, object, ">f8"])
+def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
+    # A line of doubles goes the short way; the same times as rows, as a list and of other kinds do
+    # not. Zero and one second, touch and long after rest, are the same in every kind.
+    times = np.array([1.0, 0.0, 1.0], kind)
+    short = history(times.astype(float), *CASE)
+    for long in (times, times.tolist(), times[::-1]):
+        for result, expected in zip(history(long, *CASE), short, strict=True):
+            assert result.tolist() == expected.tolist()
+    rows = history(np.stack([times, times]), CASE[0], [[CASE[1]], [CASE[1]]], *CASE[2:])
+    assert [row.tolist() for row in rows[0]] == [short[0].tolist()] * 2
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1e-9])
+def test_a_bad_time_of_a_single_history_is_named(bad: float) -> None:
+    with pytest.raises(ValueError, match=rf"^time\[1\] is {bad}: it must be a finite number zero"):
+        history(np.array([0.0, bad]), *CASE)
+    with pytest.raises(ValueError, match=r"^radius is -1\.0: it must be a finite number greater"):
+        history(np.array([0.0, 1e-9]), CASE[0], -1.0, *CASE[2:])
+    with pytest.raises(TypeError, match=r"^time is complex: real numbers are wanted"):
+        history(np.array([0.0, 1j]), *CASE)
+
+
 def test_nothing_in_nothing_out() -> None:
     assert arrays.final_depth([], *CASE[1:]).shape == (0,)
     assert arrays.stop_time(np.zeros((0, 3)), *CASE[1:]).shape == (0, 3)
