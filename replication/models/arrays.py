@@ -345,16 +345,23 @@ def _by_cores(count: int, pieces: int, work: Callable[[int, int], None]) -> None
     import os
     import threading
     from concurrent.futures import ThreadPoolExecutor
+    from itertools import count as counter
 
     import numba
 
-    edges = [count * k // pieces for k in range(pieces + 1)]
     cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
-    if cores == 1 or threading.current_thread() is not threading.main_thread():
-        list(map(work, edges[:-1], edges[1:]))
-    else:
-        with ThreadPoolExecutor(cores) as pool:
-            list(pool.map(work, edges[:-1], edges[1:]))
+    helpers = cores - 1 if threading.current_thread() is threading.main_thread() else 0
+    numbers = counter()  # shared: whoever is free takes the next piece
+
+    def take() -> None:
+        while (k := next(numbers)) < pieces:
+            work(count * k // pieces, count * (k + 1) // pieces)
+
+    with ThreadPoolExecutor(max(helpers, 1)) as pool:
+        taken = [pool.submit(take) for _ in range(helpers)]
+        take()
+    for part in taken:
+        part.result()
 
 
 @cache
