@@ -143,7 +143,25 @@ class DiscontinuityError(ArithmeticError):
     """A function may jump where its derivatives are asked for, so it has none there."""
 
 
-class Dual:
+class _Operators:
+    """The operators that follow from `+`, `*` and the change of sign."""
+
+    __slots__ = ()
+
+    def __radd__(self, other: Any) -> Any:
+        return self + other
+
+    def __sub__(self, other: Any) -> Any:
+        return self + -other
+
+    def __rsub__(self: Any, other: Any) -> Any:
+        return -self + other
+
+    def __rmul__(self, other: Any) -> Any:
+        return self * other
+
+
+class Dual(_Operators):
     """A number with its derivatives by the variables it depends on: `slopes` by their names."""
 
     __slots__ = ("slopes", "value")
@@ -163,14 +181,6 @@ class Dual:
             return Dual(self.value + other, self.slopes)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> "Dual":
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> "Dual":
-        return self.__neg__().__add__(other)
-
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
@@ -179,8 +189,6 @@ class Dual:
             own = {name: slope * other.value for name, slope in self.slopes.items()}
             product.slopes = _added(own, product.slopes)
         return product
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
@@ -274,7 +282,7 @@ class Duals:
         return Dual(value, slopes)
 
 
-class Ratio:
+class Ratio(_Operators):
     """A quotient of two polynomials with rational coefficients."""
 
     __slots__ = ("over", "under")
@@ -290,19 +298,9 @@ class Ratio:
         over = self.over * other.under + other.over * self.under
         return Ratio(over, self.under * other.under)
 
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> "Ratio":
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> "Ratio":
-        return self.__neg__().__add__(other)
-
     def __mul__(self, other: Any) -> "Ratio":
         other = self._ratio(other)
         return Ratio(self.over * other.over, self.under * other.under)
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> "Ratio":
         other = self._ratio(other)

@@ -107,11 +107,6 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 Findings = Mapping[str, Finding]
 """By id, the weightiest first; the one called "headline" says in a sentence what came out."""
 
-STATUSES = {
-    "explained": "the arithmetic shows the cause",
-    "open": "it is shown that the numbers fail or what the report leaves out, not why",
-}
-
 
 @cache
 def load() -> Findings:
@@ -173,7 +168,11 @@ def _filled(text: str, evidence: Mapping[str, Assertion], ledger: Ledger) -> str
         if name in evidence:
             return evidence[name].text
         if name in ledger.claims:
-            return ledger.claims[name].shown if unit is None else ledger.in_unit(name, unit)
+            return (
+                ledger.claims[name].shown
+                if unit is None
+                else decimal_text(ledger.value(name) / to_si(unit))
+            )
         if name in ledger.sources:
             source = ledger.sources[name]
             return source.says if unit is None else decimal_text(source.value / to_si(unit))

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from reference.derivations import Check, derive
-from reference.equations import DimensionError, EquationError, Node, dimension, replaced
+from reference.equations import EquationError, Node, dimension
 from reference.ledger import Equation, Ledger
+from reference.units import DimensionError
 from replication.audit.verdict import Verdict
 
 
@@ -96,22 +97,26 @@ def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) ->
 def _constants(
     ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]], holds: bool
 ) -> dict[str, Constant]:
-    spans = ledger.constants_of(name)
+    claims = ledger.constants_of(name)
 
-    def passing(claim: str, sides: Mapping[str, tuple[Node, ...]]) -> tuple[Fraction, ...]:
+    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
+        """The values of a constant with which every check holds, another one given."""
         return tuple(
             value
             for value in _candidates(ledger.value(claim))
-            if all(c.holds for c in _checks(ledger, name, _with(sides, name, spans[claim], value)))
+            if all(c.holds for c in _checks(ledger, name, mended({**given, claim: value})))
         )
 
-    needed = {claim: passing(claim, sides) for claim in spans}
+    def mended(constants: Mapping[str, Fraction]) -> dict[str, tuple[Node, ...]]:
+        return {**sides, name: ledger.read(ledger.printed_text(name, constants))}
+
+    needed = {claim: passing(claim, {}) for claim in claims}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
         # The others are judged with the one number put right.
         (culprit,) = repairs
-        mended = _with(sides, name, spans[culprit], needed[culprit][0])
-        needed |= {claim: passing(claim, mended) for claim in spans if claim != culprit}
+        right = {culprit: needed[culprit][0]}
+        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
     constants = {}
     for claim, values in needed.items():
         if values == (ledger.value(claim),):
@@ -124,12 +129,6 @@ def _constants(
             verdict = Verdict.NOT_CHECKABLE
         constants[claim] = Constant(claim, verdict, values)
     return constants
-
-
-def _with(
-    sides: Mapping[str, tuple[Node, ...]], name: str, span: tuple[int, int], value: Fraction
-) -> dict[str, tuple[Node, ...]]:
-    return {**sides, name: tuple(replaced(side, span, value) for side in sides[name])}
 
 
 _USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from reference.arithmetic import Floats, Reals
-from reference.computations import COMPUTATIONS, EXPONENT, SAME
+from reference.computations import COMPUTATIONS, EXPONENT, SAME, Formulas
 from reference.enclosure import enclose
 from reference.ledger import Claim, load
 from reference.units import to_si
@@ -30,7 +30,7 @@ def test_what_is_said_of_a_computation_is_true(name: str) -> None:
     assert set(computation.equations) <= set(LEDGER.equations)
     for unit in (computation.unit, *computation.inputs.values()):
         assert unit in (SAME, EXPONENT) or to_si(unit)
-    _, _, *rest = signature(computation.function).parameters.values()
+    _, *rest = signature(computation.function).parameters.values()
     named = {p.name for p in rest if p.kind is not Parameter.VAR_KEYWORD}
     assert computation.by_row == ("row" in named)
     assert computation.by_scheme == ("centered" in named)
@@ -95,7 +95,7 @@ BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
     ],
 )
 def test_values_by_hand(name: str, inputs: dict[str, Any], expected: float) -> None:
-    value = COMPUTATIONS[name].function(Floats(), LEDGER.sides, **inputs)
+    value = COMPUTATIONS[name].function(Formulas(Floats(), LEDGER.sides), **inputs)
     assert isclose(value, expected, rel_tol=1e-14)  # a dozen roundings
 
 
@@ -110,7 +110,7 @@ def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
         lambda v: inertia * v / (case["k_t"] * case["target_density"] * v * v + case["resistance"]),
         [0, case["velocity"] / 2, case["velocity"]],
     )
-    derived = COMPUTATIONS["frank_zook_derived"].function(ar, LEDGER.sides, **case)
+    derived = COMPUTATIONS["frank_zook_derived"].function(Formulas(ar, LEDGER.sides), **case)
     assert abs(derived / (2 * depth) - 1) < 1e-27
 
 
