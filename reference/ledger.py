@@ -31,7 +31,7 @@ from reference.units import Dimension, raised, same_dimension, to_si, unit_dimen
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
 
-_Entry = TypeVar("_Entry")
+Anything = TypeVar("Anything")
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
@@ -56,25 +56,17 @@ def shown(text: str) -> str:
 # The tables of ledger.toml, whose head says what each key means.
 
 Kind = Literal[
-    "input",
-    "result",
-    "approximation",
-    "order of magnitude",
-    "bound",
-    "comparison",
-    "range",
-    "quoted",
-    "constant",
-    "remark",
-]
+    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
+    "quoted", "constant", "remark",
+]  # fmt: skip
 Relation = Literal["<", "<=", ">", ">="]
 
 
-class _Table(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A table that may hold no other keys."""
+class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A table of a file, which may hold no keys but its own."""
 
 
-class ClaimEntry(_Table, frozen=True):
+class ClaimEntry(Entry, frozen=True):
     """A [[claim]]."""
 
     id: str
@@ -97,7 +89,7 @@ class ClaimEntry(_Table, frozen=True):
     workbook: str | None = None
 
 
-class EquationEntry(_Table, frozen=True):
+class EquationEntry(Entry, frozen=True):
     """An [[equation]]."""
 
     id: str
@@ -107,7 +99,7 @@ class EquationEntry(_Table, frozen=True):
     follows_from: str
 
 
-class Inferred(_Table, frozen=True):
+class Inferred(Entry, frozen=True):
     """An input that the report does not print, to be inferred from the numbers that it does."""
 
     title: str
@@ -125,7 +117,7 @@ class Inferred(_Table, frozen=True):
     evidence: list[str]
 
 
-class Symbol(_Table, frozen=True):
+class Symbol(Entry, frozen=True):
     """What a symbol of the equations means, how the report writes it, and how a page shows it."""
 
     written: list[str]
@@ -135,7 +127,7 @@ class Symbol(_Table, frozen=True):
     value: str | None = None
 
 
-class Quantity(_Table, frozen=True):
+class Quantity(Entry, frozen=True):
     """A physical quantity: the range of it that is searched, in its unit, and why this one."""
 
     unit: str
@@ -143,7 +135,7 @@ class Quantity(_Table, frozen=True):
     reason: str
 
 
-class Slip(_Table, frozen=True):
+class Slip(Entry, frozen=True):
     """What the author may have computed instead: another text of an equation, or other inputs."""
 
     name: str
@@ -153,7 +145,7 @@ class Slip(_Table, frozen=True):
     inputs: dict[str, str] = {}
 
 
-class Source(_Table, frozen=True):
+class Source(Entry, frozen=True):
     """A public source for a number that the report takes from nowhere; see sources.toml."""
 
     id: str
@@ -187,21 +179,21 @@ class Source(_Table, frozen=True):
         return whole.scaled(to_si(self.unit))
 
 
-class _Report(_Table, frozen=True):
+class _Report(Entry, frozen=True):
     text: str
     title: str
     author: str
     year: int
 
 
-class _Furniture(_Table, frozen=True):
+class _Furniture(Entry, frozen=True):
     """Digits and number words of the text that are no quantities."""
 
     pattern: str
     reason: str
 
 
-class _Document(_Table, frozen=True):
+class _Document(Entry, frozen=True):
     """The whole of ledger.toml."""
 
     report: _Report
@@ -574,7 +566,7 @@ def read(
 
     Raises LedgerError, which names the entry, what is wrong with it and what would be right.
     """
-    tables = _converted(document, _Document, "ledger.toml")
+    tables = converted(document, _Document, "ledger.toml")
     if not tables.claim:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
     names = Counter(entry.id for entry in (*tables.equation, *tables.claim))
@@ -582,27 +574,28 @@ def read(
         raise LedgerError(f"{twice!r} stands in the ledger twice")
     equations: dict[str, Equation] = {}
     for equation in tables.equation:
-        with _naming(f"equation {equation.id!r}"):
-            if equation.kind == "derived":
-                _known("derivation", equation.id, DERIVATIONS)
+        with naming(f"equation {equation.id!r}"):
+            if equation.kind == "derived" and equation.id not in DERIVATIONS:
+                raise ValueError("nothing in reference/derivations.py derives it")
             equations[equation.id] = Equation(equation, _place(text, equation.quote))
     claims: dict[str, Claim] = {}
     for entry in tables.claim:
-        with _naming(f"claim {entry.id!r}"):
+        with naming(f"claim {entry.id!r}"):
             claims[entry.id] = _claim(entry, tables, text, equations)
     ledger = Ledger(
         **{name: getattr(tables, name) for name in tables.__struct_fields__},
         text=text,
         claims=dict(sorted(_completed(claims).items(), key=lambda item: _order(item[1].place))),
         equations=equations,
-        sources={source.id: source for source in _converted(sources, list[Source], "sources.toml")},
+        sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
         blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
     )
     _check(ledger)
     return ledger
 
 
-def _converted(document: Any, kind: Any, file: str) -> Any:
+def converted(document: Any, kind: Any, file: str) -> Any:
+    """Parsed TOML as structs. Raises LedgerError where it does not fit them."""
     try:
         return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
     except msgspec.ValidationError as error:
@@ -610,15 +603,15 @@ def _converted(document: Any, kind: Any, file: str) -> Any:
 
 
 @contextmanager
-def _naming(who: str) -> Iterator[None]:
+def naming(who: str) -> Iterator[None]:
     """What is wrong with an entry is told with its name before it."""
     try:
         yield
-    except ValueError as error:
+    except (ValueError, ArithmeticError) as error:
         raise LedgerError(f"{who}: {error}") from error
 
 
-def _known(what: str, name: str, known: Mapping[str, _Entry]) -> _Entry:
+def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
     """What the ledger calls by this name."""
     if name not in known:
         near = get_close_matches(name, known, 1)
@@ -730,7 +723,7 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
             chosen.add(claim.id)
     completed = {}
     for name, claim in claims.items():
-        with _naming(f"claim {name!r}"):
+        with naming(f"claim {name!r}"):
             bound = _bound(claim, claims)
             completed[name] = replace(claim, chosen=name in chosen, bound=bound)
     return completed
@@ -754,24 +747,24 @@ def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
 def _check(ledger: Ledger) -> None:
     for claim in ledger.claims.values():
         for computation in claim.computations.values():
-            with _naming(f"claim {claim.id!r}, {computation.name}"):
+            with naming(f"claim {claim.id!r}, {computation.name}"):
                 _check_computation(claim, computation, ledger)
         for name in claim.entry.shown_by:
             if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
                 raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
     for key, inferred in ledger.inferred.items():
-        with _naming(f"inferred {key!r}"):
+        with naming(f"inferred {key!r}"):
             own = (inferred.mass, inferred.radius, inferred.density)
             for name in (*inferred.evidence, *inferred.header, *inferred.results, *own):
                 _known("claim", name, ledger.claims)
             _known("quantity", inferred.quantity, ledger.quantities)
     for source in ledger.sources.values():
-        with _naming(f"source {source.id!r}"):
+        with naming(f"source {source.id!r}"):
             _check_source(source, ledger)
-    with _naming("[[equation]], [[slip]] or [symbols]"):
+    with naming("[[equation]], [[slip]] or [symbols]"):
         _ = ledger.sides, ledger.dimensions, [ledger.read(s.text) for s in ledger.slips if s.text]
     for slip in ledger.slips:
-        with _naming(f"slip {slip.name!r}"):
+        with naming(f"slip {slip.name!r}"):
             _known("equation", slip.equation, ledger.equations)
             for name in slip.inputs.values():
                 _known("number", name, ledger.claims)

@@ -90,7 +90,7 @@ def test_a_good_entry_is_read() -> None:
     ("document", "message"),
     [
         ({}, "there are no findings"),
-        ({"finding": [GOOD, GOOD]}, "finding 'good' stands there twice"),
+        ({"finding": [GOOD, GOOD]}, "finding 'good': it stands there twice"),
         (changed(kind="rumor"), "findings.toml: Invalid enum value 'rumor'"),
         (changed(status="maybe"), "findings.toml: Invalid enum value 'maybe'"),
         (changed(extra="x"), "findings.toml: Object contains unknown field `extra`"),

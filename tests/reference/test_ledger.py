@@ -386,7 +386,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "equation nobody derives": (
         {"equation:diameter:id": "eq99"},
-        "equation 'eq99': there is no derivation 'eq99'; is it 'eq9'?",
+        "equation 'eq99': nothing in reference/derivations.py derives it",
     ),
     "symbol that nobody explains": (
         {"symbols:R": None},
