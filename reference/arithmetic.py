@@ -99,23 +99,16 @@ class Rationals(_Points):
     Fraction(1, 3)
     """
 
-    @property
-    def pi(self) -> Number:
-        raise InexactError("pi is no fraction")
-
-    def number(self, value: Fraction | int) -> Number:
-        return Fraction(value)
-
-    def log(self, x: Number) -> Number:
-        raise InexactError(f"the logarithm of {x} is no fraction")
+    number = Fraction
 
     def power(self, x: Number, exponent: Fraction) -> Number:
-        if exponent.denominator != 1:
-            raise InexactError("a root is no fraction")
-        return x ** int(exponent)
+        return x ** int(exponent) if exponent.denominator == 1 else self._inexact()
 
-    def cap_root(self, c: Number) -> Number:
-        raise InexactError(f"the root of y^2 - y^3/3 = {c} is no fraction")
+    def _inexact(self, *_: Number) -> Number:
+        raise InexactError("it is no fraction, or not known to be one")
+
+    log = cap_root = _inexact
+    pi = property(_inexact)
 
 
 class Floats(_Points):
@@ -125,14 +118,8 @@ class Floats(_Points):
     '0.2980'
     """
 
-    pi = math.pi
-    log = staticmethod(math.log)
-
-    def number(self, value: Fraction | int) -> Number:
-        return float(value)
-
-    def power(self, x: Number, exponent: Fraction) -> Number:
-        return x ** float(exponent)
+    pi, number = math.pi, float
+    log, power = staticmethod(math.log), staticmethod(math.pow)
 
     def cap_root(self, c: Number) -> Number:
         third = math.asin(math.sqrt(3 * c) / 2) / 3

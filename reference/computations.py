@@ -118,11 +118,13 @@ def _particle_mass(of: Formulas, radius: Number, particle_density: Number) -> Nu
 
 
 def _deceleration_at_start(
-    of: Formulas, radius: Number, depth: Number, particle_density: Number, **inputs: Number
+    of: Formulas, velocity: Number, radius: Number, depth: Number, **inputs: Number
 ) -> Number:
-    stress = inputs["target_density"] * inputs["velocity"] ** 2 / 2 + inputs["resistance"]
-    area = of.right("eqA-3", D=2 * radius, x=depth)
-    return stress * area / _particle_mass(of, radius, particle_density)
+    density, resistance = inputs["target_density"], inputs["resistance"]
+    force = of.right("eq6", rho_t=density, v=velocity, R_t=resistance) * of.right(
+        "eqA-3", D=2 * radius, x=depth
+    )
+    return force / _particle_mass(of, radius, inputs["particle_density"])
 
 
 def _final_sheet_depth(of: Formulas, centered: bool = False, **inputs: Number) -> Number:
@@ -198,7 +200,8 @@ _ALL = [
     # Target resistance, Eqs. 7-11
     Computation("target_resistance", "R_t = beta Y_t, Eq. 7",
                 "Pa", {"beta": "1", "flow_stress": "Pa"},
-                lambda of, beta, flow_stress: beta * flow_stress),
+                lambda of, beta, flow_stress: of.right("eq7", beta=beta, Y_t=flow_stress),
+                ("eq7",)),
     Computation("force_power", "the power of a length that makes a force of a stress, for Eq. 8",
                 "1", {}, lambda of: (unit_dimension("N") / unit_dimension("Pa")).powers[1]),
     Computation("goodier_beta", "beta from q (2a)^n = pi a^2 beta Y_t, Eqs. 8 and 9",

@@ -17,6 +17,7 @@ from functools import reduce
 from operator import add, mul
 from typing import Any, NamedTuple
 
+from reference.arithmetic import InexactError, Rationals
 from reference.units import Dimension, DimensionError
 
 
@@ -157,8 +158,8 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
 
     `symbols` maps what the report writes to a symbol's name.
 
-    >>> symbols_in(read_expression(r"(2E_t/3Y_t)^{1/3}", {"E_t": "E_t", "Y_t": "Y_t"}))
-    ['E_t', 'Y_t']
+    >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
+    '(2 E)/(3 Y)'
     """
     return _Reader(text, symbols).whole()
 
@@ -173,12 +174,6 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
         raise EquationError(f"{text!r} has no equals sign")
     sides = (side.rstrip(" &,.\n") for side in text.split("="))
     return tuple(read_expression(side, symbols) for side in sides if side.strip(" &,.\n"))
-
-
-def symbols_in(node: Node) -> list[str]:
-    """The names of its symbols, sorted."""
-    names = {name for part in node.parts for name in symbols_in(part)}
-    return sorted(names | ({node.name} if node.kind == "symbol" else set()))
 
 
 def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
@@ -226,16 +221,13 @@ _OPERATIONS: Mapping[str, Callable[..., Any]] = {
 
 def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
     """An exponent: a number, or a symbol whose value is given as a Fraction."""
-    match node.kind:
-        case "number":
-            return node.value
-        case "symbol" if isinstance(values.get(node.name), Fraction):
-            return Fraction(values[node.name])
-        case "negative":
-            return -_exponent(node.parts[0], values)
-        case "quotient":
-            return _exponent(node.parts[0], values) / _exponent(node.parts[1], values)
-    raise EquationError("an exponent is not a number")
+    if node.kind == "number":
+        return node.value
+    known = {name: value for name, value in values.items() if isinstance(value, Fraction)}
+    try:
+        return Fraction(evaluate(node, Rationals(), known))
+    except (EquationError, InexactError) as error:
+        raise EquationError("an exponent is not a number") from error
 
 
 class _Dimensions:

@@ -596,10 +596,17 @@ def read(
 
 def converted(document: Any, kind: Any, file: str) -> Any:
     """Parsed TOML as structs. Raises LedgerError where it does not fit them."""
+
+    def named(place: re.Match[str]) -> str:
+        """An entry by its id or name, where it has one, instead of by its number."""
+        entry = (document[place[1]] if place[1] else document)[int(place[2])]
+        return f"{place[1] or 'entry'} {entry.get('id') or entry.get('name') or place[2]!r}"
+
     try:
         return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
     except msgspec.ValidationError as error:
-        raise LedgerError(f"{file}: {error}") from error
+        says = re.sub(r"\$(?:\.(\w+))?\[(\d+)\]", named, str(error))
+        raise LedgerError(f"{file}: {says}") from error
 
 
 @contextmanager

@@ -479,6 +479,17 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 }  # fmt: skip
 
 
+def test_what_does_not_fit_a_table_is_told_with_the_name_of_its_entry() -> None:
+    for changes, place in (
+        ({"claim:width:kind": "guess"}, "`claim 'width'.kind`"),
+        ({"claim:fall:row": "three"}, "`claim 'fall'.row`"),
+        ({"slip:off:text": 7}, "`slip 'off'.text`"),
+        ({"claim:width:id": None}, "`claim '0'`"),
+    ):
+        with pytest.raises(LedgerError, match=re.escape(place)):
+            small(changes)
+
+
 @pytest.mark.parametrize("fault", REFUSED)
 def test_a_malformed_ledger_is_refused_by_name(fault: str) -> None:
     changes, message = REFUSED[fault]
