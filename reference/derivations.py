@@ -103,12 +103,6 @@ def _cavity(of: _Printed) -> Number:
     return 1 / (3 * of["Y_t"] / (2 * of["E_t"]))
 
 
-def _newtons_rod(of: _Printed) -> Number:
-    """The strength of a rod times its section over its mass."""
-    area = of.field.pi * of["D"] ** 2 / 4
-    return -(of["Y_p"] * area) / (of["rho_p"] * area * of["L"])
-
-
 def _frank_zook_slope(of: _Printed) -> Number:
     """How the left side of Eq. 16 grows with the impact velocity by Eqs. 14 and 15.
 
@@ -207,7 +201,7 @@ DERIVATIONS: Mapping[str, Derivation] = {
     "eq15": (
         ("the left side is the acceleration", lambda of: (of.side(0), of["dv/dt"])),
         ("strength times section over the mass of a rod",
-         lambda of: (of.side(), _newtons_rod(of))),
+         lambda of: (of.side(), -of["Y_p"] / (of["rho_p"] * of["L"]))),  # the section cancels
     ),
     "eq16": (
         ("the depth grows with the impact velocity as Eqs. 14 and 15 demand",

@@ -96,13 +96,6 @@ class _Reader:
         if not self.take(sign):
             raise EquationError(f"{sign!r} is missing in the equation {self.text!r}")
 
-    def whole(self) -> Node:
-        node = self.expression()
-        if self.next.kind != "end":
-            rest = self.text[self.next.start :]
-            raise EquationError(f"cannot read {rest!r} at the end of {self.text!r}")
-        return node
-
     def expression(self, binding: int = 0) -> Node:
         """What follows, as far as its operators bind more tightly than `binding`."""
         if binding == 0 and self.take("-"):
@@ -110,7 +103,8 @@ class _Reader:
         else:
             left = self.operand()
         while (operator := self.operator()) is not None and _BINDING[operator] > binding:
-            self.at += bool(operator.strip())
+            if operator not in ("", " "):
+                self.at += 1
             right = self.exponent() if operator == "^" else self.expression(_BINDING[operator])
             if operator == "-":
                 right = Node("negative", (right,))
@@ -161,7 +155,12 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
     >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
     '(2 E)/(3 Y)'
     """
-    return _Reader(text, symbols).whole()
+    reader = _Reader(text, symbols)
+    node = reader.expression()
+    if reader.next.kind != "end":
+        rest = text[reader.next.start :]
+        raise EquationError(f"cannot read {rest!r} at the end of {text!r}")
+    return node
 
 
 def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:

@@ -204,8 +204,8 @@ class _Document(Entry, frozen=True):
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
     furniture: list[_Furniture]
-    equation: list[EquationEntry]
-    claim: list[ClaimEntry]
+    equation_entries: list[EquationEntry] = msgspec.field(name="equation")
+    claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
     slips: list[Slip] = msgspec.field(name="slip")
 
 
@@ -567,19 +567,19 @@ def read(
     Raises LedgerError, which names the entry, what is wrong with it and what would be right.
     """
     tables = converted(document, _Document, "ledger.toml")
-    if not tables.claim:
+    if not tables.claim_entries:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
-    names = Counter(entry.id for entry in (*tables.equation, *tables.claim))
+    names = Counter(entry.id for entry in (*tables.equation_entries, *tables.claim_entries))
     if twice := next((name for name, times in names.items() if times > 1), None):
         raise LedgerError(f"{twice!r} stands in the ledger twice")
     equations: dict[str, Equation] = {}
-    for equation in tables.equation:
+    for equation in tables.equation_entries:
         with naming(f"equation {equation.id!r}"):
             if equation.kind == "derived" and equation.id not in DERIVATIONS:
                 raise ValueError("nothing in reference/derivations.py derives it")
             equations[equation.id] = Equation(equation, _place(text, equation.quote))
     claims: dict[str, Claim] = {}
-    for entry in tables.claim:
+    for entry in tables.claim_entries:
         with naming(f"claim {entry.id!r}"):
             claims[entry.id] = _claim(entry, tables, text, equations)
     ledger = Ledger(
@@ -768,11 +768,21 @@ def _check(ledger: Ledger) -> None:
     for source in ledger.sources.values():
         with naming(f"source {source.id!r}"):
             _check_source(source, ledger)
-    with naming("[[equation]], [[slip]] or [symbols]"):
-        _ = ledger.sides, ledger.dimensions, [ledger.read(s.text) for s in ledger.slips if s.text]
+    _check_equations(ledger)
+
+
+def _check_equations(ledger: Ledger) -> None:
+    for name, symbol in ledger.symbols.items():
+        with naming(f"symbol {name!r}"):
+            to_si(symbol.unit)
+    for name in ledger.equations:
+        with naming(f"equation {name!r}"):
+            ledger.read(ledger.printed_text(name))
     for slip in ledger.slips:
         with naming(f"slip {slip.name!r}"):
             _known("equation", slip.equation, ledger.equations)
+            if slip.text is not None:
+                ledger.read(slip.text)
             for name in slip.inputs.values():
                 _known("number", name, ledger.claims)
 

@@ -390,11 +390,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "symbol that nobody explains": (
         {"symbols:R": None},
-        "[[equation]], [[slip]] or [symbols]: cannot read 'R' in the equation",
+        "equation 'diameter': cannot read 'R' in the equation",
     ),
-    "symbol in no unit": ({"symbols:R:unit": "ell"}, "[[equation]], [[slip]] or [symbols]: un"),
+    "symbol in no unit": ({"symbols:R:unit": "ell"}, "symbol 'R': unknown unit 'ell'"),
     "slip of no equation": ({"slip:off:equation": "eq9"}, "slip 'off': there is no equation 'eq9'"),
-    "slip that is none": ({"slip:off:text": "D + 3R"}, "[[equation]], [[slip]] or [symbols]: 'D +"),
+    "slip that is none": ({"slip:off:text": "D + 3R"}, "slip 'off': 'D + 3R' has no equals sign"),
     "slip of no input": ({"slip:off:inputs": {"a": "b"}}, "slip 'off': there is no number 'b'"),
     "unknown computation": (
         {"claim:radius:computed_by": "halve"},
