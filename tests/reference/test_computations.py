@@ -57,6 +57,8 @@ def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
 FZ = {"length_ratio": 2 / 3, "particle_density": 8900, "target_density": 7850, "k_1": 0.557,
       "k_t": 1.046, "resistance": 9.13e9, "velocity": 500}  # fmt: skip
 EQ_16 = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + 1.046 * 7850 * 500**2 / 9.13e9)
+START = {"velocity": 500, "radius": 11, "particle_density": 8900, "target_density": 7850,
+         "resistance": 3.5e9, "depth": 1}  # fmt: skip
 ALPHA = (2 * 200e9 / (3 * 215e6)) ** (1 / 3)
 STEEL = {"elastic_modulus": 200e9, "flow_stress": 215e6}
 BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
@@ -90,6 +92,7 @@ BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
         ("greatest_beta", {**BETAS, "brinell": 9}, 9),
         ("strain_rate", {"velocity": 500, "length": 2e-5}, 2.5e7),
         ("row_time", {"row": 3, "step": 2}, 6),
+        ("deceleration_at_start", START, (7850 * 500**2 / 2 + 3.5e9) * 21 * 3 / (4 * 11**3 * 8900)),
         ("frank_zook_as_printed", FZ, EQ_16),
         ("frank_zook_derived", FZ, 2 * EQ_16),
     ],
@@ -97,6 +100,14 @@ BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
 def test_values_by_hand(name: str, inputs: dict[str, Any], expected: float) -> None:
     value = COMPUTATIONS[name].function(Formulas(Floats(), LEDGER.sides), **inputs)
     assert isclose(value, expected, rel_tol=1e-14)  # a dozen roundings
+
+
+def test_lengths_of_equation_16_are_counted_in_diameters() -> None:
+    printed = LEDGER.printed_text("eq16")
+    of_radius = Formulas(Floats(), LEDGER.misprint("eq16", printed.replace("L/D", "L/R")).sides)
+    as_printed = COMPUTATIONS["frank_zook_as_printed"].function
+    longer = {**FZ, "length_ratio": 2 * FZ["length_ratio"]}
+    assert as_printed(of_radius, **FZ) == as_printed(Formulas(Floats(), LEDGER.sides), **longer)
 
 
 def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:

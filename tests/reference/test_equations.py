@@ -150,6 +150,24 @@ def test_how_text_is_read(text: str) -> None:
     assert value(node, a=5.0, b=7.0) == pytest.approx(READ[text], rel=1e-14)
 
 
+SHOWN = {
+    "a^2 b": "a^2 b",
+    "(a b)^2": "(a b)^2",
+    "(a^2)^{1/2}": "(a^2)^(1/2)",
+    "a (-b)": "a (-b)",
+    "a - b (a + b)": "a - b (a + b)",
+    "a/(b a)": "a/(b a)",
+    r"\frac{a b}{2}": "(a b)/2",
+    r"\ln(a + b)": "ln(a + b)",
+}
+
+
+@pytest.mark.parametrize("text", SHOWN)
+def test_brackets_stand_where_they_are_needed_and_nowhere_else(text: str) -> None:
+    names = {"a": "a", "b": "b"}
+    assert rendered(read_expression(text, names), names) == SHOWN[text]
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
