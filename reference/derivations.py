@@ -9,10 +9,9 @@ Newton's law, Bernoulli's, and earlier equations of the report where it says tha
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
-from reference.arithmetic import Dual, Duals, Number, Ratio, Ratios, Reals
+from reference.arithmetic import Dual, Duals, Floats, Number, Ratio, Ratios
 from reference.equations import Node, evaluate
 
 Sides = Mapping[str, tuple[Node, ...]]
@@ -68,11 +67,10 @@ class _Printed:
         known = {name: x if isinstance(x, Ratio) else number(x) for name, x in put.items()}
         return {**self.field.symbols, **known}
 
-    def at(self, **numbers: int) -> float:
+    def at(self, **numbers: float) -> float:
         """The last side as a number, its other symbols at 1."""
-        reals = _reals()
-        values = {name: reals.number(numbers.get(name, 1)) for name in self.field.symbols}
-        return float(evaluate(self.sides[self.number][-1], reals, values))
+        values = {**dict.fromkeys(self.field.symbols, 1.0), **numbers}
+        return float(evaluate(self.sides[self.number][-1], Floats(), values))
 
     def section(self, x: Ratio) -> Number:
         """Area of the circle in which a plane at depth x cuts a sphere: a^2 = R^2 - (R - x)^2."""
@@ -82,11 +80,6 @@ class _Printed:
     def circle(self) -> Number:
         """Area of the contact circle."""
         return self.field.pi * self["a"] ** 2
-
-
-@cache
-def _reals() -> Reals:
-    return Reals(15)
 
 
 def _whole_sphere(of: _Printed) -> Number:
