@@ -186,6 +186,10 @@ class _Report(Entry, frozen=True):
     year: int
 
 
+class _TableA1(Entry, frozen=True):
+    blank: list[str]
+
+
 class _Furniture(Entry, frozen=True):
     """Digits and number words of the text that are no quantities."""
 
@@ -198,7 +202,7 @@ class _Document(Entry, frozen=True):
 
     report: _Report
     reasons: dict[str, str]
-    table: dict[Literal["blank"], list[str]]
+    table: _TableA1
     groups: dict[str, dict[str, str]]
     inferred: dict[str, Inferred]
     symbols: dict[str, Symbol]
@@ -206,7 +210,7 @@ class _Document(Entry, frozen=True):
     furniture: list[_Furniture]
     equation_entries: list[EquationEntry] = msgspec.field(name="equation")
     claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
-    slips: list[Slip] = msgspec.field(name="slip")
+    slips: list[Slip] = msgspec.field(name="slip", default=[])
 
 
 # What the rest of the program sees.
@@ -384,7 +388,7 @@ class Equation:
         return self.entry.id
 
 
-class Ledger(_Document, frozen=True, dict=True, eq=False):
+class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
     """All claims and equations in the order of the report, the inferred inputs, and the text.
 
     `blank` are the cells that Table A-1 leaves blank, `misprinted` the texts that stand in the
@@ -414,10 +418,9 @@ class Ledger(_Document, frozen=True, dict=True, eq=False):
         """The claims that are constants of an equation, in its order."""
         if equation in self.misprinted:
             return []
-        inside = [claim for claim in self.claims.values() if claim.within == equation]
-        return [claim.id for claim in sorted(inside, key=lambda claim: claim.place.start)]
+        return [claim.id for claim in self.claims.values() if claim.within == equation]
 
-    def printed_text(self, name: str, constants: Mapping[str, Fraction] | None = None) -> str:
+    def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
         if name in self.claims:
             return self.claims[name].text
@@ -426,9 +429,13 @@ class Ledger(_Document, frozen=True, dict=True, eq=False):
         place, text = self.equations[name].place, ""
         at = place.start
         for claim in map(self.claims.__getitem__, self.constants_of(name)):
-            value = (constants or {}).get(claim.id)
-            own = claim.text if value is None else _FRACTION.format(*value.as_integer_ratio())
-            text, at = text + self.text[at : claim.place.start] + own, claim.place.end
+            text += self.text[at : claim.place.start]
+            if claim.id in constants:
+                over, under = constants[claim.id].as_integer_ratio()
+                text += rf"\frac{{{over}}}{{{under}}}"
+            else:
+                text += claim.text
+            at = claim.place.end
         return text + self.text[at : place.end]
 
     @cached_property
@@ -538,9 +545,6 @@ class Ledger(_Document, frozen=True, dict=True, eq=False):
         return copy
 
 
-_FRACTION = r"\frac{{{}}}{{{}}}"
-
-
 @cache
 def load() -> Ledger:
     """The report's ledger.
@@ -588,7 +592,7 @@ def read(
         claims=dict(sorted(_completed(claims).items(), key=lambda item: _order(item[1].place))),
         equations=equations,
         sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
-        blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
+        blank=tuple(cell for cells in tables.table.blank for cell in _cells(cells)),
     )
     _check(ledger)
     return ledger

@@ -360,6 +360,7 @@ def test_digits_and_number_words_need_a_claim(text: str, left: list[str]) -> Non
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no claims": ({"claim": []}, "the ledger is empty"),
     "no claim table": ({"claim": None}, "ledger.toml: Object missing required field `claim`"),
+    "no blank cells": ({"table:blank": None}, "ledger.toml: Object missing required field `blank`"),
     "unknown key": ({"claim:width:exakt": True}, "ledger.toml: Object contains unknown field"),
     "no title": ({"claim:width:title": None}, "ledger.toml: Object missing required field"),
     "unknown kind": ({"claim:width:kind": "guess"}, "ledger.toml: Invalid enum value 'guess'"),
