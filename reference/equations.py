@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from operator import add, mul
 from typing import Any
 
@@ -40,15 +40,18 @@ class Node:
     span: tuple[int, int] = field(default=(0, 0), compare=False)
 
 
-_TOKEN = re.compile(
-    r"""(?P<space>(?:\s|\\quad|&)+)
-    |(?P<number>\d+(?:\.\d+)?)
-    |(?P<function>\\(?:ln|log)(?![a-zA-Z]))
-    |(?P<fraction>\\frac(?![a-zA-Z]))
-    |(?P<sign>[-+/^(){}])
-    """,
-    re.VERBOSE,
-)
+@cache
+def _token(written: tuple[str, ...]) -> re.Pattern[str]:
+    """What an expression is made of, with the symbols as they are written."""
+    longest_first = sorted(written, key=len, reverse=True)  # "k_t" before "k"
+    return re.compile(
+        r"(?P<space>(?:\s|\\quad|&)+)"
+        r"|(?P<number>\d+(?:\.\d+)?)"
+        r"|(?P<function>\\(?:ln|log)(?![a-zA-Z]))"
+        r"|(?P<fraction>\\frac(?![a-zA-Z]))"
+        r"|(?P<sign>[-+/^(){}])"
+        rf"|(?P<symbol>{'|'.join(map(re.escape, longest_first))})"
+    )
 
 
 class _Reader:
@@ -56,26 +59,19 @@ class _Reader:
 
     def __init__(self, text: str, symbols: Mapping[str, str], offset: int) -> None:
         self.text, self.symbols, self.offset = text, symbols, offset
-        # Longest first: "k_t" before "k".
-        self.written = sorted(symbols, key=len, reverse=True)
         self.starts: list[int] = []
         self.tokens = list(self._tokens())
         self.place = 0
 
     def _tokens(self) -> Iterator[tuple[str, str]]:
-        at = 0
+        token, at = _token(tuple(self.symbols)), 0
         while at < len(self.text):
-            self.starts.append(at)
-            if match := _TOKEN.match(self.text, at):
-                assert match.lastgroup is not None
-                yield match.lastgroup, match[0]
-                at = match.end()
-                continue
-            written = next((w for w in self.written if self.text.startswith(w, at)), None)
-            if written is None:
+            match = token.match(self.text, at)
+            if not match:
                 raise EquationError(f"cannot read {self.text[at:]!r} in the equation {self.text!r}")
-            yield "symbol", self.symbols[written]
-            at += len(written)
+            self.starts.append(at)
+            kind, at = str(match.lastgroup), match.end()
+            yield kind, self.symbols[match[0]] if kind == "symbol" else match[0]
 
     def node(self, kind: str, first: int, *parts: Node, **more: Any) -> Node:
         """A node written from the token `first` to the last one taken."""
@@ -230,6 +226,8 @@ def replaced(node: Node, span: tuple[int, int], value: Fraction) -> Node:
     """The expression with another number where it has the part that is written at the span."""
     if node.span == span:
         return Node("number", value=value, span=span)
+    if not node.span[0] <= span[0] < span[1] <= node.span[1]:
+        return node
     return replace(node, parts=tuple(replaced(part, span, value) for part in node.parts))
 
 

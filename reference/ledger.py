@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, cached_property, reduce
+from functools import cache, cached_property, lru_cache, reduce
 from graphlib import CycleError, TopologicalSorter
 from importlib import resources
 from operator import mul
@@ -456,7 +456,7 @@ class Ledger:
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
-        return read_equation(text, self.written)
+        return _read_equation(text, tuple(self.written.items()))
 
     # The entries as inputs
 
@@ -582,6 +582,12 @@ _NUMBER = re.compile(
     r"|sixths?|several|twice|thrice|double|dozen|hundred|thousand|million)\b",
     re.IGNORECASE,
 )
+
+
+@lru_cache(512)
+def _read_equation(text: str, written: tuple[tuple[str, str], ...]) -> tuple[Node, ...]:
+    """Each text once: the same misprint of an equation is tried for all that rests on it."""
+    return read_equation(text, dict(written))
 
 
 @cache

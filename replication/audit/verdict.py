@@ -284,7 +284,7 @@ class Judge:
             decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
             # Of a whole sheet, or where a row squares twice, the fractions grow very long.
             long = computation.by_scheme and (
-                not computation.by_row or convention.centered and decided
+                not computation.by_row or (convention.centered and decided)
             )
             exact = None if long else _exactly(function, box, range_.idle)
             self._ranges[key] = range_.ends if exact is None else (exact, exact)
