@@ -66,10 +66,7 @@ class Reals(_Points):
     """
 
     def __init__(self, digits: int = 50) -> None:
-        import mpmath  # a twentieth of a second that a command without proofs need not wait for
-
-        self.context = mpmath.MPContext()
-        self.context.dps = digits
+        self.context = _context(digits)
         self.log = self.context.log
 
     @property
@@ -86,6 +83,16 @@ class Reals(_Points):
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
         root = self.context.sqrt(c)
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
+
+
+@cache
+def _context(digits: int) -> Any:
+    """mpmath at so many digits; to make it takes milliseconds, and to import it many more."""
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = digits
+    return context
 
 
 class InexactError(ArithmeticError):

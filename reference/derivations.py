@@ -9,7 +9,6 @@ Newton's law, Bernoulli's, and earlier equations of the report where it says tha
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 
 from reference.arithmetic import Dual, Duals, Ratio, Ratios, Reals
 from reference.equations import Node, evaluate, symbols_in
@@ -29,11 +28,6 @@ class Check:
     says: str
     holds: bool
     factor: Fraction | None = None
-
-
-@cache
-def _reals() -> Reals:
-    return Reals(15)
 
 
 class _Algebra:
@@ -85,7 +79,7 @@ def _velocity_of_mass(of: _Algebra) -> Iterator[Check]:
     yield _equal("the left side is the velocity of the particle", of.value(left), of["V_p"])
     mean = of.value(right, m=of["m_o"])
     yield _equal("a particle of average mass has the average velocity", mean, of["V"])
-    reals = _reals()
+    reals = Reals(15)
     numbers = {"V": reals.number(1), "m_o": reals.number(1), "m": reals.number(2)}
     heavy = evaluate(right, reals, numbers)
     yield Check("a heavier particle is slower, as the report says", bool(heavy < 1))
@@ -146,7 +140,7 @@ def _force_of_contact(of: _Algebra) -> Iterator[Check]:
 def _plastic_zone_pressure(of: _Algebra) -> Iterator[Check]:
     left, right = of.sides["eq10"]
     yield _equal("the left side is beta", of.value(left), of["beta"])
-    reals = _reals()
+    reals = Reals(15)
     none, wide = (evaluate(right, reals, {"alpha": reals.number(n)}) for n in (1, 2))
     yield Check("no plastic zone, alpha = 1, no pressure", bool(none == 0))
     yield Check("a wider plastic zone presses harder", bool(wide > 0))
@@ -229,7 +223,7 @@ def _frank_zook_depth(of: _Algebra) -> Iterator[Check]:
     scale = of.value(left, **put) / of["X"]
     says = "the depth grows with the impact velocity as Eqs. 14 and 15 demand"
     yield _equal(says, of.slope(right, "V", **put), -(of["V"] / acceleration * scale))
-    reals = _reals()
+    reals = Reals(15)
     ones = {name: reals.number(name != "V") for name in symbols_in(right)}
     yield Check("no impact, no depth", bool(evaluate(right, reals, ones) == 0))
 

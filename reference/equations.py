@@ -247,18 +247,17 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
     """
 
     def value(node: Node) -> Number:
-        match node.kind:
-            case "number":
-                return ar.number(node.value)
-            case "symbol" if node.name == "pi":
-                return ar.pi
-            case "symbol" if node.name in values:
-                return values[node.name]
-            case "symbol":
-                raise EquationError(f"the symbol {node.name} has no value here")
-            case "power":
-                return _power(node, ar, values, value)
-        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        if node.kind == "number":
+            return ar.number(node.value)
+        if node.kind == "power":
+            return _power(node, ar, values, value)
+        if node.kind != "symbol":
+            return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        if node.name == "pi":
+            return ar.pi
+        if node.name not in values:
+            raise EquationError(f"the symbol {node.name} has no value here")
+        return values[node.name]
 
     return value(node)
 

@@ -428,12 +428,20 @@ class Ledger:
         if equation.id in self.misprinted:
             return self.misprinted[equation.id], {}
         text, at, spans = "", equation.place.start, {}
-        inside = [claim for claim in self.claims.values() if claim.within == equation.id]
-        for claim in sorted(inside, key=lambda claim: claim.place.start):
+        for claim in (self.claims[name] for name in self._inside.get(equation.id, ())):
             text += self.text[at : claim.place.start]
             spans[claim.id] = (len(text), len(text) + len(claim.text))
             text, at = text + claim.text, claim.place.end
         return text + self.text[at : equation.place.end], spans
+
+    @cached_property
+    def _inside(self) -> Mapping[str, list[str]]:
+        """The ids of the claims that are constants of each equation, in the order of its text."""
+        inside: dict[str, list[str]] = {}
+        for claim in sorted(self.claims.values(), key=lambda claim: claim.place.start):
+            if claim.within is not None:
+                inside.setdefault(claim.within, []).append(claim.id)
+        return inside
 
     def constants_of(self, equation: str) -> dict[str, tuple[int, int]]:
         """The claims that are constants of an equation, and where in its text they stand."""
@@ -542,8 +550,9 @@ class Ledger:
 
         Raises ValueError if a claim's text is no number.
         """
-        claims, equation = dict(self.claims), name
+        claims, equation = self.claims, name
         if name not in self.equations:
+            claims = dict(claims)
             claim, printed = claims[name], parse(text)
             claims[name] = replace(claim, text=text, printed=printed)
             if claim.bound is not None and claim.entry.against is None:
@@ -553,7 +562,9 @@ class Ledger:
                     claims[key] = replace(other, bound=printed.value)
             equation = claim.within or ""
         copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
-        # All other equations are as they were read.
+        # What no text decides, and all other equations, are as they were.
+        kept = ("written", "dimensions", "_inside")
+        copy.__dict__.update({key: getattr(self, key) for key in kept})
         again = [self.equations[equation]] if equation else []
         copy.__dict__["sides"] = {**self.sides, **{e.id: copy._sides_of(e) for e in again}}
         return copy

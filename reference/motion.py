@@ -79,10 +79,10 @@ def sheet_rows(
         area_over_mass = ar.pi * radius * radius / mass
 
     drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
-    half_step, per_radius = step / 2, 1 / radius
+    half_step, per_radius, one = step / 2, 1 / radius, ar.number(1)
 
     def deceleration(x: Number, v: Number) -> Number:
-        return (drag * v**2 + push) * contact_share(ar, x * per_radius)
+        return (drag * v**2 + push) * ar.contact_share(ar.least(x * per_radius, one))
 
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):

@@ -186,8 +186,17 @@ class Explainer:
             claim, screens = changed.claims[name], self._screens(changed)
         else:
             values[entry] = parse(text).value * self.ledger.claims[entry].si
+            if self._is_ruled_out(claim, entry, values[entry]):
+                return None
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
+
+    def _is_ruled_out(self, claim: Claim, entry: str, value: Fraction) -> bool:
+        """Whether it was proven already, by solving for the entry, that no reading agrees."""
+        if self.judge.moved or claim.id not in self._solved:
+            return False
+        found = [s.solutions for s in self._solved[claim.id] if s.entry == entry]
+        return bool(found) and not any(solutions.may_admit(value) for solutions in found)
 
     def _suits(self, claim: Claim, text: str) -> str | None:
         """Whether another text of a number that nothing computes suits what rests on it."""
