@@ -173,7 +173,12 @@ class Dual:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Dual":
-        return self.__add__(-other)
+        if not isinstance(other, Dual):
+            return Dual(self.value - other, self.slopes)
+        slopes = dict(self.slopes)
+        for name, slope in other.slopes.items():
+            slopes[name] = slopes[name] - slope if name in slopes else -slope
+        return Dual(self.value - other.value, slopes)
 
     def __rsub__(self, other: Any) -> "Dual":
         return self.__neg__().__add__(other)
@@ -181,11 +186,11 @@ class Dual:
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        product = other.scaled(self.value * other.value, self.value)
-        if self.slopes:
-            own = {name: slope * other.value for name, slope in self.slopes.items()}
-            product.slopes = _added(own, product.slopes)
-        return product
+        slopes = {name: slope * other.value for name, slope in self.slopes.items()}
+        for name, slope in other.slopes.items():
+            own = self.value * slope
+            slopes[name] = slopes[name] + own if name in slopes else own
+        return Dual(self.value * other.value, slopes)
 
     __rmul__ = __mul__
 

@@ -31,22 +31,30 @@ class Span:
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = _balls(other)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
         return Span(self.low + low, self.high + high)
 
     __radd__ = __add__
 
     def __sub__(self, other: Number) -> "Span":
-        low, high = _balls(other)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
         return Span(self.low - high, self.high - low)
 
     def __rsub__(self, other: Number) -> "Span":
         return Span(other - self.high, other - self.low)
 
     def __mul__(self, other: Number) -> "Span":
-        low, high = _balls(other)
-        if self.low >= _ZERO and low >= _ZERO:
-            return Span(self.low * low, self.high * high)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        if self.low >= _ZERO:
+            if low >= _ZERO:
+                return Span(self.low * low, self.high * high)
+            if high <= _ZERO:
+                return Span(self.high * low, self.low * high)
+        elif self.high <= _ZERO:
+            if low >= _ZERO:
+                return Span(self.low * high, self.high * low)
+            if high <= _ZERO:
+                return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 

@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -14,7 +13,7 @@ from hypothesis import strategies as st
 from replication.cases import BETA_3, BETA_5, CASES
 from replication.error import hard_cases, ladder
 from replication.error.budget import Budget, exact_motion, split
-from replication.models import arrays
+from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run
 
