@@ -66,10 +66,7 @@ class Reals(_Points):
     """
 
     def __init__(self, digits: int = 50) -> None:
-        import mpmath  # a twentieth of a second that a command without proofs need not wait for
-
-        self.context = mpmath.MPContext()
-        self.context.dps = digits
+        self.context = _context(digits)
         self.log = self.context.log
 
     @property
@@ -86,6 +83,16 @@ class Reals(_Points):
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
         root = self.context.sqrt(c)
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
+
+
+@cache
+def _context(digits: int) -> Any:
+    """mpmath at so many digits; to make it takes milliseconds, and to import it many more."""
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = digits
+    return context
 
 
 class InexactError(ArithmeticError):
@@ -168,14 +175,22 @@ class Dual(_Operators):
             return Dual(self.value + other, self.slopes)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
+    def __sub__(self, other: Any) -> "Dual":
+        if not isinstance(other, Dual):
+            return Dual(self.value - other, self.slopes)
+        slopes = dict(self.slopes)
+        for name, slope in other.slopes.items():
+            slopes[name] = slopes[name] - slope if name in slopes else -slope
+        return Dual(self.value - other.value, slopes)
+
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        product = other.scaled(self.value * other.value, self.value)
-        if self.slopes:
-            own = {name: slope * other.value for name, slope in self.slopes.items()}
-            product.slopes = _added(own, product.slopes)
-        return product
+        slopes = {name: slope * other.value for name, slope in self.slopes.items()}
+        for name, slope in other.slopes.items():
+            own = self.value * slope
+            slopes[name] = slopes[name] + own if name in slopes else own
+        return Dual(self.value * other.value, slopes)
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):

@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from operator import add, mul
 from typing import Any, NamedTuple
 
@@ -47,19 +47,23 @@ class _Token(NamedTuple):
     """Whether a space stands before it."""
 
 
-_LEXICON = r"""(?P<space>(?:\s|\\quad|&)*)
-    (?:(?P<number>\d+(?:\.\d+)?)
-    |(?P<function>\\(?:ln|log)(?![a-zA-Z]))
-    |(?P<fraction>\\frac(?![a-zA-Z]))
-    |(?P<sign>[-+/^(){}])
-    |(?P<end>\Z)
-"""
+@cache
+def _token(written: tuple[str, ...]) -> re.Pattern[str]:
+    """What an expression is made of, with the symbols as they are written."""
+    longest_first = sorted(written, key=len, reverse=True)  # "k_t" before "k"
+    return re.compile(
+        r"(?P<space>(?:\s|\\quad|&)*)(?:"
+        r"(?P<number>\d+(?:\.\d+)?)"
+        r"|(?P<function>\\(?:ln|log)(?![a-zA-Z]))"
+        r"|(?P<fraction>\\frac(?![a-zA-Z]))"
+        r"|(?P<sign>[-+/^(){}])"
+        r"|(?P<end>\Z)"
+        rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])}))"
+    )
 
 
 def _tokens(text: str, symbols: Mapping[str, str]) -> Iterator[_Token]:
-    longest_first = sorted(symbols, key=len, reverse=True)  # "k_t" before "k"
-    symbol = "|".join([*map(re.escape, longest_first), "(?!)"])
-    token, at, kind = re.compile(f"{_LEXICON}|(?P<symbol>{symbol}))", re.VERBOSE), 0, ""
+    token, at, kind = _token(tuple(symbols)), 0, ""
     while kind != "end":
         match = token.match(text, at)
         if match is None or match.lastgroup is None:
@@ -187,25 +191,29 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     """
 
     def value(node: Node) -> Any:
-        match node.kind:
-            case "number":
-                return ar.number(node.value)
-            case "symbol" if node.name == "pi":
-                return ar.pi
-            case "symbol" if node.name in values:
-                known = values[node.name]
-                return ar.number(known) if isinstance(known, Fraction) else known
-            case "symbol":
-                raise EquationError(f"the symbol {node.name} has no value here")
-            case "power":
-                base, power = node.parts[0], _exponent(node.parts[1], values)
-                if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
-                    base, power = base.parts[0], power * _exponent(base.parts[1], values)
-                whole = power.denominator == 1 and power > 0
-                return value(base) ** int(power) if whole else ar.power(value(base), power)
-        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        if node.kind == "number":
+            return ar.number(node.value)
+        if node.kind == "power":
+            return _power(node, ar, values, value)
+        if node.kind != "symbol":
+            return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        if node.name == "pi":
+            return ar.pi
+        if node.name not in values:
+            raise EquationError(f"the symbol {node.name} has no value here")
+        known = values[node.name]
+        return ar.number(known) if isinstance(known, Fraction) else known
 
     return value(node)
+
+
+def _power(node: Node, ar: Any, values: Mapping[str, Any], value: Callable[[Node], Any]) -> Any:
+    base, power = node.parts[0], _exponent(node.parts[1], values)
+    if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
+        base, power = base.parts[0], power * _exponent(base.parts[1], values)
+    if power.denominator == 1 and power > 0:
+        return value(base) ** int(power)
+    return ar.power(value(base), power)
 
 
 _OPERATIONS: Mapping[str, Callable[..., Any]] = {

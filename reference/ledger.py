@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from fractions import Fraction
-from functools import cache, cached_property, reduce
+from functools import cache, cached_property, lru_cache, reduce
 from graphlib import CycleError, TopologicalSorter
 from importlib import resources
 from operator import mul
@@ -418,7 +418,15 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
         """The claims that are constants of an equation, in its order."""
         if equation in self.misprinted:
             return []
-        return [claim.id for claim in self.claims.values() if claim.within == equation]
+        return self._inside.get(equation, [])
+
+    @cached_property
+    def _inside(self) -> Mapping[str, list[str]]:
+        inside: dict[str, list[str]] = {}
+        for claim in self.claims.values():
+            if claim.within is not None:
+                inside.setdefault(claim.within, []).append(claim.id)
+        return inside
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
@@ -455,7 +463,7 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
-        return read_equation(text, self.written)
+        return _read_equation(text, tuple(self.written.items()))
 
     # The entries as inputs
 
@@ -530,8 +538,9 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
 
         Raises ValueError if a claim's text is no number.
         """
-        claims, equation = dict(self.claims), name
+        claims, equation = self.claims, name
         if name not in self.equations:
+            claims = dict(claims)
             claims[name] = replace(claims[name], text=text, printed=parse(text))
             for claim in list(claims.values()):
                 if name in (claim.id, claim.entry.against):
@@ -539,10 +548,18 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
         copy = msgspec.structs.replace(self, claims=claims, misprinted=misprinted)
-        # All other equations are as they were read.
+        # What no text decides, and all other equations, are as they were.
+        kept = ("written", "dimensions", "_inside")
+        copy.__dict__.update({key: getattr(self, key) for key in kept})
         again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
         copy.__dict__["sides"] = {**self.sides, **again}
         return copy
+
+
+@lru_cache(512)
+def _read_equation(text: str, written: tuple[tuple[str, str], ...]) -> tuple[Node, ...]:
+    """Each text once: the same misprint of an equation is tried for all that rests on it."""
+    return read_equation(text, dict(written))
 
 
 @cache

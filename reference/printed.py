@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from enum import Enum
 from fractions import Fraction
+from functools import lru_cache
 
 
 class Rounding(Enum):
@@ -218,6 +219,7 @@ _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
 _POWER = re.compile(r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})")
 
 
+@lru_cache(4096)
 def parse(text: str) -> Printed:
     """Read one printed number.
 

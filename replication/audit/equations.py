@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from reference.derivations import Check, derive
-from reference.equations import EquationError, Node, dimension
+from reference.derivations import Check, Sides, derive
+from reference.equations import EquationError, dimension
 from reference.ledger import Equation, Ledger
 from reference.units import DimensionError
 from replication.audit.verdict import Verdict
@@ -65,7 +65,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
         check = Check(str(error), holds=False)
         return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
     sides = ledger.sides
-    checks = tuple(_checks(ledger, name, sides))
+    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
@@ -76,8 +76,22 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) -> Iterator[Check]:
-    """The check of dimensions, and those of the derivation."""
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check: no more of its verdict, in less time."""
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError:
+        return False
+    return _follows(ledger, name, ledger.sides)
+
+
+def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
+    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
+    derived = all(check.holds for check in _derivation(ledger, name, sides))
+    return derived and _dimensions(ledger, name, sides).holds
+
+
+def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
     exponents = {
         key: ledger.value(symbol.value)
         for key, symbol in ledger.symbols.items()
@@ -86,17 +100,19 @@ def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) ->
     says = "both sides have the same dimensions"
     try:
         own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
-        yield Check(says, all(unit == own[0] for unit in own))
+    except (DimensionError, EquationError) as error:
+        return Check(f"{says}: {error}", holds=False)
+    return Check(says, all(unit == own[0] for unit in own))
+
+
+def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    try:
         yield from derive(name, sides, ledger.symbols)
-    except DimensionError as error:
-        yield Check(f"{says}: {error}", holds=False)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
 
 
-def _constants(
-    ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]], holds: bool
-) -> dict[str, Constant]:
+def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, Constant]:
     claims = ledger.constants_of(name)
 
     def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
@@ -104,10 +120,10 @@ def _constants(
         return tuple(
             value
             for value in _candidates(ledger.value(claim))
-            if all(c.holds for c in _checks(ledger, name, mended({**given, claim: value})))
+            if _follows(ledger, name, mended({**given, claim: value}))
         )
 
-    def mended(constants: Mapping[str, Fraction]) -> dict[str, tuple[Node, ...]]:
+    def mended(constants: Mapping[str, Fraction]) -> Sides:
         return {**sides, name: ledger.read(ledger.printed_text(name, constants))}
 
     needed = {claim: passing(claim, {}) for claim in claims}

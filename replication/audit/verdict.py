@@ -279,9 +279,14 @@ class Judge:
         )  # fmt: skip
         if key not in self._ranges:
             function = self.ledger.function(claim, reading=name, centered=convention.centered)
-            whole_sheet = computation.by_scheme and not computation.by_row
             range_ = enclose(function, box)
-            exact = None if whole_sheet else _exactly(function, box, range_.idle)
+            targets = [claim.target(rounding) for rounding in Rounding]
+            decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
+            # Of a whole sheet, or where a row squares twice, the fractions grow very long.
+            long = computation.by_scheme and (
+                not computation.by_row or (convention.centered and decided)
+            )
+            exact = None if long else _exactly(function, box, range_.idle)
             self._ranges[key] = range_.ends if exact is None else (exact, exact)
         return self._ranges[key]
 
