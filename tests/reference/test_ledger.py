@@ -339,6 +339,7 @@ def test_the_small_ledger_is_read() -> None:
     assert ledger.blank == ("C1", "D1", "C2", "D2")
     assert ledger.claims["volume"].inputs == {"diameter": ("width",)}
     assert str(ledger.claims["farther"].interval()) == "(40, inf)"
+    assert small({"inferred:density:unit": "g/cm^3"}).value("inferred:density") == 2500
     own = small({"claim:volume:rests_on": {"group": "size", "diameter": "edge"}})
     assert own.claims["volume"].inputs == {"diameter": ("edge",)}, "an entry goes before its group"
 
