@@ -325,11 +325,13 @@ class Claim:
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
+        if rounding not in self._targets:
+            self._targets[rounding] = self.interval(rounding).scaled(self.si)
         return self._targets[rounding]
 
     @cached_property
     def _targets(self) -> dict[Rounding, Interval]:
-        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
+        return {}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""

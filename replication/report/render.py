@@ -73,6 +73,7 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        optimized=False,  # nothing in the templates could be computed before they are filled
     )
     found.filters |= {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
