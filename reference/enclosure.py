@@ -498,6 +498,8 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
             dual = function(_TANGENTS, **numbers)
         except (ArithmeticError, TypeError, ValueError):
             return middle  # no value there, or only a complex one
+        if isinstance(dual, Fraction):
+            continue  # the same everywhere
         low = -inf if target.lower is None else float(target.lower)
         high = inf if target.upper is None else float(target.upper)
         margin = 0.0 if isinf(high - low) else (high - low) / 100

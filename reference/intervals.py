@@ -60,10 +60,10 @@ class Span:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Number) -> "Span":
+    def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
 
-    def __rtruediv__(self, other: Number) -> "Span":
+    def __rtruediv__(self, other: Number) -> Number:
         return _inverse(self.low, self.high) * other
 
     def __pow__(self, power: int) -> "Span":
