@@ -539,8 +539,12 @@ class Ledger:
         inputs = {key: names for key, names in claim.inputs.items() if key not in exponents}
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            own = {key: reduce(mul, [entries[name] for name in names])
-                   for key, names in inputs.items()}  # fmt: skip
+            own = {
+                key: entries[names[0]]
+                if len(names) == 1
+                else reduce(mul, [entries[name] for name in names])
+                for key, names in inputs.items()
+            }
             return computation.function(ar, **own, **exponents, **settings)
 
         return of_entries
