@@ -61,12 +61,12 @@ def enclose(function: Function, box: Box) -> Range:
     [0.5, 0.6666666666666666]
     """
     wide = [name for name, (low, high) in box.items() if low != high]
-    slopes = _slopes(function, box, wide) if wide else {}
+    value, slopes = _tangent(function, box, wide) if wide else (None, {})
     signs = {name: _sign(slopes.get(name)) for name in wide}
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(*_best(function, box, slopes), signs)
+        return Range(*_best(function, box, value, slopes), signs)
     lower, upper = (
         _points({
             name: ends if name not in fixed else ends[_end(fixed[name], top)]
@@ -80,18 +80,18 @@ def enclose(function: Function, box: Box) -> Range:
     return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
 
 
-def _best(function: Function, box: Box, slopes: Mapping[str, Number]) -> tuple[Fraction, Fraction]:
-    """The plain range, cut to what the value in the middle and the slopes allow."""
-    low, high = _plain(function, box)
+def _best(
+    function: Function, box: Box, value: Number | None, slopes: Mapping[str, Number]
+) -> tuple[Fraction, Fraction]:
+    """The plain range, if need be yet to find, cut to what the middle and the slopes allow."""
+    low, high = _plain(function, box) if value is None else _INTERVALS.ends(value)
     if not slopes:
         return low, high
-    middle = _middle(box)
-    value = _plain(function, _points(middle))
-    reach = Fraction(0)
+    at_middle, reach = _plain(function, _points(_middle(box))), Fraction(0)
     for name, slope in slopes.items():
         steepest = max(map(abs, _INTERVALS.ends(slope)))
         reach += steepest * (box[name][1] - box[name][0]) / 2
-    return max(low, value[0] - reach), min(high, value[1] + reach)
+    return max(low, at_middle[0] - reach), min(high, at_middle[1] + reach)
 
 
 def _end(sign: int, top: int) -> int:
@@ -110,8 +110,13 @@ def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
-def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Number]:
-    """What holds every derivative all over the box; nothing where the function may jump."""
+def _tangent(
+    function: Function, box: Box, wide: list[str]
+) -> tuple[Number | None, dict[str, Number]]:
+    """What holds the value, and every derivative, all over the box.
+
+    None and nothing where the function may jump, or is a number that is known exactly.
+    """
     zero = _INTERVALS.number(0)
     with _INTERVALS.working():
         numbers = {}
@@ -121,9 +126,10 @@ def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Number]:
         try:
             value = function(_DUALS, **numbers)
         except (DiscontinuityError, ZeroDivisionError):
-            return {}
-    slopes = {} if isinstance(value, Fraction) else value.slopes
-    return {name: slopes.get(name, zero) for name in wide}
+            return None, {}
+    if isinstance(value, Fraction):
+        return None, dict.fromkeys(wide, zero)
+    return value.value, {name: value.slopes.get(name, zero) for name in wide}
 
 
 def _sign(slope: Number | None) -> int:
@@ -399,7 +405,7 @@ def extent(
     wide = [key for key, (low, high) in box.items() if low != high]
     monotone = []
     for function, target in constraints:
-        slopes = _slopes(function, box, wide)
+        _, slopes = _tangent(function, box, wide)
         signs = {key: _sign(slopes.get(key)) for key in wide}
         monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
 
@@ -492,6 +498,8 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
             dual = function(_TANGENTS, **numbers)
         except (ArithmeticError, TypeError, ValueError):
             return middle  # no value there, or only a complex one
+        if isinstance(dual, Fraction):
+            continue  # the same everywhere
         low = -inf if target.lower is None else float(target.lower)
         high = inf if target.upper is None else float(target.upper)
         margin = 0.0 if isinf(high - low) else (high - low) / 100

@@ -8,7 +8,7 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -60,10 +60,10 @@ class Span:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Number) -> "Span":
+    def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
 
-    def __rtruediv__(self, other: Number) -> "Span":
+    def __rtruediv__(self, other: Number) -> Number:
         return _inverse(self.low, self.high) * other
 
     def __pow__(self, power: int) -> "Span":
@@ -151,8 +151,10 @@ class Intervals:
         return arb.pi()
 
     def number(self, value: Fraction | int) -> Number:
-        if isinstance(value, int):
-            return _integer(value)
+        if value.denominator == 1:
+            return _integer(value.numerator)
+        if ctx.prec == self._bits:
+            return _ball(value)
         with self.working():
             return _ball(value)
 
@@ -224,7 +226,7 @@ class Intervals:
         return _between(_least(*lows), _greatest(*highs))
 
 
-@cache
+@lru_cache(1000)
 def _integer(value: int) -> arb:
     return arb(value)
 

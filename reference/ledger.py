@@ -325,11 +325,13 @@ class Claim:
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
+        if rounding not in self._targets:
+            self._targets[rounding] = self.interval(rounding).scaled(self.si)
         return self._targets[rounding]
 
     @cached_property
     def _targets(self) -> dict[Rounding, Interval]:
-        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
+        return {}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
@@ -525,8 +527,12 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
             settings["centered"] = centered
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            own = {key: reduce(mul, [entries[name] for name in names])
-                   for key, names in inputs.items()}  # fmt: skip
+            own = {
+                key: entries[names[0]]
+                if len(names) == 1
+                else reduce(mul, [entries[name] for name in names])
+                for key, names in inputs.items()
+            }
             return computation.function(Formulas(ar, sides), **own, **settings)
 
         return of_entries

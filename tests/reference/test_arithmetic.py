@@ -67,6 +67,7 @@ def test_derivatives_are_those_of_finite_differences(x: F, y: F) -> None:
 def test_spans_contain_what_points_give(xs: tuple[F, F], ys: tuple[F, F], s: F, t: F) -> None:
     ar = Intervals(20)
     (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    assume(not x0 == x1 == y0 == y1)  # the power of a ball about 0 is undefined to Arb
     point = REALS.number(x0 + s * (x1 - x0)), REALS.number(y0 + t * (y1 - y0))
     for name, function in OPERATIONS.items():
         with ar.working():
