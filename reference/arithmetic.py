@@ -66,10 +66,7 @@ class Reals(_Points):
     """
 
     def __init__(self, digits: int = 50) -> None:
-        import mpmath  # a twentieth of a second that a command without proofs need not wait for
-
-        self.context = mpmath.MPContext()
-        self.context.dps = digits
+        self.context = _context(digits)
         self.log = self.context.log
 
     @property
@@ -88,6 +85,16 @@ class Reals(_Points):
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
 
 
+@cache
+def _context(digits: int) -> Any:
+    """mpmath at so many digits; to make it takes milliseconds, and to import it many more."""
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = digits
+    return context
+
+
 class InexactError(ArithmeticError):
     """A number is not rational, or not known to be."""
 
@@ -99,23 +106,16 @@ class Rationals(_Points):
     Fraction(1, 3)
     """
 
-    @property
-    def pi(self) -> Number:
-        raise InexactError("pi is no fraction")
-
-    def number(self, value: Fraction | int) -> Number:
-        return Fraction(value)
-
-    def log(self, x: Number) -> Number:
-        raise InexactError(f"the logarithm of {x} is no fraction")
+    number = Fraction
 
     def power(self, x: Number, exponent: Fraction) -> Number:
-        if exponent.denominator != 1:
-            raise InexactError("a root is no fraction")
-        return x ** int(exponent)
+        return x ** int(exponent) if exponent.denominator == 1 else self._inexact()
 
-    def cap_root(self, c: Number) -> Number:
-        raise InexactError(f"the root of y^2 - y^3/3 = {c} is no fraction")
+    def _inexact(self, *_: Number) -> Number:
+        raise InexactError("it is no fraction, or not known to be one")
+
+    log = cap_root = _inexact
+    pi = property(_inexact)
 
 
 class Floats(_Points):
@@ -125,14 +125,8 @@ class Floats(_Points):
     '0.2980'
     """
 
-    pi = math.pi
-    log = staticmethod(math.log)
-
-    def number(self, value: Fraction | int) -> Number:
-        return float(value)
-
-    def power(self, x: Number, exponent: Fraction) -> Number:
-        return x ** float(exponent)
+    pi, number = math.pi, float
+    log, power = staticmethod(math.log), staticmethod(math.pow)
 
     def cap_root(self, c: Number) -> Number:
         third = math.asin(math.sqrt(3 * c) / 2) / 3
@@ -143,7 +137,25 @@ class DiscontinuityError(ArithmeticError):
     """A function may jump where its derivatives are asked for, so it has none there."""
 
 
-class Dual:
+class _Operators:
+    """The operators that follow from `+`, `*` and the change of sign."""
+
+    __slots__ = ()
+
+    def __radd__(self, other: Any) -> Any:
+        return self + other
+
+    def __sub__(self, other: Any) -> Any:
+        return self + -other
+
+    def __rsub__(self: Any, other: Any) -> Any:
+        return -self + other
+
+    def __rmul__(self, other: Any) -> Any:
+        return self * other
+
+
+class Dual(_Operators):
     """A number with its derivatives by the variables it depends on: `slopes` by their names."""
 
     __slots__ = ("slopes", "value")
@@ -163,24 +175,22 @@ class Dual:
             return Dual(self.value + other, self.slopes)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
-    __radd__ = __add__
-
     def __sub__(self, other: Any) -> "Dual":
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> "Dual":
-        return self.__neg__().__add__(other)
+        if not isinstance(other, Dual):
+            return Dual(self.value - other, self.slopes)
+        slopes = dict(self.slopes)
+        for name, slope in other.slopes.items():
+            slopes[name] = slopes[name] - slope if name in slopes else -slope
+        return Dual(self.value - other.value, slopes)
 
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        product = other.scaled(self.value * other.value, self.value)
-        if self.slopes:
-            own = {name: slope * other.value for name, slope in self.slopes.items()}
-            product.slopes = _added(own, product.slopes)
-        return product
-
-    __rmul__ = __mul__
+        slopes = {name: slope * other.value for name, slope in self.slopes.items()}
+        for name, slope in other.slopes.items():
+            own = self.value * slope
+            slopes[name] = slopes[name] + own if name in slopes else own
+        return Dual(self.value * other.value, slopes)
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
@@ -274,7 +284,7 @@ class Duals:
         return Dual(value, slopes)
 
 
-class Ratio:
+class Ratio(_Operators):
     """A quotient of two polynomials with rational coefficients."""
 
     __slots__ = ("over", "under")
@@ -290,19 +300,9 @@ class Ratio:
         over = self.over * other.under + other.over * self.under
         return Ratio(over, self.under * other.under)
 
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> "Ratio":
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> "Ratio":
-        return self.__neg__().__add__(other)
-
     def __mul__(self, other: Any) -> "Ratio":
         other = self._ratio(other)
         return Ratio(self.over * other.over, self.under * other.under)
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> "Ratio":
         other = self._ratio(other)

@@ -6,13 +6,13 @@ printed solution is differentiated and put in. Premises are geometry (a plane cu
 Newton's law, Bernoulli's, and earlier equations of the report where it says that it uses them.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from typing import Any
 
-from reference.arithmetic import Dual, Duals, Ratio, Ratios, Reals
-from reference.equations import Node, evaluate, symbols_in
+from reference.arithmetic import Dual, Duals, Floats, Number, Ratio, Ratios
+from reference.equations import Node, evaluate
 
 Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
@@ -31,240 +31,185 @@ class Check:
     factor: Fraction | None = None
 
 
-@cache
-def _reals() -> Reals:
-    return Reals(15)
+@dataclass(frozen=True, slots=True)
+class _Printed:
+    """A printed equation, its sides as quotients of polynomials in all symbols of the report."""
 
+    number: str
+    sides: Sides
+    field: Ratios
 
-class _Algebra:
-    """Expressions of the report as quotients of polynomials in all their symbols."""
+    def __getitem__(self, symbol: str) -> Number:
+        return self.field.symbols[symbol]
 
-    def __init__(self, sides: Sides, names: tuple[str, ...]) -> None:
-        self.sides = sides
-        self.field = Ratios(names)
+    def equation(self, number: str) -> "_Printed":
+        return replace(self, number=number)
 
-    def __getitem__(self, name: str) -> Ratio:
-        return self.field.symbols[name]
+    def side(self, index: int = -1, **put: Number) -> Number:
+        """A side, the last if no other is named, with something put in the place of symbols."""
+        return evaluate(self.sides[self.number][index], self.field, self._with(put))
+
+    def cubed(self) -> Number:
+        """The last side to the third power, in which no third root is left."""
+        power = Node("power", (self.sides[self.number][-1], Node("number", value=Fraction(3))))
+        return evaluate(power, self.field, self.field.symbols)
+
+    def slope(self, by: str, index: int = -1, **put: Number) -> Number:
+        """The derivative of a side by one of its symbols."""
+        duals = Duals(self.field)
+        values = {name: Dual(ratio) for name, ratio in self._with(put).items()}
+        values[by] = duals.variable(values[by].value, by)
+        side = evaluate(self.sides[self.number][index], duals, values)
+        return side.slopes.get(by, self.field.number(0))
+
+    def _with(self, put: Mapping[str, Number]) -> dict[str, Ratio]:
+        number = self.field.number
+        known = {name: x if isinstance(x, Ratio) else number(x) for name, x in put.items()}
+        return {**self.field.symbols, **known}
+
+    def at(self, **numbers: float) -> float:
+        """The last side as a number, its other symbols at 1."""
+        values = {**dict.fromkeys(self.field.symbols, 1.0), **numbers}
+        return float(evaluate(self.sides[self.number][-1], Floats(), values))
+
+    def section(self, x: Ratio) -> Number:
+        """Area of the circle in which a plane at depth x cuts a sphere: a^2 = R^2 - (R - x)^2."""
+        return self.field.pi * (self["R"] ** 2 - (self["R"] - x) ** 2)
 
     @property
-    def pi(self) -> Ratio:
-        return self.field.pi
-
-    def value(self, node: Node, **put: Ratio | int) -> Ratio:
-        """An expression, with something else put in the place of some of its symbols."""
-        given = {name: self.field.number(0) + ratio for name, ratio in put.items()}
-        value: Ratio = evaluate(node, self.field, {**self.field.symbols, **given})
-        return value
-
-    def slope(self, node: Node, by: str, **put: Ratio | int) -> Ratio:
-        """The derivative of an expression by one of its symbols."""
-        zero, duals = self.field.number(0), Duals(self.field)
-        values = {name: Dual(ratio) for name, ratio in self.field.symbols.items()}
-        values |= {name: Dual(zero + ratio) for name, ratio in put.items()}
-        values[by] = duals.variable(values[by].value, by)
-        slope: Ratio = evaluate(node, duals, values).slopes.get(by, zero)
-        return slope
+    def circle(self) -> Number:
+        """Area of the contact circle."""
+        return self.field.pi * self["a"] ** 2
 
 
-def _equal(says: str, printed: Ratio, derived: Ratio | int) -> Check:
-    if printed == derived:
-        return Check(says, True)
-    if derived == 0:
-        return Check(says, False)
-    return Check(says, False, (printed / derived).constant)
+def _whole_sphere(of: _Printed) -> Number:
+    """The integral of the sections pi (2 R x - x^2) from 0 to 2 R."""
+    return of.field.pi * (of["R"] * (2 * of["R"]) ** 2 - (2 * of["R"]) ** 3 / 3)
 
 
-def _section(of: _Algebra, x: Ratio) -> Ratio:
-    """Area of the circle in which a plane at depth x cuts a sphere: a^2 = R^2 - (R - x)^2."""
-    radius = of["R"]
-    return of.pi * (radius**2 - (radius - x) ** 2)
+def _cavity(of: _Printed) -> Number:
+    """c^3/a^3 of Hill's spherical cavity in an incompressible target.
+
+    The elastic displacement at the edge c of the plastic zone is Y_t c / (2 E_t), and the volume
+    pushed out, 3 c^2 times that, is the cavity's a^3.
+    """
+    return 1 / (3 * of["Y_t"] / (2 * of["E_t"]))
 
 
-def _velocity_of_mass(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq1"]
-    yield _equal("the left side is the velocity of the particle", of.value(left), of["V_p"])
-    mean = of.value(right, m=of["m_o"])
-    yield _equal("a particle of average mass has the average velocity", mean, of["V"])
-    reals = _reals()
-    numbers = {"V": reals.number(1), "m_o": reals.number(1), "m": reals.number(2)}
-    heavy = evaluate(right, reals, numbers)
-    yield Check("a heavier particle is slower, as the report says", bool(heavy < 1))
+def _frank_zook_slope(of: _Printed) -> Number:
+    """How the left side of Eq. 16 grows with the impact velocity by Eqs. 14 and 15.
 
-
-def _cap(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq2"]
-    yield _equal("the left side is the volume of the crater", of.value(left), of["CV"])
-    yield _equal("no depth, no volume", of.value(right, X=0), 0)
-    says = "one more unit of depth adds the area of the section at that depth"
-    yield _equal(says, of.slope(right, "X"), _section(of, of["X"]))
-
-
-def _sphere(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq3"]
-    yield _equal("the left side is the volume of the particle", of.value(left), of["PV"])
-    # The integral of the sections pi (2 R x - x^2) from 0 to 2 R.
-    whole = of.pi * (of["R"] * (2 * of["R"]) ** 2 - (2 * of["R"]) ** 3 / 3)
-    yield _equal("the sections of the sphere add up to it", of.value(right), whole)
-
-
-def _bernoulli(of: _Algebra) -> Iterator[Check]:
-    stress, particle, target = of.sides["eq5"]
-    v, u = of["v"], of["u"]
-    yield _equal("the left side is the stress", of.value(stress), of["Sigma"])
-    yield _equal("a rigid particle, u = v, exerts its strength", of.value(particle, u=v), of["Y_p"])
-    says = "in the particle the stress rises by density times relative velocity"
-    yield _equal(says, of.slope(particle, "v"), of["rho_p"] * (v - u))
-    yield _equal("a target at rest exerts its resistance", of.value(target, u=0), of["R_t"])
-    says = "in the target the stress rises by density times velocity"
-    yield _equal(says, of.slope(target, "u"), of["rho_t"] * u)
-
-
-def _rigid(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq6"]
-    yield _equal("the left side is the stress", of.value(left), of["Sigma"])
-    target = of.value(of.sides["eq5"][-1], u=of["v"])
-    yield _equal("the right side is that of Eq. 5 at u = v", of.value(right), target)
-
-
-def _product_of_strength(number: str) -> Callable[[_Algebra], Iterator[Check]]:
-    def checks(of: _Algebra) -> Iterator[Check]:
-        left, right = of.sides[number]
-        yield _equal("it defines the target resistance", of.value(left), of["R_t"])
-        yield _equal("as beta times the flow stress", of.value(right), of["beta"] * of["Y_t"])
-
-    return checks
-
-
-def _force_of_contact(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq9"]
-    yield _equal("the left side is the force", of.value(left), of["F_r"])
-    circle = of.pi * of["a"] ** 2
-    says = "the force is the resistance times the area of a circle of radius a"
-    yield _equal(says, of.value(right), of["R_t"] * circle)
-
-
-def _plastic_zone_pressure(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq10"]
-    yield _equal("the left side is beta", of.value(left), of["beta"])
-    reals = _reals()
-    none, wide = (evaluate(right, reals, {"alpha": reals.number(n)}) for n in (1, 2))
-    yield Check("no plastic zone, alpha = 1, no pressure", bool(none == 0))
-    yield Check("a wider plastic zone presses harder", bool(wide > 0))
-
-
-def _plastic_zone(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq11"]
-    yield _equal("the left side is the extent of the plastic zone", of.value(left), of["alpha"])
-    # Hill's spherical cavity, incompressible: the elastic displacement at the edge c of the plastic
-    # zone is Y_t c / (2 E_t), and the volume pushed out, 3 c^2 times that, is the cavity's a^3.
-    modulus, stress = of["E_t"], of["Y_t"]
-    cubed = Node("power", (right, Node("number", value=Fraction(3))))
-    shift = stress / (2 * modulus)
-    says = "its cube is c^3/a^3 of a spherical cavity in an incompressible target"
-    yield _equal(says, of.value(cubed), 1 / (3 * shift))
-
-
-def _contact_area(number: str) -> Callable[[_Algebra], Iterator[Check]]:
-    def checks(of: _Algebra) -> Iterator[Check]:
-        left, right = of.sides[number]
-        circle = of.pi * of["a"] ** 2
-        yield _equal("the left side is the area of the contact circle", of.value(left), circle)
-        printed = of.value(right, D=2 * of["R"])
-        says = "the right side is the section of the sphere at depth x, by Pythagoras"
-        yield _equal(says, printed, _section(of, of["x"]))
-
-    return checks
-
-
-def _diameter(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["diameter"]
-    yield _equal("the left side is the diameter", of.value(left), of["D"])
-    yield _equal("a diameter is two radii", of.value(right), 2 * of["R"])
-
-
-def _newton_shallow(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq13-shallow"]
-    yield _equal("mass times acceleration", of.value(left), of["m"] * of["dv/dt"])
-    stress, area = of.value(of.sides["eq6"][1]), of.value(of.sides["eq12"][1])
-    yield _equal("is minus the stress of Eq. 6 times the area of Eq. 12",
-                 of.value(right), -(stress * area))  # fmt: skip
-
-
-def _newton_deep(of: _Algebra) -> Iterator[Check]:
-    (right,) = of.sides["eq13-deep"]
-    area = _section(of, of["R"])
-    yield _equal("is minus the stress of Eq. 6 times the section at x = R",
-                 of.value(right), -(of.value(of.sides["eq6"][1]) * area))  # fmt: skip
-
-
-def _frank_zook_stress(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq14"]
-    yield _equal("the left side is the strength, Eq. 5's at u = v", of.value(left), of["Y_p"])
-    target = of.value(of.sides["eq5"][-1], u=of["v"])
-    half = of.field.number(Fraction(1, 2))
-    steady = of.value(right, k_t=half, k_1=0)
-    yield _equal("with k_t = 1/2 and k_1 = 0 the right side is that of Eq. 5", steady, target)
-    slope = of.slope(right, "k_1") / of["dv/dt"]
-    says = "the unsteady term adds the inertia of a column of target"
-    yield _equal(says, slope, of["rho_t"] * of["D"])
-
-
-def _rod(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq15"]
-    yield _equal("the left side is the acceleration", of.value(left), of["dv/dt"])
-    area = of.pi * of["D"] ** 2 / 4
-    newton = -(of["Y_p"] * area) / (of["rho_p"] * area * of["L"])
-    yield _equal("strength times section over the mass of a rod", of.value(right), newton)
-
-
-def _frank_zook_depth(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eq16"]
-    strength, rod = of.sides["eq14"][1], of.sides["eq15"][1]
-    put: dict[str, Ratio | int] = {"v": of["V"], "D": 2 * of["R"]}
-    # Both equations are linear: strength = steady + inertia dv/dt, dv/dt = -rod strength.
-    steady = of.value(strength, **{**put, "dv/dt": 0})
-    inertia, per_strength = of.slope(strength, "dv/dt", **put), of.value(rod, **put, Y_p=1)
+    Both are linear: strength = steady + inertia dv/dt, dv/dt = -rod strength. By dx/dt = v an
+    impact that is faster by dV goes deeper by dX = -V dV / acceleration.
+    """
+    strength, rod = of.equation("eq14"), of.equation("eq15")
+    put: dict[str, Any] = {"v": of["V"], "D": 2 * of["R"]}
+    steady = strength.side(**{**put, "dv/dt": 0})
+    inertia, per_strength = strength.slope("dv/dt", **put), rod.side(**put, Y_p=1)
     acceleration = per_strength * steady / (1 - per_strength * inertia)
-    # By dx/dt = v an impact that is faster by dV goes deeper by dX = -V dV / acceleration.
-    scale = of.value(left, **put) / of["X"]
-    says = "the depth grows with the impact velocity as Eqs. 14 and 15 demand"
-    yield _equal(says, of.slope(right, "V", **put), -(of["V"] / acceleration * scale))
-    reals = _reals()
-    ones = {name: reals.number(name != "V") for name in symbols_in(right)}
-    yield Check("no impact, no depth", bool(evaluate(right, reals, ones) == 0))
+    return -(of["V"] / acceleration * of.side(0, **put) / of["X"])
 
 
-def _force_law(of: _Algebra) -> Iterator[Check]:
-    left, right = of.sides["eqA-1"]
-    circle = of.pi * of["a"] ** 2
-    yield _equal("stress times contact area", of.value(left), of["Sigma"] * circle)
-    stress = of.value(of.sides["eq6"][1], v=of["u"])
-    yield _equal("is that of Eq. 6 times the same area", of.value(right), stress * circle)
+Derivation = Sequence[tuple[str, Callable[[_Printed], bool | tuple[Number, Number]]]]
+"""What is said, and whether it holds, or a printed and a derived expression that must be equal."""
 
-
-DERIVATIONS: Mapping[str, Callable[[_Algebra], Iterator[Check]]] = {
-    "eq1": _velocity_of_mass,
-    "eq2": _cap,
-    "eq3": _sphere,
-    "eq5": _bernoulli,
-    "eq6": _rigid,
-    "eq7": _product_of_strength("eq7"),
-    "eq9": _force_of_contact,
-    "eq10": _plastic_zone_pressure,
-    "eq11": _plastic_zone,
-    "eq12": _contact_area("eq12"),
-    "diameter": _diameter,
-    "eq13-shallow": _newton_shallow,
-    "eq13-deep": _newton_deep,
-    "eq14": _frank_zook_stress,
-    "eq15": _rod,
-    "eq16": _frank_zook_depth,
-    "eqA-1": _force_law,
-    "eqA-2": _product_of_strength("eqA-2"),
-    "eqA-3": _contact_area("eqA-3"),
-}
+_STRENGTH: Derivation = (
+    ("it defines the target resistance", lambda of: (of.side(0), of["R_t"])),
+    ("as beta times the flow stress", lambda of: (of.side(), of["beta"] * of["Y_t"])),
+)
+_CONTACT: Derivation = (
+    ("the left side is the area of the contact circle", lambda of: (of.side(0), of.circle)),
+    ("the right side is the section of the sphere at depth x, by Pythagoras",
+     lambda of: (of.side(D=2 * of["R"]), of.section(of["x"]))),
+)  # fmt: skip
+DERIVATIONS: Mapping[str, Derivation] = {
+    "eq1": (
+        ("the left side is the velocity of the particle", lambda of: (of.side(0), of["V_p"])),
+        ("a particle of average mass has the average velocity",
+         lambda of: (of.side(m=of["m_o"]), of["V"])),
+        ("a heavier particle is slower, as the report says", lambda of: of.at(m=2) < 1),
+    ),
+    "eq2": (
+        ("the left side is the volume of the crater", lambda of: (of.side(0), of["CV"])),
+        ("no depth, no volume", lambda of: (of.side(X=0), 0)),
+        ("one more unit of depth adds the area of the section at that depth",
+         lambda of: (of.slope("X"), of.section(of["X"]))),
+    ),
+    "eq3": (
+        ("the left side is the volume of the particle", lambda of: (of.side(0), of["PV"])),
+        ("the sections of the sphere add up to it", lambda of: (of.side(), _whole_sphere(of))),
+    ),
+    "eq5": (
+        ("the left side is the stress", lambda of: (of.side(0), of["Sigma"])),
+        ("a rigid particle, u = v, exerts its strength",
+         lambda of: (of.side(1, u=of["v"]), of["Y_p"])),
+        ("in the particle the stress rises by density times relative velocity",
+         lambda of: (of.slope("v", 1), of["rho_p"] * (of["v"] - of["u"]))),
+        ("a target at rest exerts its resistance", lambda of: (of.side(u=0), of["R_t"])),
+        ("in the target the stress rises by density times velocity",
+         lambda of: (of.slope("u"), of["rho_t"] * of["u"])),
+    ),
+    "eq6": (
+        ("the left side is the stress", lambda of: (of.side(0), of["Sigma"])),
+        ("the right side is that of Eq. 5 at u = v",
+         lambda of: (of.side(), of.equation("eq5").side(u=of["v"]))),
+    ),
+    "eq7": _STRENGTH,
+    "eq9": (
+        ("the left side is the force", lambda of: (of.side(0), of["F_r"])),
+        ("the force is the resistance times the area of a circle of radius a",
+         lambda of: (of.side(), of["R_t"] * of.circle)),
+    ),
+    "eq10": (
+        ("the left side is beta", lambda of: (of.side(0), of["beta"])),
+        ("no plastic zone, alpha = 1, no pressure", lambda of: of.at() == 0),
+        ("a wider plastic zone presses harder", lambda of: of.at(alpha=2) > 0),
+    ),
+    "eq11": (
+        ("the left side is the extent of the plastic zone", lambda of: (of.side(0), of["alpha"])),
+        ("its cube is c^3/a^3 of a spherical cavity in an incompressible target",
+         lambda of: (of.cubed(), _cavity(of))),
+    ),
+    "eq12": _CONTACT,
+    "diameter": (
+        ("the left side is the diameter", lambda of: (of.side(0), of["D"])),
+        ("a diameter is two radii", lambda of: (of.side(), 2 * of["R"])),
+    ),
+    "eq13-shallow": (
+        ("mass times acceleration", lambda of: (of.side(0), of["m"] * of["dv/dt"])),
+        ("is minus the stress of Eq. 6 times the area of Eq. 12",
+         lambda of: (of.side(), -(of.equation("eq6").side() * of.equation("eq12").side()))),
+    ),
+    "eq13-deep": (
+        ("is minus the stress of Eq. 6 times the section at x = R",
+         lambda of: (of.side(), -(of.equation("eq6").side() * of.section(of["R"])))),
+    ),
+    "eq14": (
+        ("the left side is the strength, Eq. 5's at u = v", lambda of: (of.side(0), of["Y_p"])),
+        ("with k_t = 1/2 and k_1 = 0 the right side is that of Eq. 5",
+         lambda of: (of.side(k_t=Fraction(1, 2), k_1=0), of.equation("eq5").side(u=of["v"]))),
+        ("the unsteady term adds the inertia of a column of target",
+         lambda of: (of.slope("k_1") / of["dv/dt"], of["rho_t"] * of["D"])),
+    ),
+    "eq15": (
+        ("the left side is the acceleration", lambda of: (of.side(0), of["dv/dt"])),
+        ("strength times section over the mass of a rod",
+         lambda of: (of.side(), -of["Y_p"] / (of["rho_p"] * of["L"]))),  # the section cancels
+    ),
+    "eq16": (
+        ("the depth grows with the impact velocity as Eqs. 14 and 15 demand",
+         lambda of: (of.slope("V", v=of["V"], D=2 * of["R"]), _frank_zook_slope(of))),
+        ("no impact, no depth", lambda of: of.at(V=0) == 0),
+    ),
+    "eqA-1": (
+        ("stress times contact area", lambda of: (of.side(0), of["Sigma"] * of.circle)),
+        ("is that of Eq. 6 times the same area",
+         lambda of: (of.side(), of.equation("eq6").side(v=of["u"]) * of.circle)),
+    ),
+    "eqA-2": _STRENGTH,
+    "eqA-3": _CONTACT,
+}  # fmt: skip
 """The checks of each equation, by its id; Eq. 8 has none but that of its dimensions."""
-
 
 PREMISES: Mapping[str, tuple[str, ...]] = {
     "eq6": ("eq5",),
@@ -280,7 +225,19 @@ PREMISES: Mapping[str, tuple[str, ...]] = {
 def derive(number: str, sides: Sides, symbols: Iterable[str]) -> Iterator[Check]:
     """Every check of one equation, given the sides of all and the symbols in them, one by one.
 
-    Raises ZeroDivisionError or EquationError where what is printed makes no sense there.
+    Raises ZeroDivisionError, ValueError or EquationError where what is printed makes no sense
+    there.
     """
-    if number in DERIVATIONS:
-        yield from DERIVATIONS[number](_Algebra(sides, tuple(s for s in symbols if s != "pi")))
+    expected = {"eq5": 3, "eq13-deep": 1}.get(number, 2)
+    if number in DERIVATIONS and len(sides[number]) != expected:
+        raise ValueError(f"it has {len(sides[number])} sides, not {expected}")
+    of = _Printed(number, sides, Ratios([symbol for symbol in symbols if symbol != "pi"]))
+    for says, compare in DERIVATIONS.get(number, ()):
+        compared = compare(of)
+        if isinstance(compared, bool):
+            yield Check(says, compared)
+            continue
+        printed, derived = compared
+        holds = printed == derived
+        factor = None if holds or derived == 0 else (printed / derived).constant
+        yield Check(says, holds, factor)

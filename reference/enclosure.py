@@ -10,10 +10,11 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import inf, isinf
 from typing import Any
 
-from reference.arithmetic import DiscontinuityError, Dual, Duals, Number
-from reference.intervals import Intervals, Span
+from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats, Number
+from reference.intervals import Intervals
 from reference.ledger import Function
 from reference.printed import Interval
 
@@ -60,12 +61,12 @@ def enclose(function: Function, box: Box) -> Range:
     [0.5, 0.6666666666666666]
     """
     wide = [name for name, (low, high) in box.items() if low != high]
-    slopes = _slopes(function, box, wide) if wide else {}
+    value, slopes = _tangent(function, box, wide) if wide else (None, {})
     signs = {name: _sign(slopes.get(name)) for name in wide}
-    idle = frozenset(name for name, slope in slopes.items() if slope.low == 0 == slope.high)
+    idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(*_best(function, box, slopes), signs)
+        return Range(*_best(function, box, value, slopes), signs)
     lower, upper = (
         _points({
             name: ends if name not in fixed else ends[_end(fixed[name], top)]
@@ -79,18 +80,18 @@ def enclose(function: Function, box: Box) -> Range:
     return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
 
 
-def _best(function: Function, box: Box, slopes: Mapping[str, Span]) -> tuple[Fraction, Fraction]:
-    """The plain range, cut to what the value in the middle and the slopes allow."""
-    low, high = _plain(function, box)
+def _best(
+    function: Function, box: Box, value: Number | None, slopes: Mapping[str, Number]
+) -> tuple[Fraction, Fraction]:
+    """The plain range, if need be yet to find, cut to what the middle and the slopes allow."""
+    low, high = _plain(function, box) if value is None else _INTERVALS.ends(value)
     if not slopes:
         return low, high
-    middle = _middle(box)
-    value = _plain(function, _points(middle))
-    reach = Fraction(0)
+    at_middle, reach = _plain(function, _points(_middle(box))), Fraction(0)
     for name, slope in slopes.items():
         steepest = max(map(abs, _INTERVALS.ends(slope)))
         reach += steepest * (box[name][1] - box[name][0]) / 2
-    return max(low, value[0] - reach), min(high, value[1] + reach)
+    return max(low, at_middle[0] - reach), min(high, at_middle[1] + reach)
 
 
 def _end(sign: int, top: int) -> int:
@@ -109,8 +110,13 @@ def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
-def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
-    """What holds every derivative all over the box; nothing where the function may jump."""
+def _tangent(
+    function: Function, box: Box, wide: list[str]
+) -> tuple[Number | None, dict[str, Number]]:
+    """What holds the value, and every derivative, all over the box.
+
+    None and nothing where the function may jump, or is a number that is known exactly.
+    """
     zero = _INTERVALS.number(0)
     with _INTERVALS.working():
         numbers = {}
@@ -120,16 +126,17 @@ def _slopes(function: Function, box: Box, wide: list[str]) -> dict[str, Span]:
         try:
             value = function(_DUALS, **numbers)
         except (DiscontinuityError, ZeroDivisionError):
-            return {}
-    slopes = {} if isinstance(value, Fraction) else value.slopes
-    return {name: slopes.get(name, zero) for name in wide}
+            return None, {}
+    if isinstance(value, Fraction):
+        return None, dict.fromkeys(wide, zero)
+    return value.value, {name: value.slopes.get(name, zero) for name in wide}
 
 
-def _sign(slope: Span | None) -> int:
+def _sign(slope: Number | None) -> int:
     """Whether a function is proven to rise or fall; no slope is known where it may jump."""
     if slope is None:
         return 0
-    return 1 if slope.low >= 0 else -1 if slope.high <= 0 else 0
+    return _INTERVALS.sign(slope)
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,6 +258,11 @@ class Solutions:
     def admits(self, value: Fraction) -> bool:
         """Whether the value is proven to be a solution."""
         return any(low <= value <= high for low, high in self.inner)
+
+    def may_admit(self, value: Fraction) -> bool:
+        """Whether the value is not proven to be no solution; beyond the search nothing is."""
+        sought = self.search[0] <= value <= self.search[1]
+        return not sought or any(low <= value <= high for low, high in self.outer)
 
 
 def solve(
@@ -382,8 +394,7 @@ def extent(
     second pair is the tightest of these bounds: no value beyond it satisfies all constraints. The
     first is the hull of `start` and of the values that are attained at such corners.
     """
-    attained: list[Fraction] = []
-    outer = list(box[name])
+    outer, attained = list(box[name]), [start]
     # An open end does not belong to the box: what is attained is sought a little inside.
     inside = {
         key: (low + (high - low) / 10**6, high - (high - low) / 10**6)
@@ -392,23 +403,32 @@ def extent(
         for key, (low, high) in box.items()
     }
     wide = [key for key, (low, high) in box.items() if low != high]
+    monotone = []
     for function, target in constraints:
-        slopes = _slopes(function, box, wide)
+        _, slopes = _tangent(function, box, wide)
         signs = {key: _sign(slopes.get(key)) for key in wide}
-        for top in (0, 1) if all(signs.values()) else ():
-            beyond = solve(
-                holding(function, _corner(box, name, signs, top)), name, box[name], target
-            )
-            if beyond.outer:
-                bound = beyond.outer[-top][top]
-                outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
-            corner = _corner(inside, name, signs, top)
-            found = solve(holding(function, corner), name, box[name], target).inner
-            value = found[-top][top] if found else start
-            point = {**{key: (x, x) for key, x in corner.items()}, name: (value, value)}
-            if _undecided(constraints, point) == []:
-                attained.append(value)
-    return (min([start, *attained]), max([start, *attained])), (outer[0], outer[1])
+        monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
+
+    def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:
+        return target.encloses(*_plain(function, _points({name: outer[top]})))
+
+    for function, target, signs, top in monotone:
+        best = holding(function, _corner(box, name, signs, top))
+        if is_met_at_the_bound(best, target, top):
+            continue  # it bounds the input farther out
+        if beyond := solve(best, name, box[name], target).outer:
+            bound = beyond[-top][top]
+            outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
+    for function, target, signs, top in monotone:
+        corner = _corner(inside, name, signs, top)
+        best = holding(function, corner)
+        if outer[top] != box[name][top] and is_met_at_the_bound(best, target, top):
+            continue  # what it allows is beyond the bound
+        found = solve(best, name, box[name], target).inner
+        value = found[-top][top] if found else start
+        if _undecided(constraints, _points({**corner, name: value})) == []:
+            attained.append(value)
+    return (min(attained), max(attained)), (outer[0], outer[1])
 
 
 def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str, Fraction]:
@@ -447,7 +467,7 @@ def satisfying(
     """Whether some point of the box satisfies every constraint, with such a point if one is known.
 
     None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
-    ones first save time.
+    ones first save time. In each box one point is tried, where the constraints' tangents aim.
     """
     queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
     for _ in range(budget):
@@ -457,12 +477,50 @@ def satisfying(
         undecided = _undecided(remaining, part)
         if undecided is None:
             continue
-        middle = _middle(part)
-        point = {name: (x, x) for name, x in middle.items()}
-        if not undecided or _undecided(undecided, point) == []:
-            return True, middle
+        point = _aimed(undecided, part)
+        if not undecided or _undecided(undecided, _points(point)) == []:
+            return True, point
         queue += [(half, undecided) for half in _halves(part, scales)]
     return None, None
+
+
+def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
+    """A point of the box where the constraints probably hold, by their tangents in its middle.
+
+    In doubles, as this proves nothing. From the middle the point is moved into one constraint after
+    the other by the shortest way, in coordinates that are measured in widths of the box.
+    """
+    middle, moved = _middle(box), dict.fromkeys(box, 0.0)
+    numbers = {name: _TANGENTS.variable(float(x), name) for name, x in middle.items()}
+    planes = []
+    for function, target in constraints:
+        try:
+            dual = function(_TANGENTS, **numbers)
+        except (ArithmeticError, TypeError, ValueError):
+            return middle  # no value there, or only a complex one
+        if isinstance(dual, Fraction):
+            continue  # the same everywhere
+        low = -inf if target.lower is None else float(target.lower)
+        high = inf if target.upper is None else float(target.upper)
+        margin = 0.0 if isinf(high - low) else (high - low) / 100
+        slopes = {name: x * float(box[name][1] - box[name][0]) for name, x in dual.slopes.items()}
+        if steepness := sum(slope * slope for slope in slopes.values()):
+            planes.append((dual.value, slopes, steepness, low + margin, high - margin))
+    for _ in range(_SWEEPS):
+        for value, slopes, steepness, low, high in planes:
+            at = value + sum(slope * moved[name] for name, slope in slopes.items())
+            short = max(low - at, 0.0) + min(high - at, 0.0)
+            for name, slope in slopes.items() if short else ():
+                moved[name] = min(0.49, max(-0.49, moved[name] + short * slope / steepness))
+    return {
+        name: x + (box[name][1] - box[name][0]) * Fraction(moved[name])
+        for name, x in middle.items()
+    }
+
+
+_TANGENTS = Duals(Floats())
+_SWEEPS = 30
+"""So often the tangents are gone through: more moves the point too little to matter."""
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

@@ -11,13 +11,14 @@ space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from operator import add, mul
-from typing import Any
+from typing import Any, NamedTuple
 
-from reference.arithmetic import Number
+from reference.arithmetic import InexactError, Rationals
+from reference.units import Dimension, DimensionError
 
 
 class EquationError(ValueError):
@@ -29,189 +30,141 @@ class Node:
     """A part of an equation.
 
     `kind` is "number" (with `value`), "symbol" (with `name`), or what is done with `parts`: "sum",
-    "negative", "product", "quotient", "power", "ln", "log". `span` tells from which character to
-    which it is written in the equation.
+    "negative", "product", "quotient", "power", "ln", "log".
     """
 
     kind: str
     parts: tuple["Node", ...] = ()
     name: str = ""
     value: Fraction = Fraction(0)
-    span: tuple[int, int] = field(default=(0, 0), compare=False)
 
 
-_TOKEN = re.compile(
-    r"""(?P<space>(?:\s|\\quad|&)+)
-    |(?P<number>\d+(?:\.\d+)?)
-    |(?P<function>\\(?:ln|log)(?![a-zA-Z]))
-    |(?P<fraction>\\frac(?![a-zA-Z]))
-    |(?P<sign>[-+/^(){}])
-    """,
-    re.VERBOSE,
-)
+class _Token(NamedTuple):
+    kind: str
+    text: str
+    start: int
+    spaced: bool
+    """Whether a space stands before it."""
+
+
+@cache
+def _token(written: tuple[str, ...]) -> re.Pattern[str]:
+    """What an expression is made of, with the symbols as they are written."""
+    longest_first = sorted(written, key=len, reverse=True)  # "k_t" before "k"
+    return re.compile(
+        r"(?P<space>(?:\s|\\quad|&)*)(?:"
+        r"(?P<number>\d+(?:\.\d+)?)"
+        r"|(?P<function>\\(?:ln|log)(?![a-zA-Z]))"
+        r"|(?P<fraction>\\frac(?![a-zA-Z]))"
+        r"|(?P<sign>[-+/^(){}])"
+        r"|(?P<end>\Z)"
+        rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])}))"
+    )
+
+
+def _tokens(text: str, symbols: Mapping[str, str]) -> Iterator[_Token]:
+    token, at, kind = _token(tuple(symbols)), 0, ""
+    while kind != "end":
+        match = token.match(text, at)
+        if match is None or match.lastgroup is None:
+            raise EquationError(f"cannot read {text[at:].strip()!r} in the equation {text!r}")
+        kind = match.lastgroup
+        yield _Token(kind, match[kind], match.start(kind), bool(match["space"]))
+        at = match.end()
+
+
+_BINDING = {"+": 1, "-": 1, "/": 2, " ": 2, "": 3, "^": 4}
+"""How tightly operators bind; " " and "" are products written with and without a space."""
+_KINDS = {"+": "sum", "-": "sum", "/": "quotient", " ": "product", "": "product", "^": "power"}
 
 
 class _Reader:
-    """Reads one expression; `symbols` maps what the report writes to a symbol's name."""
+    """Reads one expression by the binding of its operators."""
 
-    def __init__(self, text: str, symbols: Mapping[str, str], offset: int) -> None:
-        self.text, self.symbols, self.offset = text, symbols, offset
-        # Longest first: "k_t" before "k".
-        self.written = sorted(symbols, key=len, reverse=True)
-        self.starts: list[int] = []
-        self.tokens = list(self._tokens())
-        self.place = 0
+    def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
+        self.text, self.symbols = text, symbols
+        self.tokens = list(_tokens(text, symbols))
+        self.at = 0
 
-    def _tokens(self) -> Iterator[tuple[str, str]]:
-        at = 0
-        while at < len(self.text):
-            self.starts.append(at)
-            if match := _TOKEN.match(self.text, at):
-                assert match.lastgroup is not None
-                yield match.lastgroup, match[0]
-                at = match.end()
-                continue
-            written = next((w for w in self.written if self.text.startswith(w, at)), None)
-            if written is None:
-                raise EquationError(f"cannot read {self.text[at:]!r} in the equation {self.text!r}")
-            yield "symbol", self.symbols[written]
-            at += len(written)
+    @property
+    def next(self) -> _Token:
+        return self.tokens[self.at]
 
-    def node(self, kind: str, first: int, *parts: Node, **more: Any) -> Node:
-        """A node written from the token `first` to the last one taken."""
-        last = self.place - 1
-        while self.tokens[last][0] == "space":
-            last -= 1
-        end = self.starts[last + 1] if last + 1 < len(self.starts) else len(self.text)
-        return Node(kind, parts, span=(self.offset + self.starts[first], self.offset + end), **more)
+    def take(self, sign: str) -> bool:
+        """Whether this sign comes next; it is then taken."""
+        taken = self.next[:2] == ("sign", sign)
+        self.at += taken
+        return taken
 
-    def whole(self) -> Node:
-        node = self.sum()
-        if self.place < len(self.tokens):
-            rest = "".join(text for _, text in self.tokens[self.place :])
-            raise EquationError(f"cannot read {rest!r} at the end of {self.text!r}")
-        return node
+    def expect(self, sign: str) -> None:
+        if not self.take(sign):
+            raise EquationError(f"{sign!r} is missing in the equation {self.text!r}")
 
-    def skip_space(self) -> bool:
-        start = self.place
-        while self.place < len(self.tokens) and self.tokens[self.place][0] == "space":
-            self.place += 1
-        return self.place > start
-
-    def peek(self) -> tuple[str, str]:
-        return self.tokens[self.place] if self.place < len(self.tokens) else ("end", "")
-
-    def take(self, text: str) -> bool:
-        """Whether this sign comes next, spaces before it aside; it is then taken."""
-        start = self.place
-        self.skip_space()
-        if self.peek() == ("sign", text):
-            self.place += 1
-            return True
-        self.place = start
-        return False
-
-    def expect(self, text: str) -> None:
-        if not self.take(text):
-            raise EquationError(f"{text!r} is missing in the equation {self.text!r}")
-
-    def sum(self) -> Node:
-        self.skip_space()
-        first = self.place
-        terms = [self.negative() if self.take("-") else self.product()]
-        while True:
-            if self.take("+"):
-                terms.append(self.product())
-            elif self.take("-"):
-                terms.append(self.negative())
-            else:
-                return terms[0] if len(terms) == 1 else self.node("sum", first, *terms)
-
-    def negative(self) -> Node:
-        first = self.place - 1
-        return self.node("negative", first, self.product())
-
-    def product(self) -> Node:
-        """Factors with spaces between them, or fraction bars, from left to right."""
-        self.skip_space()
-        first = self.place
-        node = self.tight()
-        while True:
-            if self.take("/"):
-                self.skip_space()
-                node = self.node("quotient", first, node, self.tight())
-                continue
-            start = self.place
-            self.skip_space()
-            if not self.begins_factor():
-                self.place = start
-                return node
-            node = self.multiplied(first, node, self.tight())
-
-    def begins_factor(self) -> bool:
-        kind, text = self.peek()
-        return kind in ("number", "symbol", "function", "fraction") or (kind, text) == ("sign", "(")
-
-    def tight(self) -> Node:
-        """Factors without spaces between them."""
-        first = self.place
-        node = self.power()
-        while self.begins_factor():
-            node = self.multiplied(first, node, self.power())
-        return node
-
-    def multiplied(self, first: int, left: Node, right: Node) -> Node:
-        factors = left.parts if left.kind == "product" else (left,)
-        return self.node("product", first, *factors, right)
-
-    def power(self) -> Node:
-        first = self.place
-        base = self.atom()
-        if self.peek() != ("sign", "^"):
-            return base
-        self.place += 1
-        if self.take("{"):
-            exponent = self.sum()
-            self.expect("}")
+    def expression(self, binding: int = 0) -> Node:
+        """What follows, as far as its operators bind more tightly than `binding`."""
+        if binding == 0 and self.take("-"):
+            left = Node("negative", (self.expression(_BINDING["-"]),))
         else:
-            exponent = self.atom()
-        return self.node("power", first, base, exponent)
+            left = self.operand()
+        while (operator := self.operator()) is not None and _BINDING[operator] > binding:
+            if operator not in ("", " "):
+                self.at += 1
+            right = self.exponent() if operator == "^" else self.expression(_BINDING[operator])
+            if operator == "-":
+                right = Node("negative", (right,))
+            kind = _KINDS[operator]
+            chained = kind in ("sum", "product") and left.kind == kind
+            left = Node(kind, (*(left.parts if chained else (left,)), right))
+        return left
 
-    def atom(self) -> Node:
-        kind, text = self.peek()
-        first, self.place = self.place, self.place + 1
+    def operator(self) -> str | None:
+        """The operator that comes next, a product where a factor does; None at the end."""
+        kind, text, _, spaced = self.next
+        if kind in ("number", "symbol", "function", "fraction") or text == "(":
+            return " " if spaced else ""
+        return text if text in ("+", "-", "/") or (text == "^" and not spaced) else None
+
+    def operand(self) -> Node:
+        kind, text, *_ = self.next
+        if text == "(":
+            return self.within("(", ")")
+        self.at += 1
         if kind == "number":
-            return self.node("number", first, value=Fraction(text))
+            return Node("number", value=Fraction(text))
         if kind == "symbol":
-            return self.node("symbol", first, name=text)
+            return Node("symbol", name=self.symbols[text])
         if kind == "function":
-            self.skip_space()
-            return self.node(text[1:], first, self.power())
+            return Node(text[1:], (self.expression(_BINDING[""]),))
         if kind == "fraction":
-            return self.node("quotient", first, self.braced(), self.braced())
-        if (kind, text) == ("sign", "("):
-            node = self.sum()
-            self.expect(")")
-            return node
+            return Node("quotient", (self.within("{", "}"), self.within("{", "}")))
         raise EquationError(f"the equation {self.text!r} breaks off or has {text!r} out of place")
 
-    def braced(self) -> Node:
-        self.expect("{")
-        node = self.sum()
-        self.expect("}")
+    def exponent(self) -> Node:
+        if self.next.spaced:
+            raise EquationError(f"an exponent is missing in the equation {self.text!r}")
+        return self.within("{", "}") if self.next.text == "{" else self.operand()
+
+    def within(self, opening: str, closing: str) -> Node:
+        self.expect(opening)
+        node = self.expression()
+        self.expect(closing)
         return node
 
 
-def read_expression(text: str, symbols: Mapping[str, str], offset: int = 0) -> Node:
+def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
     r"""One side of an equation. Raises EquationError for what cannot be read.
 
-    `symbols` maps what the report writes to a symbol's name; `offset` is the place of the text in
-    the whole equation.
+    `symbols` maps what the report writes to a symbol's name.
 
-    >>> symbols_in(read_expression(r"(2E_t/3Y_t)^{1/3}", {"E_t": "E_t", "Y_t": "Y_t"}))
-    ['E_t', 'Y_t']
+    >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
+    '(2 E)/(3 Y)'
     """
-    return _Reader(text, symbols, offset).whole()
+    reader = _Reader(text, symbols)
+    node = reader.expression()
+    if reader.next.kind != "end":
+        rest = text[reader.next.start :]
+        raise EquationError(f"cannot read {rest!r} at the end of {text!r}")
+    return node
 
 
 def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
@@ -220,27 +173,16 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
     >>> len(read_equation(r"F_r = \pi a^2 R_t", {w: w for w in ("F_r", r"\pi", "a", "R_t")}))
     2
     """
-    sides = [match for match in re.finditer(r"[^=]+", text) if match[0].strip(" &,.\n")]
     if "=" not in text:
         raise EquationError(f"{text!r} has no equals sign")
-    return tuple(read_expression(side[0].rstrip(" &,.\n"), symbols, side.start()) for side in sides)
+    sides = (side.rstrip(" &,.\n") for side in text.split("="))
+    return tuple(read_expression(side, symbols) for side in sides if side.strip(" &,.\n"))
 
 
-def replaced(node: Node, span: tuple[int, int], value: Fraction) -> Node:
-    """The expression with another number where it has the part that is written at the span."""
-    if node.span == span:
-        return Node("number", value=value, span=span)
-    return replace(node, parts=tuple(replaced(part, span, value) for part in node.parts))
-
-
-def symbols_in(node: Node) -> list[str]:
-    """The names of its symbols, sorted."""
-    names = {name for part in node.parts for name in symbols_in(part)}
-    return sorted(names | ({node.name} if node.kind == "symbol" else set()))
-
-
-def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
+def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     r"""The value of an expression in an arithmetic, for values of its symbols in SI units.
+
+    A symbol that is an exponent needs a Fraction.
 
     >>> from reference.arithmetic import Reals
     >>> expression = read_expression(r"7/3 \ln(\alpha)", {r"\alpha": "alpha"})
@@ -248,24 +190,33 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Number]) -> Number:
     1.61734342130654
     """
 
-    def value(node: Node) -> Number:
-        match node.kind:
-            case "number":
-                return ar.number(node.value)
-            case "symbol" if node.name == "pi":
-                return ar.pi
-            case "symbol" if node.name in values:
-                return values[node.name]
-            case "symbol":
-                raise EquationError(f"the symbol {node.name} has no value here")
-            case "power":
-                return _power(node, ar, values, value)
-        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+    def value(node: Node) -> Any:
+        if node.kind == "number":
+            return ar.number(node.value)
+        if node.kind == "power":
+            return _power(node, ar, values, value)
+        if node.kind != "symbol":
+            return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        if node.name == "pi":
+            return ar.pi
+        if node.name not in values:
+            raise EquationError(f"the symbol {node.name} has no value here")
+        known = values[node.name]
+        return ar.number(known) if isinstance(known, Fraction) else known
 
     return value(node)
 
 
-_OPERATIONS: Mapping[str, Callable[..., Number]] = {
+def _power(node: Node, ar: Any, values: Mapping[str, Any], value: Callable[[Node], Any]) -> Any:
+    base, power = node.parts[0], _exponent(node.parts[1], values)
+    if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
+        base, power = base.parts[0], power * _exponent(base.parts[1], values)
+    if power.denominator == 1 and power > 0:
+        return value(base) ** int(power)
+    return ar.power(value(base), power)
+
+
+_OPERATIONS: Mapping[str, Callable[..., Any]] = {
     "negative": lambda _, x: -x,
     "sum": lambda _, *terms: reduce(add, terms),
     "product": lambda _, *factors: reduce(mul, factors),
@@ -275,54 +226,32 @@ _OPERATIONS: Mapping[str, Callable[..., Number]] = {
 }
 
 
-def _power(node: Node, ar: Any, values: Mapping[str, Number], value: Callable[[Node], Any]) -> Any:
-    base, exponent = node.parts
-    power = _exponent(exponent, values)
-    if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
-        base, power = base.parts[0], power * _exponent(base.parts[1], values)
-    if power.denominator == 1 and power > 0:
-        return value(base) ** int(power)
-    return ar.power(value(base), power)
-
-
-def _exponent(node: Node, values: Mapping[str, Number]) -> Fraction:
+def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
     """An exponent: a number, or a symbol whose value is given as a Fraction."""
-    match node.kind:
-        case "number":
-            return node.value
-        case "symbol" if isinstance(values.get(node.name), Fraction):
-            return Fraction(values[node.name])
-        case "negative":
-            return -_exponent(node.parts[0], values)
-        case "quotient":
-            return _exponent(node.parts[0], values) / _exponent(node.parts[1], values)
-    raise EquationError("an exponent is not a number")
+    if node.kind == "number":
+        return node.value
+    known = {name: value for name, value in values.items() if isinstance(value, Fraction)}
+    try:
+        return Fraction(evaluate(node, Rationals(), known))
+    except (EquationError, InexactError) as error:
+        raise EquationError("an exponent is not a number") from error
 
 
-class DimensionError(ValueError):
-    """Quantities of different kinds are added, or one that is no pure number is an argument."""
+class _Dimensions:
+    """The arithmetic of dimensions: those of all numbers are the same."""
 
+    pi = Dimension()
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
-    """Powers of kilogram, metre and second."""
+    def number(self, _: Fraction | int) -> Dimension:
+        return Dimension()
 
-    powers: tuple[Fraction, ...] = (Fraction(0), Fraction(0), Fraction(0))
+    def power(self, x: Dimension, exponent: Fraction) -> Dimension:
+        return x**exponent
 
-    def __mul__(self, other: "Dimension") -> "Dimension":
-        pairs = zip(self.powers, other.powers, strict=True)
-        return Dimension(tuple(a + b for a, b in pairs))
-
-    def __truediv__(self, other: "Dimension") -> "Dimension":
-        pairs = zip(self.powers, other.powers, strict=True)
-        return Dimension(tuple(a - b for a, b in pairs))
-
-    def __pow__(self, exponent: Fraction | int) -> "Dimension":
-        return Dimension(tuple(power * exponent for power in self.powers))
-
-    def __str__(self) -> str:
-        named = zip(("kg", "m", "s"), self.powers, strict=True)
-        return " ".join(f"{n}^{p}" if p != 1 else n for n, p in named if p) or "a pure number"
+    def log(self, x: Dimension) -> Dimension:
+        if x != Dimension():
+            raise DimensionError(f"the logarithm of {x} is taken")
+        return x
 
 
 def dimension(
@@ -332,28 +261,8 @@ def dimension(
 
     Raises DimensionError where a sum or an argument makes no sense.
     """
-    parts = [] if node.kind == "power" else [dimension(p, units, exponents) for p in node.parts]
-    match node.kind:
-        case "number":
-            return Dimension()
-        case "symbol":
-            return Dimension() if node.name == "pi" else units[node.name]
-        case "sum":
-            if unlike := next((part for part in parts if part != parts[0]), None):
-                raise DimensionError(f"{parts[0]} and {unlike} are added")
-            return parts[0]
-        case "negative":
-            return parts[0]
-        case "product":
-            return reduce(mul, parts)
-        case "quotient":
-            return parts[0] / parts[1]
-        case "power":
-            base, exponent = node.parts
-            return dimension(base, units, exponents) ** _exponent(exponent, exponents or {})
-    if parts[0] != Dimension():
-        raise DimensionError(f"the logarithm of {parts[0]} is taken")
-    return Dimension()
+    own: Dimension = evaluate(node, _Dimensions(), {**units, **(exponents or {})})
+    return own
 
 
 @dataclass(frozen=True, slots=True)
@@ -400,7 +309,7 @@ PLAIN = Notation(
     times=" ",
     stroke=(3, 4),
 )
-_BINDING = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
+_TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
 _TIGHTEST = 5
 
 
@@ -413,8 +322,13 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
 
     def part(child: Node, least: int) -> str:
         inner = rendered(child, shown, notation)
-        loose = _BINDING.get(child.kind, _TIGHTEST) < least
+        loose = _TIGHTNESS.get(child.kind, _TIGHTEST) < least
         return notation.bracket(inner) if loose else inner
+
+    def added(term: Node) -> str:
+        negative = term.kind == "negative"
+        sign = notation.less if negative else notation.plus
+        return sign + (part(term.parts[0], 2) if negative else part(term, 1))
 
     parts = node.parts
     match node.kind:
@@ -425,18 +339,11 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "negative":
             return notation.row(notation.minus + part(parts[0], 2))
         case "sum":
-            terms = [part(parts[0], 0)]
-            for term in parts[1:]:
-                negative = term.kind == "negative"
-                child = part(term.parts[0] if negative else term, 2 if negative else 1)
-                terms.append((notation.less if negative else notation.plus) + child)
-            return notation.row("".join(terms))
+            return notation.row(part(parts[0], 0) + "".join(map(added, parts[1:])))
         case "product":
             return notation.row(notation.times.join(part(child, 2) for child in parts))
         case "quotient":
-            return notation.fraction(
-                part(parts[0], notation.stroke[0]), part(parts[1], notation.stroke[1])
-            )
+            return notation.fraction(*map(part, parts, notation.stroke))
         case "power":
             return notation.power(part(parts[0], 5), part(parts[1], notation.stroke[1]))
     return notation.call(node.kind, rendered(parts[0], shown, notation))

@@ -19,7 +19,7 @@ import msgspec
 
 from reference.arithmetic import Reals
 from reference.equations import evaluate, read_expression
-from reference.ledger import Ledger, LedgerError
+from reference.ledger import Entry, Ledger, LedgerError, converted, naming
 from reference.ledger import load as load_ledger
 from reference.printed import decimal_text, parse
 from reference.units import to_si
@@ -30,7 +30,7 @@ _RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 }  # fmt: skip
 
 
-class Assertion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Assertion(Entry, frozen=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
     `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
@@ -57,8 +57,6 @@ class Assertion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         >>> ratio = Assertion(says=">= 1.147", means="least ratio")
         >>> ratio.holds(1.1476), ratio.holds(1.1469)
         (True, False)
-        >>> Assertion(says="7.66", means="depth", unit="um").holds(7.6603)
-        True
         """
         if self.text in ("yes", "no"):
             return computed is (self.text == "yes")
@@ -76,7 +74,7 @@ class Step:
     holds: bool
 
 
-class Finding(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Finding(Entry, frozen=True, kw_only=True):
     """One finding as asserted, its texts with the printed and the asserted numbers in them.
 
     `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
@@ -86,15 +84,9 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     id: str
     title: str
     kind: Literal[
-        "headline",
-        "misprint",
-        "formula",
-        "rounding",
-        "inconsistent pair",
-        "unstated input",
-        "method",
-        "wording",
-    ]
+        "headline", "misprint", "formula", "rounding", "inconsistent pair", "unstated input",
+        "method", "wording",
+    ]  # fmt: skip
     status: Literal["explained", "open"]
     claims: tuple[str, ...]
     statement: str
@@ -104,18 +96,11 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     steps: tuple[Step, ...] = ()
 
 
-Findings = Mapping[str, Finding]
-"""By id, the weightiest first; the one called "headline" says in a sentence what came out."""
-
-STATUSES = {
-    "explained": "the arithmetic shows the cause",
-    "open": "it is shown that the numbers fail or what the report leaves out, not why",
-}
-
-
 @cache
-def load() -> Findings:
-    """The findings on the report.
+def load() -> Mapping[str, Finding]:
+    """The findings on the report, the weightiest first.
+
+    The one called "headline" says in a sentence what came out.
 
     >>> list(load())[:2]
     ['headline', 'frank-zook-pair']
@@ -124,22 +109,16 @@ def load() -> Findings:
     return read(tomllib.loads(source.read_text("utf-8")), load_ledger())
 
 
-def read(document: Mapping[str, Any], ledger: Ledger) -> Findings:
+def read(document: Mapping[str, Any], ledger: Ledger) -> Mapping[str, Finding]:
     """Build and check the findings from parsed TOML; LedgerError names what is wrong."""
-    try:
-        texts = msgspec.convert(document.get("finding", []), list[Finding])
-    except msgspec.ValidationError as error:
-        raise LedgerError(f"findings.toml: {error}") from error
-    if not texts:
-        raise LedgerError("there are no findings: the file has no [[finding]]")
     findings: dict[str, Finding] = {}
-    for entry in texts:
-        if entry.id in findings:
-            raise LedgerError(f"finding {entry.id!r} stands there twice")
-        try:
+    for entry in converted(document.get("finding", []), list[Finding], "findings.toml"):
+        with naming(f"finding {entry.id!r}"):
+            if entry.id in findings:
+                raise ValueError("it stands there twice")
             findings[entry.id] = _finding(entry, ledger)
-        except (ValueError, ArithmeticError) as error:
-            raise LedgerError(f"finding {entry.id!r}: {error}") from error
+    if not findings:
+        raise LedgerError("there are no findings: the file has no [[finding]]")
     return findings
 
 
@@ -153,40 +132,34 @@ def _finding(entry: Finding, ledger: Ledger) -> Finding:
             raise ValueError(f"evidence {name!r}: {assertion.relation!r} is no relation")
         if assertion.text not in ("yes", "no"):
             parse(assertion.text)
-    raw = (entry.title, entry.statement, entry.by_hand, entry.settle)
-    filled = [_filled(" ".join(text.split()), entry.evidence, ledger) for text in raw]
-    steps = tuple(_step(text) for part in filled for text in re.findall("`(.*?)`", part))
-    title, statement, by_hand, settle = (text.replace("`", "") for text in filled)
-    return msgspec.structs.replace(
-        entry, title=title, statement=statement, by_hand=by_hand, settle=settle, steps=steps
-    )
+
+    texts, steps = {}, []
+    for key in ("title", "statement", "by_hand", "settle"):
+        text = " ".join(getattr(entry, key).split())
+        text = _PLACE.sub(lambda match: _number(match[1], match[2], entry, ledger), text)
+        steps += [_step(line) for line in re.findall("`(.*?)`", text)]
+        texts[key] = text.replace("`", "")
+    return msgspec.structs.replace(entry, **texts, steps=tuple(steps))
 
 
 _PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
 
 
-def _filled(text: str, evidence: Mapping[str, Assertion], ledger: Ledger) -> str:
-    """The text with numbers in it: {evidence}, {claim}, {source}, {claim:unit} in another unit."""
-
-    def number(match: re.Match[str]) -> str:
-        name, unit = match.groups()
-        if name in evidence:
-            return evidence[name].text
-        if name in ledger.claims:
-            return ledger.claims[name].shown if unit is None else ledger.in_unit(name, unit)
-        if name in ledger.sources:
-            source = ledger.sources[name]
-            return source.says if unit is None else decimal_text(source.value / to_si(unit))
-        raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
-
-    return _PLACE.sub(number, text)
+def _number(name: str, unit: str | None, entry: Finding, ledger: Ledger) -> str:
+    """What stands for {evidence}, {claim}, {source}, or {claim:unit} in another unit."""
+    if name in entry.evidence:
+        return entry.evidence[name].text
+    if name in ledger.claims:
+        claim = ledger.claims[name]
+        return claim.shown if unit is None else decimal_text(claim.value / to_si(unit))
+    if name in ledger.sources:
+        source = ledger.sources[name]
+        return source.says if unit is None else decimal_text(source.value / to_si(unit))
+    raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
 
 
 def _step(text: str) -> Step:
-    """A line of arithmetic such as "2/3 * 3 = 2.0", calculated again.
-
-    Raises ValueError for what is no such line.
-    """
+    """A line of arithmetic such as "2/3 * 3 = 2.0", calculated again."""
     left, _, right = text.rpartition("=")
     expression = re.sub(r"\bln\b", r"\\ln", left).replace("*", " ")
     value = evaluate(read_expression(expression.strip(), {}), _REALS, {})

@@ -3,12 +3,12 @@
 Arb's balls are rigorous and fast, but too coarse for wide boxes: their product of [0, 2] and [0, 2]
 is [-2, 4], and a deceleration that may be negative drives the sheet apart. So an interval is a
 `Span` between two balls, its ends, to which each operation is applied where it is monotone; Arb
-keeps the rounding errors of either end. A point is a span whose ends are one and the same ball.
+keeps the rounding errors of either end. A point is a ball, computed with by Arb alone.
 """
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -28,42 +28,42 @@ class Span:
         return f"[{self.low}, {self.high}]"
 
     def __neg__(self) -> "Span":
-        return 0 - self
+        return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        least = self.low + low
-        point = self.low is self.high and low is high
-        return Span(least, least if point else self.high + high)
+        return Span(self.low + low, self.high + high)
 
     __radd__ = __add__
 
     def __sub__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        least = self.low - high
-        point = self.low is self.high and low is high
-        return Span(least, least if point else self.high - low)
+        return Span(self.low - high, self.high - low)
 
-    def __rsub__(self, other: int) -> "Span":
-        least = other - self.high
-        return Span(least, least if self.low is self.high else other - self.low)
+    def __rsub__(self, other: Number) -> "Span":
+        return Span(other - self.high, other - self.low)
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        if self.low is self.high and low is high:
-            return _point(self.low * low)
-        if self.low >= _ZERO and low >= _ZERO:
-            return Span(self.low * low, self.high * high)
+        if self.low >= _ZERO:
+            if low >= _ZERO:
+                return Span(self.low * low, self.high * high)
+            if high <= _ZERO:
+                return Span(self.high * low, self.low * high)
+        elif self.high <= _ZERO:
+            if low >= _ZERO:
+                return Span(self.low * high, self.high * low)
+            if high <= _ZERO:
+                return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        return self * _inverse(low, high)
+    def __truediv__(self, other: Number) -> Number:
+        return self * _inverse(*_balls(other))
 
-    def __rtruediv__(self, other: int) -> "Span":
+    def __rtruediv__(self, other: Number) -> Number:
         return _inverse(self.low, self.high) * other
 
     def __pow__(self, power: int) -> "Span":
@@ -73,18 +73,22 @@ class Span:
         low, high = self.low, self.high
         if power % 2 == 0 and not low >= _ZERO:
             low, high = _greatest(low, -high, _ZERO), _greatest(-low, high)
-        least = _power(low, power)
-        return Span(least, least if low is high else _power(high, power))
+        return Span(_power(low, power), _power(high, power))
 
 
 _ZERO, _ONE = arb(0), arb(1)
 
 
-def _inverse(low: Any, high: Any) -> Span:
+def _inverse(low: Any, high: Any) -> Number:
     if not (low > 0 or high < 0):
         raise ZeroDivisionError(f"division by [{low}, {high}], which may be zero")
     least = _ONE / high
-    return Span(least, least if low is high else _ONE / low)
+    return least if low is high else Span(least, _ONE / low)
+
+
+def _balls(x: Number) -> tuple[Any, Any]:
+    """The balls, or integers, at the least and the greatest end of a number."""
+    return (x.low, x.high) if isinstance(x, Span) else (x, x)
 
 
 def _power(x: arb, power: int) -> arb:
@@ -110,21 +114,21 @@ def _greatest(first: arb, *others: arb) -> arb:
     return first
 
 
-def _point(ball: arb) -> Span:
-    return Span(ball, ball)
+def _between(low: arb, high: arb) -> Number:
+    return low if low is high else Span(low, high)
 
 
-def _increasing(function: Callable[[arb], arb], x: Span) -> Span:
-    low = function(x.low)
-    return Span(low, low if x.low is x.high else function(x.high))
+def _increasing(function: Callable[[arb], arb], x: Number) -> Number:
+    return Span(function(x.low), function(x.high)) if isinstance(x, Span) else function(x)
 
 
 class Intervals:
-    """Spans of a given number of decimal digits, rounded outwards.
+    """Balls and spans of a given number of decimal digits, rounded outwards.
 
     Operators work at flint's own precision, which `working` sets: a proof whatever it is, but only
     there as narrow as the digits allow. A number that is unbounded or undefined (a logarithm of
-    zero, say) raises ArithmeticError where it would be compared or given out.
+    zero, say, or a power of what is zero but for its rounding error) raises ArithmeticError where
+    it would be compared or given out.
 
     >>> ar = Intervals(20)
     >>> low, high = ar.ends(ar.number(Fraction(1, 3)))
@@ -143,51 +147,53 @@ class Intervals:
         return ctx.workprec(self._bits)
 
     @property
-    def pi(self) -> Span:
-        return _point(arb.pi())
+    def pi(self) -> Number:
+        return arb.pi()
 
-    def number(self, value: Fraction | int) -> Span:
-        if isinstance(value, int):
-            return _integer(value)
+    def number(self, value: Fraction | int) -> Number:
+        if value.denominator == 1:
+            return _integer(value.numerator)
+        if ctx.prec == self._bits:
+            return _ball(value)
         with self.working():
-            return _point(_ball(value))
+            return _ball(value)
 
-    def interval(self, lower: Fraction, upper: Fraction) -> Span:
+    def interval(self, lower: Fraction, upper: Fraction) -> Number:
         """An interval that contains both rationals and all between."""
         if lower is upper or lower == upper:  # in this order, as rationals compare slowly
             return self.number(lower)
         with self.working():
             return Span(_ball(lower).lower(), _ball(upper).upper())
 
-    def ends(self, x: Span) -> tuple[Fraction, Fraction]:
+    def ends(self, x: Number) -> tuple[Fraction, Fraction]:
         """Both ends, as the rationals that they are."""
         low, high = _bounded(x)
         least = low.mid().fmpq() - low.rad().fmpq()
         greatest = high.mid().fmpq() + high.rad().fmpq()
         return Fraction(int(least.p), int(least.q)), Fraction(int(greatest.p), int(greatest.q))
 
-    def log(self, x: Span) -> Span:
+    def log(self, x: Number) -> Number:
         return _increasing(arb.log, x)
 
-    def power(self, x: Span, exponent: Fraction) -> Span:
+    def power(self, x: Number, exponent: Fraction) -> Number:
         root = x if exponent.denominator == 1 else _increasing(_root(exponent.denominator), x)
         size = root ** abs(exponent.numerator)
         return size if exponent > 0 else 1 / size
 
-    def least(self, x: Span, bound: Span) -> Span:
-        if x.high <= bound.low:
+    def least(self, x: Number, bound: Number) -> Number:
+        if _balls(x)[1] <= _balls(bound)[0]:
             return x
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
-        return Span(_least(low, other_low), _least(high, other_high))
+        return _between(_least(low, other_low), _least(high, other_high))
 
-    def greatest(self, x: Span, bound: Span) -> Span:
+    def greatest(self, x: Number, bound: Number) -> Number:
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
-        return Span(_greatest(low, other_low), _greatest(high, other_high))
+        return _between(_greatest(low, other_low), _greatest(high, other_high))
 
-    def contact_share(self, y: Span) -> Span:
+    def contact_share(self, y: Number) -> Number:
         return _increasing(lambda end: end * (2 - end), y)
 
-    def cap_root(self, c: Span) -> Span:
+    def cap_root(self, c: Number) -> Number:
         """The roots for both ends, moved outwards and then verified by the residual's sign."""
         with self.working():
             (least, greatest), margin = _bounded(c), arb(2) ** (20 - ctx.prec)
@@ -197,23 +203,32 @@ class Intervals:
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
 
-    def may_be_below(self, x: Span, bound: Span) -> bool:
-        if x.low >= bound.high:
+    def may_be_below(self, x: Number, bound: Number) -> bool:
+        if _balls(x)[0] >= _balls(bound)[1]:
             return False
         _bounded(x), _bounded(bound)
         return True
 
-    def is_below(self, x: Span, bound: Span) -> bool:
+    def is_below(self, x: Number, bound: Number) -> bool:
         return bool(_bounded(x)[1] < _bounded(bound)[0])
 
-    def hull(self, numbers: list[Span]) -> Span:
+    def sign(self, x: Number) -> int:
+        """1 for a number that is proven not to be negative, -1 not positive, else 0."""
+        low, high = _balls(x)
+        return 1 if low >= _ZERO else -1 if high <= _ZERO else 0
+
+    def is_zero(self, x: Number) -> bool:
+        """Whether it is proven to be 0."""
+        return bool(_balls(x)[0] == _ZERO == _balls(x)[1])
+
+    def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
-        return Span(_least(*lows), _greatest(*highs))
+        return _between(_least(*lows), _greatest(*highs))
 
 
-@cache
-def _integer(value: int) -> Span:
-    return _point(arb(value))
+@lru_cache(1000)
+def _integer(value: int) -> arb:
+    return arb(value)
 
 
 def _root(degree: int) -> Callable[[arb], arb]:
@@ -224,9 +239,9 @@ def _ball(value: Fraction | int) -> arb:
     return arb(fmpq(value.numerator, value.denominator))
 
 
-def _bounded(x: Span) -> tuple[arb, arb]:
+def _bounded(x: Number) -> tuple[arb, arb]:
     """The balls at both ends, proven to be finite: nothing can be said of any other."""
-    low, high = x.low, x.high
+    low, high = _balls(x)
     if not (low.is_finite() and high.is_finite()):
         raise ArithmeticError(f"an enclosure is unbounded or undefined: {x}")
     return low, high

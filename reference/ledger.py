@@ -8,26 +8,30 @@ does not exist or whose units do not fit, inputs that are missing or that go rou
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from fractions import Fraction
-from functools import cache, cached_property, reduce
+from functools import cache, cached_property, lru_cache, reduce
 from graphlib import CycleError, TopologicalSorter
 from importlib import resources
 from operator import mul
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import msgspec
 
 from reference.arithmetic import Arithmetic, Number
-from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation
+from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation, Formulas
 from reference.derivations import DERIVATIONS, Sides
-from reference.equations import Dimension, EquationError, Node, read_equation
-from reference.printed import Interval, Printed, Rounding, decimal_text, parse
-from reference.units import raised, same_dimension, to_si, unit_dimension
+from reference.equations import EquationError, Node, read_equation
+from reference.printed import Interval, Printed, Rounding, parse
+from reference.units import Dimension, raised, same_dimension, to_si, unit_dimension
 
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
+
+Anything = TypeVar("Anything")
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
@@ -52,25 +56,17 @@ def shown(text: str) -> str:
 # The tables of ledger.toml, whose head says what each key means.
 
 Kind = Literal[
-    "input",
-    "result",
-    "approximation",
-    "order of magnitude",
-    "bound",
-    "comparison",
-    "range",
-    "quoted",
-    "constant",
-    "remark",
-]
+    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
+    "quoted", "constant", "remark",
+]  # fmt: skip
 Relation = Literal["<", "<=", ">", ">="]
 
 
-class _Table(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A table that may hold no other keys."""
+class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A table of a file, which may hold no keys but its own."""
 
 
-class ClaimEntry(_Table, frozen=True):
+class ClaimEntry(Entry, frozen=True):
     """A [[claim]]."""
 
     id: str
@@ -93,7 +89,7 @@ class ClaimEntry(_Table, frozen=True):
     workbook: str | None = None
 
 
-class EquationEntry(_Table, frozen=True):
+class EquationEntry(Entry, frozen=True):
     """An [[equation]]."""
 
     id: str
@@ -103,7 +99,7 @@ class EquationEntry(_Table, frozen=True):
     follows_from: str
 
 
-class Inferred(_Table, frozen=True):
+class Inferred(Entry, frozen=True):
     """An input that the report does not print, to be inferred from the numbers that it does."""
 
     title: str
@@ -121,7 +117,7 @@ class Inferred(_Table, frozen=True):
     evidence: list[str]
 
 
-class Symbol(_Table, frozen=True):
+class Symbol(Entry, frozen=True):
     """What a symbol of the equations means, how the report writes it, and how a page shows it."""
 
     written: list[str]
@@ -131,7 +127,7 @@ class Symbol(_Table, frozen=True):
     value: str | None = None
 
 
-class Quantity(_Table, frozen=True):
+class Quantity(Entry, frozen=True):
     """A physical quantity: the range of it that is searched, in its unit, and why this one."""
 
     unit: str
@@ -139,7 +135,7 @@ class Quantity(_Table, frozen=True):
     reason: str
 
 
-class Slip(_Table, frozen=True):
+class Slip(Entry, frozen=True):
     """What the author may have computed instead: another text of an equation, or other inputs."""
 
     name: str
@@ -149,7 +145,7 @@ class Slip(_Table, frozen=True):
     inputs: dict[str, str] = {}
 
 
-class Source(_Table, frozen=True):
+class Source(Entry, frozen=True):
     """A public source for a number that the report takes from nowhere; see sources.toml."""
 
     id: str
@@ -183,34 +179,38 @@ class Source(_Table, frozen=True):
         return whole.scaled(to_si(self.unit))
 
 
-class _Report(_Table, frozen=True):
+class _Report(Entry, frozen=True):
     text: str
     title: str
     author: str
     year: int
 
 
-class _Blank(_Table, frozen=True):
+class _TableA1(Entry, frozen=True):
     blank: list[str]
 
 
-class _Furniture(_Table, frozen=True):
+class _Furniture(Entry, frozen=True):
+    """Digits and number words of the text that are no quantities."""
+
     pattern: str
     reason: str
 
 
-class _Document(_Table, frozen=True):
+class _Document(Entry, frozen=True):
+    """The whole of ledger.toml."""
+
     report: _Report
     reasons: dict[str, str]
-    table: _Blank
+    table: _TableA1
     groups: dict[str, dict[str, str]]
     inferred: dict[str, Inferred]
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
     furniture: list[_Furniture]
-    equation: list[EquationEntry]
-    claim: list[ClaimEntry]
-    slip: list[Slip] = []
+    equation_entries: list[EquationEntry] = msgspec.field(name="equation")
+    claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
+    slips: list[Slip] = msgspec.field(name="slip", default=[])
 
 
 # What the rest of the program sees.
@@ -253,23 +253,23 @@ class Place:
 class Claim:
     """One printed number, and what is claimed of it.
 
-    `inputs` names for each input of the computation the entries whose product it is; `given` is
-    the reason why nothing in the report decides the number; `chosen` says that the author set it,
-    here or where this claim repeats it; `bound` is the number that a relation compares with;
-    `within` the id of the equation that the number is a constant of.
+    `computations` has the computation as printed under the name "", and each other reading;
+    `inputs` names for each input of them the entries whose product it is; `given` is the reason why
+    nothing in the report decides the number; `chosen` says that the author set it, here or where
+    this claim repeats it; `bound` is the number that a relation compares with; `within` the id of
+    the equation that the number is a constant of.
     """
 
     entry: ClaimEntry
     text: str
     place: Place
     printed: Printed | None
-    computation: Computation | None
+    computations: Mapping[str, Computation]
     inputs: Mapping[str, tuple[str, ...]]
-    readings: Mapping[str, Computation]
     given: str | None
-    chosen: bool
-    bound: Fraction | None
     within: str | None
+    chosen: bool = False
+    bound: Fraction | None = None
 
     @property
     def id(self) -> str:
@@ -300,7 +300,7 @@ class Claim:
     def value(self) -> Fraction:
         """The number as printed, in SI. Raises LedgerError for a remark."""
         if self.printed is None:
-            raise LedgerError(f"claim {self.id!r} is no number to rest on")
+            raise LedgerError(f"claim {self.id!r} prints no number")
         return self.printed.value * self.si
 
     @property
@@ -325,11 +325,13 @@ class Claim:
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
+        if rounding not in self._targets:
+            self._targets[rounding] = self.interval(rounding).scaled(self.si)
         return self._targets[rounding]
 
     @cached_property
     def _targets(self) -> dict[Rounding, Interval]:
-        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
+        return {}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
@@ -346,9 +348,9 @@ class Claim:
         return self.target(convention.rounding)
 
     @property
-    def computations(self) -> dict[str, Computation]:
-        """The computation as printed, under the name "", and each other reading."""
-        return {} if self.computation is None else {"": self.computation, **self.readings}
+    def computation(self) -> Computation | None:
+        """What computes it as printed."""
+        return self.computations.get("")
 
     @cached_property
     def entries(self) -> list[str]:
@@ -388,22 +390,19 @@ class Equation:
         return self.entry.id
 
 
-@dataclass(frozen=True, eq=False)
-class Ledger:
-    """All claims and equations in the order of the report, the inferred inputs, and the text."""
+class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
+    """All claims and equations in the order of the report, the inferred inputs, and the text.
 
-    report: _Report
+    `blank` are the cells that Table A-1 leaves blank, `misprinted` the texts that stand in the
+    place of the report's, by the id of the claim or equation.
+    """
+
     text: str
-    claims: Mapping[str, Claim]
-    equations: Mapping[str, Equation]
-    inferred: Mapping[str, Inferred]
-    symbols: Mapping[str, Symbol]
-    quantities: Mapping[str, Quantity]
-    slips: tuple[Slip, ...]
-    sources: Mapping[str, Source]
+    claims: dict[str, Claim]
+    equations: dict[str, Equation]
+    sources: dict[str, Source]
     blank: tuple[str, ...]
-    furniture: tuple[tuple[str, str], ...]
-    misprinted: Mapping[str, str]
+    misprinted: Mapping[str, str] = {}
 
     # The printed equations
 
@@ -417,27 +416,37 @@ class Ledger:
         """The dimension of every symbol."""
         return {name: unit_dimension(symbol.unit) for name, symbol in self.symbols.items()}
 
-    def printed_text(self, name: str) -> str:
-        """The text of a claim, or of an equation with the constants that its claims have."""
-        if name in self.equations:
-            return self._with_constants(self.equations[name])[0]
-        return self.claims[name].text
+    def constants_of(self, equation: str) -> list[str]:
+        """The claims that are constants of an equation, in its order."""
+        if equation in self.misprinted:
+            return []
+        return self._inside.get(equation, [])
 
-    def _with_constants(self, equation: Equation) -> tuple[str, dict[str, tuple[int, int]]]:
-        """The text of an equation, and where in it the constants of its claims stand."""
-        if equation.id in self.misprinted:
-            return self.misprinted[equation.id], {}
-        text, at, spans = "", equation.place.start, {}
-        inside = [claim for claim in self.claims.values() if claim.within == equation.id]
-        for claim in sorted(inside, key=lambda claim: claim.place.start):
+    @cached_property
+    def _inside(self) -> Mapping[str, list[str]]:
+        inside: dict[str, list[str]] = {}
+        for claim in self.claims.values():
+            if claim.within is not None:
+                inside.setdefault(claim.within, []).append(claim.id)
+        return inside
+
+    def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
+        """The text of a claim, or of an equation, with other constants in it if they are given."""
+        if name in self.claims:
+            return self.claims[name].text
+        if name in self.misprinted:
+            return self.misprinted[name]
+        place, text = self.equations[name].place, ""
+        at = place.start
+        for claim in map(self.claims.__getitem__, self.constants_of(name)):
             text += self.text[at : claim.place.start]
-            spans[claim.id] = (len(text), len(text) + len(claim.text))
-            text, at = text + claim.text, claim.place.end
-        return text + self.text[at : equation.place.end], spans
-
-    def constants_of(self, equation: str) -> dict[str, tuple[int, int]]:
-        """The claims that are constants of an equation, and where in its text they stand."""
-        return self._with_constants(self.equations[equation])[1]
+            if claim.id in constants:
+                over, under = constants[claim.id].as_integer_ratio()
+                text += rf"\frac{{{over}}}{{{under}}}"
+            else:
+                text += claim.text
+            at = claim.place.end
+        return text + self.text[at : place.end]
 
     @cached_property
     def sides(self) -> Sides:
@@ -456,28 +465,26 @@ class Ledger:
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
-        return read_equation(text, self.written)
+        return _read_equation(text, tuple(self.written.items()))
 
     # The entries as inputs
 
-    def entry(self, name: str) -> Claim | Inferred | EquationEntry:
-        """A claim, an inferred input, or what is said of an equation."""
-        if name.startswith(INFERRED):
-            return self.inferred[name.removeprefix(INFERRED)]
-        return self.equations[name].entry if name in self.equations else self.claims[name]
-
     def title(self, name: str) -> str:
         """What an entry is, in words."""
-        return self.entry(name).title
+        equation = self.equations.get(name)
+        return equation.entry.title if equation else self._input(name).title
 
     def unit(self, name: str) -> str:
         """The unit of an input."""
         return self._input(name).unit
 
     def _input(self, name: str) -> Claim | Inferred:
-        entry = self.entry(name)
-        assert not isinstance(entry, EquationEntry)
-        return entry
+        if name.startswith(INFERRED):
+            return _known("inferred input", name.removeprefix(INFERRED), self.inferred)
+        claim = _known("number", name, self.claims)
+        if claim.printed is None:
+            raise LedgerError(f"there is no number {name!r}: what it prints is in words")
+        return claim
 
     def value(self, name: str) -> Fraction:
         """An entry's value as printed, or the nominal one of an inferred input, in SI.
@@ -487,14 +494,6 @@ class Ledger:
         """
         entry = self._input(name)
         return entry.nominal * to_si(entry.unit) if isinstance(entry, Inferred) else entry.value
-
-    def in_unit(self, name: str, unit: str) -> str:
-        """An entry's value as printed, in another unit, as a decimal.
-
-        >>> load().in_unit("fz-resistance-rha", "GPa")
-        '9.13'
-        """
-        return decimal_text(self.value(name) / to_si(unit))
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """The least and the greatest value of an entry, in SI, to search, and why these."""
@@ -515,23 +514,26 @@ class Ledger:
 
         An entry that stands in several inputs is one variable.
         """
-        computation = claim.computations[reading]
-        settings: dict[str, Any] = {"printed": self.sides}
-        if computation.by_row:
-            settings["row"] = claim.entry.row
-        if computation.by_scheme:
-            settings["centered"] = centered
-        exponents = {
+        computation, sides = claim.computations[reading], self.sides
+        settings: dict[str, Any] = {
             key: self.value(claim.inputs[key][0])
             for key, unit in computation.inputs.items()
             if unit == EXPONENT
         }
-        inputs = {key: names for key, names in claim.inputs.items() if key not in exponents}
+        inputs = {key: names for key, names in claim.inputs.items() if key not in settings}
+        if computation.by_row:
+            settings["row"] = claim.entry.row
+        if computation.by_scheme:
+            settings["centered"] = centered
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            own = {key: reduce(mul, [entries[name] for name in names])
-                   for key, names in inputs.items()}  # fmt: skip
-            return computation.function(ar, **own, **exponents, **settings)
+            own = {
+                key: entries[names[0]]
+                if len(names) == 1
+                else reduce(mul, [entries[name] for name in names])
+                for key, names in inputs.items()
+            }
+            return computation.function(Formulas(ar, sides), **own, **settings)
 
         return of_entries
 
@@ -542,46 +544,28 @@ class Ledger:
 
         Raises ValueError if a claim's text is no number.
         """
-        claims, equation = dict(self.claims), name
+        claims, equation = self.claims, name
         if name not in self.equations:
-            claim, printed = claims[name], parse(text)
-            claims[name] = replace(claim, text=text, printed=printed)
-            if claim.bound is not None and claim.entry.against is None:
-                claims[name] = replace(claims[name], bound=printed.value)
-            for key, other in self.claims.items():
-                if other.entry.against == name:
-                    claims[key] = replace(other, bound=printed.value)
-            equation = claim.within or ""
-        copy = replace(self, claims=claims, misprinted={**self.misprinted, name: text})
-        # All other equations are as they were read.
-        again = [self.equations[equation]] if equation else []
-        copy.__dict__["sides"] = {**self.sides, **{e.id: copy._sides_of(e) for e in again}}
+            claims = dict(claims)
+            claims[name] = replace(claims[name], text=text, printed=parse(text))
+            for claim in list(claims.values()):
+                if name in (claim.id, claim.entry.against):
+                    claims[claim.id] = replace(claim, bound=_bound(claim, claims))
+            equation = claims[name].within or ""
+        misprinted = {**self.misprinted, name: text}
+        copy = msgspec.structs.replace(self, claims=claims, misprinted=misprinted)
+        # What no text decides, and all other equations, are as they were.
+        kept = ("written", "dimensions", "_inside")
+        copy.__dict__.update({key: getattr(self, key) for key in kept})
+        again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
+        copy.__dict__["sides"] = {**self.sides, **again}
         return copy
 
-    # Coverage
 
-    def uncovered(self) -> list[tuple[int, str]]:
-        """Digits and number words of the text that no claim and no furniture accounts for.
-
-        Each as line number and the word; empty for a complete ledger.
-        """
-        spans = [(claim.place.start, claim.place.end) for claim in self.claims.values()]
-        spans += [m.span() for p, _ in self.furniture for m in re.finditer(p, self.text)]
-        taken = bytearray(len(self.text))
-        for start, end in spans:
-            taken[start:end] = b"\1" * (end - start)
-        return [
-            (_line(self.text, match.start()), match[0])
-            for match in _NUMBER.finditer(self.text)
-            if not all(taken[match.start() : match.end()])
-        ]
-
-
-_NUMBER = re.compile(
-    r"\d+|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|half|halves|thirds?|quarters?"
-    r"|sixths?|several|twice|thrice|double|dozen|hundred|thousand|million)\b",
-    re.IGNORECASE,
-)
+@lru_cache(512)
+def _read_equation(text: str, written: tuple[tuple[str, str], ...]) -> tuple[Node, ...]:
+    """Each text once: the same misprint of an equation is tried for all that rests on it."""
+    return read_equation(text, dict(written))
 
 
 @cache
@@ -605,68 +589,94 @@ def load() -> Ledger:
 def read(
     document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
 ) -> Ledger:
-    """Build and check a ledger from its parsed TOML, the report's text, and the public sources."""
-    tables = _converted(document, _Document, "ledger.toml")
-    if not tables.claim:
+    """Build and check a ledger from its parsed TOML, the report's text, and the public sources.
+
+    Raises LedgerError, which names the entry, what is wrong with it and what would be right.
+    """
+    tables = converted(document, _Document, "ledger.toml")
+    if not tables.claim_entries:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
-    names = Counter(entry.id for entry in (*tables.equation, *tables.claim))
+    names = Counter(entry.id for entry in (*tables.equation_entries, *tables.claim_entries))
     if twice := next((name for name, times in names.items() if times > 1), None):
         raise LedgerError(f"{twice!r} stands in the ledger twice")
-    equations = {
-        entry.id: Equation(entry, _place(text, f"equation {entry.id!r}", entry.quote))
-        for entry in tables.equation
-    }
-    claims = {entry.id: _claim(entry, tables, text, equations.values()) for entry in tables.claim}
-    claims = {name: _completed(claim, claims) for name, claim in claims.items()}
-    ordered = dict(sorted(claims.items(), key=lambda item: _order(item[1])))
+    equations: dict[str, Equation] = {}
+    for equation in tables.equation_entries:
+        with naming(f"equation {equation.id!r}"):
+            if equation.kind == "derived" and equation.id not in DERIVATIONS:
+                raise ValueError("nothing in reference/derivations.py derives it")
+            equations[equation.id] = Equation(equation, _place(text, equation.quote))
+    claims: dict[str, Claim] = {}
+    for entry in tables.claim_entries:
+        with naming(f"claim {entry.id!r}"):
+            claims[entry.id] = _claim(entry, tables, text, equations)
     ledger = Ledger(
-        report=tables.report,
+        **{name: getattr(tables, name) for name in tables.__struct_fields__},
         text=text,
-        claims=ordered,
+        claims=dict(sorted(_completed(claims).items(), key=lambda item: _order(item[1].place))),
         equations=equations,
-        inferred=tables.inferred,
-        symbols=tables.symbols,
-        quantities=tables.quantities,
-        slips=tuple(tables.slip),
-        sources={source.id: source for source in _converted(sources, list[Source], "sources.toml")},
+        sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
         blank=tuple(cell for cells in tables.table.blank for cell in _cells(cells)),
-        furniture=tuple((f.pattern, f.reason) for f in tables.furniture),
-        misprinted={},
     )
     _check(ledger)
     return ledger
 
 
-def _converted(document: Any, kind: Any, file: str) -> Any:
+def converted(document: Any, kind: Any, file: str) -> Any:
+    """Parsed TOML as structs. Raises LedgerError where it does not fit them."""
+
+    def named(place: re.Match[str]) -> str:
+        """An entry by its id or name, where it has one, instead of by its number."""
+        entry = (document[place[1]] if place[1] else document)[int(place[2])]
+        return f"{place[1] or 'entry'} {entry.get('id') or entry.get('name') or place[2]!r}"
+
     try:
-        return msgspec.convert(document, kind, dec_hook=_fraction)
+        return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
     except msgspec.ValidationError as error:
-        raise LedgerError(f"{file}: {error}") from error
+        says = re.sub(r"\$(?:\.(\w+))?\[(\d+)\]", named, str(error))
+        raise LedgerError(f"{file}: {says}") from error
 
 
-def _fraction(kind: type, value: Any) -> Any:
-    if kind is Fraction and isinstance(value, str):
-        return Fraction(value)
-    raise NotImplementedError(kind)
+@contextmanager
+def naming(who: str) -> Iterator[None]:
+    """What is wrong with an entry is told with its name before it."""
+    try:
+        yield
+    except (ValueError, ArithmeticError) as error:
+        raise LedgerError(f"{who}: {error}") from error
 
 
-def _place(text: str, who: str, quote: str, cell: str | None = None) -> Place:
-    before, opened, rest = quote.partition("⟦")
-    inside, closed, after = rest.partition("⟧")
-    if not opened or not closed:
-        raise LedgerError(f"{who}: its quote needs the printed text between ⟦ and ⟧")
-    words = before + inside + after
+def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
+    """What the ledger calls by this name."""
+    if name not in known:
+        near = get_close_matches(name, known, 1)
+        hint = f"; is it {near[0]!r}?" if near else ""
+        raise LedgerError(f"there is no {what} {name!r}{hint}")
+    return known[name]
+
+
+# Places in the text
+
+
+def _place(text: str, quote: str, cell: str | None = None) -> Place:
+    match = re.fullmatch("(.*?)⟦(.*?)⟧(.*)", quote, re.DOTALL)
+    if match is None:
+        raise ValueError("its quote needs the printed text between ⟦ and ⟧")
+    words = "".join(match.groups())
     if (times := text.count(words)) != 1:
-        raise LedgerError(f"{who}: the report has {words!r} {times} times, not once")
-    start = text.index(words) + len(before)
-    heading = next((h for h in reversed(_headings(text)) if h.start() <= start), None)
-    numbered = next((n for s, e, n in _displays(text) if s <= start < e), None)
-    return Place(start, start + len(inside), _line(text, start), _section(heading), numbered, cell)
+        raise ValueError(f"the report has {words!r} {times} times, not once")
+    start = text.index(words) + len(match[1])
+    section = next(name for at, name in reversed(_sections(text)) if at <= start)
+    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
+    line = text.count("\n", 0, start) + 1
+    return Place(start, start + len(match[2]), line, section, equation, cell)
 
 
 @cache
-def _headings(text: str) -> list[re.Match[str]]:
-    return list(_HEADING.finditer(text))
+def _sections(text: str) -> list[tuple[int, str]]:
+    """Where the parts of the report begin, and what they are called."""
+    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
+    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
+    return [(0, "title"), *named]
 
 
 @cache
@@ -676,186 +686,158 @@ def _displays(text: str) -> list[tuple[int, int, str]]:
     return [(*match.span(), match[1]) for match in found]
 
 
-def _line(text: str, position: int) -> int:
-    return text.count("\n", 0, position) + 1
-
-
-_HEADING = re.compile(r"^ ?(?:\d+\. (?P<form>ABSTRACT)|(?P<n>\d)\. [A-Z]|Appendix\.)", re.MULTILINE)
-
-
-def _section(heading: re.Match[str] | None) -> str:
-    if heading is None:
-        return "title"
-    if heading["form"]:
-        return "abstract"
-    return f"section {heading['n']}" if heading["n"] else "appendix"
-
-
-def _order(claim: Claim) -> tuple[bool, int, str]:
+def _order(place: Place) -> tuple[bool, int, str]:
     """By place in the text; the table, which ends it, cell by cell."""
-    cell = claim.place.cell
-    return (True, int(cell[1:]), cell) if cell else (False, claim.place.start, claim.id)
+    return (True, int(place.cell[1:]), place.cell) if place.cell else (False, place.start, "")
 
 
 def _cells(cells: str) -> Iterator[str]:
     match = re.fullmatch(r"([A-F])(\d+):([A-F])(\d+)", cells)
     if match is None:
         raise LedgerError(f"[table] blank: {cells!r} is no range of cells such as C1:F6")
-    for row in range(int(match[2]), int(match[4]) + 1):
-        for column in range(ord(match[1]), ord(match[3]) + 1):
-            yield f"{chr(column)}{row}"
+    first, top, last, bottom = match.groups()
+    for row in range(int(top), int(bottom) + 1):
+        yield from (f"{column}{row}" for column in "ABCDEF" if first <= column <= last)
 
 
-def _claim(entry: ClaimEntry, tables: _Document, text: str, equations: Any) -> Claim:
-    """One claim, as far as its own entry tells; every message names it."""
-    who = f"claim {entry.id!r}"
-    place = _place(text, who, entry.quote, entry.cell)
+# Claims
+
+
+def _claim(
+    entry: ClaimEntry, tables: _Document, text: str, equations: Mapping[str, Equation]
+) -> Claim:
+    """One claim, as far as its own entry tells."""
+    place = _place(text, entry.quote, entry.cell)
     words = text[place.start : place.end]
-    within = next(
-        (e.id for e in equations if e.place.start <= place.start and place.end <= e.place.end), None
+    inside = (
+        name
+        for name, equation in equations.items()
+        if equation.place.start <= place.start and place.end <= equation.place.end
     )
-    try:
-        to_si(entry.unit)
-        numbers = entry.kind not in ("comparison", "remark")
-        printed = parse(words) if numbers else None
-    except ValueError as error:
-        raise LedgerError(f"{who}: {error}") from error
-    readings = entry.readings.values() if entry.computed_by else ()
-    _refuse_unknown(who, "computation", [entry.computed_by, *readings], COMPUTATIONS)
+    within = next(inside, None)
+    to_si(entry.unit)
     if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
-        raise LedgerError(f"{who}: kind {entry.kind!r} needs a relation")
-    _refuse_unknown(who, "reason", [entry.given], tables.reasons)
+        raise ValueError(f"kind {entry.kind!r} needs a relation: <, <=, > or >=")
     decided = (entry.computed_by is None) != (entry.given is None)
     if not (decided or within or entry.kind == "remark"):
-        raise LedgerError(f"{who}: needs either computed_by or given")
-    _refuse_unknown(who, "quantity", [entry.quantity], tables.quantities)
+        raise ValueError("needs either computed_by or given")
+    if entry.quantity is not None:
+        _known("quantity", entry.quantity, tables.quantities)
+    readings = {"": entry.computed_by, **entry.readings} if entry.computed_by else {}
+    rests_on = dict(entry.rests_on)
+    if (group := rests_on.pop("group", None)) is not None:
+        rests_on = {**_known("group", group, tables.groups), **rests_on}
+    if rests_on and not readings:
+        raise ValueError("rests_on needs computed_by")
     return Claim(
         entry=entry,
         text=words,
         place=place,
-        printed=printed,
-        computation=COMPUTATIONS[entry.computed_by] if entry.computed_by else None,
-        inputs=_inputs(entry, tables.groups),
-        readings={name: COMPUTATIONS[key] for name, key in entry.readings.items()},
-        given=None if entry.given is None else tables.reasons[entry.given],
-        chosen=entry.given == "choice",
-        bound=None if printed is None or entry.relation is None else printed.value,
+        printed=None if entry.kind in ("comparison", "remark") else parse(words),
+        computations={
+            key: _known("computation", name, COMPUTATIONS) for key, name in readings.items()
+        },
+        inputs={key: tuple(names.split(" * ")) for key, names in rests_on.items()},
+        given=None if entry.given is None else _known("reason", entry.given, tables.reasons),
         within=within,
     )
 
 
-def _refuse_unknown(
-    who: str, what: str, names: Iterable[str | None], known: Container[str]
-) -> None:
-    for name in names:
-        if name is not None and name not in known:
-            raise LedgerError(f"{who}: there is no {what} {name!r}")
+def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
+    """Claims with what they take from others: the number compared with, whose choice it is."""
+    graph = TopologicalSorter({claim.id: claim.entries for claim in claims.values()})
+    try:
+        order = [claims[name] for name in graph.static_order() if name in claims]
+    except CycleError as error:
+        raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
+    chosen: set[str] = set()
+    for claim in order:
+        repeats = claim.computation is COMPUTATIONS["same_as"]
+        if claim.entry.given == "choice" or (repeats and not chosen.isdisjoint(claim.entries)):
+            chosen.add(claim.id)
+    completed = {}
+    for name, claim in claims.items():
+        with naming(f"claim {name!r}"):
+            bound = _bound(claim, claims)
+            completed[name] = replace(claim, chosen=name in chosen, bound=bound)
+    return completed
 
 
-def _inputs(
-    entry: ClaimEntry, groups: Mapping[str, Mapping[str, str]]
-) -> dict[str, tuple[str, ...]]:
-    rests_on = dict(entry.rests_on)
-    group = rests_on.pop("group", None)
-    _refuse_unknown(f"claim {entry.id!r}", "group", [group], groups)
-    if rests_on and entry.computed_by is None:
-        raise LedgerError(f"claim {entry.id!r}: rests_on needs computed_by")
-    merged = {**groups.get(group or "", {}), **rests_on}
-    return {name: tuple(value.split(" * ")) for name, value in merged.items()}
-
-
-def _completed(claim: Claim, claims: Mapping[str, Claim]) -> Claim:
-    """A claim with what it takes from others: the number it compares with, whose choice it is."""
-    if (name := claim.entry.against) is not None:
-        if name not in claims or (other := claims[name]).printed is None:
-            raise LedgerError(f"claim {claim.id!r}: there is no number {name!r} to compare with")
+def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
+    """The number that a claim compares with, its own or another claim's."""
+    other, against = claim, claim.entry.against
+    if against is not None:
+        other = _known("number", against, claims)
+        if other.printed is None:
+            raise ValueError(f"there is no number {against!r} to compare with")
         if other.unit != claim.unit:
-            raise LedgerError(f"claim {claim.id!r}: is in {claim.unit}, but {name} in {other.unit}")
-        return replace(claim, bound=other.printed.value)
-    return replace(claim, chosen=_is_chosen(claim, claims))
+            raise ValueError(f"is in {claim.unit}, but {against} in {other.unit}")
+    return None if claim.entry.relation is None or other.printed is None else other.printed.value
 
 
-def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
-    for _ in claims:  # no chain is longer; circles are refused later
-        if claim.computation is not COMPUTATIONS["same_as"] or claim.chosen:
-            break
-        claim = claims.get(claim.inputs.get("value", ("",))[0], claim)
-    return claim.chosen
+# What does not fit between entries
 
 
 def _check(ledger: Ledger) -> None:
-    """Refuse what does not fit between entries."""
     for claim in ledger.claims.values():
         for computation in claim.computations.values():
-            _check_units(claim, computation, ledger)
+            with naming(f"claim {claim.id!r}, {computation.name}"):
+                _check_computation(claim, computation, ledger)
         for name in claim.entry.shown_by:
             if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
                 raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
-    for name, inferred in ledger.inferred.items():
-        own = (inferred.mass, inferred.radius, inferred.density)
-        named = {*inferred.evidence, *inferred.header, *inferred.results, *own}
-        _refuse_unknown(f"inferred {name!r}", "claim", sorted(named), ledger.claims)
-        _refuse_unknown(f"inferred {name!r}", "quantity", [inferred.quantity], ledger.quantities)
+    for key, inferred in ledger.inferred.items():
+        with naming(f"inferred {key!r}"):
+            own = (inferred.mass, inferred.radius, inferred.density)
+            for name in (*inferred.evidence, *inferred.header, *inferred.results, *own):
+                _known("claim", name, ledger.claims)
+            _known("quantity", inferred.quantity, ledger.quantities)
     for source in ledger.sources.values():
-        _check_source(source, ledger)
+        with naming(f"source {source.id!r}"):
+            _check_source(source, ledger)
     _check_equations(ledger)
-    try:
-        TopologicalSorter({c.id: c.entries for c in ledger.claims.values()}).prepare()
-    except CycleError as error:
-        raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
 
 
 def _check_equations(ledger: Ledger) -> None:
-    try:
-        _ = ledger.sides, ledger.dimensions
-        for text in (slip.text for slip in ledger.slips if slip.text is not None):
-            ledger.read(text)
-    except ValueError as error:
-        raise LedgerError(f"[[equation]], [[slip]] or [symbols]: {error}") from error
-    for equation in ledger.equations.values():
-        if equation.entry.kind == "derived" and equation.id not in DERIVATIONS:
-            raise LedgerError(f"equation {equation.id!r}: nothing derives it")
+    for name, symbol in ledger.symbols.items():
+        with naming(f"symbol {name!r}"):
+            to_si(symbol.unit)
+    for name in ledger.equations:
+        with naming(f"equation {name!r}"):
+            ledger.read(ledger.printed_text(name))
     for slip in ledger.slips:
-        who = f"slip {slip.name!r}"
-        _refuse_unknown(who, "equation", [slip.equation], ledger.equations)
-        _refuse_unknown(who, "number", sorted(slip.inputs.values()), ledger.claims)
+        with naming(f"slip {slip.name!r}"):
+            _known("equation", slip.equation, ledger.equations)
+            if slip.text is not None:
+                ledger.read(slip.text)
+            for name in slip.inputs.values():
+                _known("number", name, ledger.claims)
 
 
 def _check_source(source: Source, ledger: Ledger) -> None:
     for name in source.claims:
-        if not same_dimension(_unit_of(name, ledger, LedgerError), source.unit):
-            raise LedgerError(f"source {source.id!r}: {name} is not in {source.unit}")
+        if not same_dimension(ledger.unit(name), source.unit):
+            raise ValueError(f"{name} is not in {source.unit}")
     if not 1 <= len(source.numbers) <= 2:
-        raise LedgerError(f"source {source.id!r}: its quote marks no number with ⟦ and ⟧")
+        raise ValueError("its quote marks no number, and no two, with ⟦ and ⟧")
 
 
-def _check_units(claim: Claim, computation: Computation, ledger: Ledger) -> None:
-    def error(message: str) -> LedgerError:
-        return LedgerError(f"claim {claim.id!r}, {computation.name}: {message}")
-
+def _check_computation(claim: Claim, computation: Computation, ledger: Ledger) -> None:
+    """Its row, the names of its inputs, and their units."""
     if computation.by_row != (claim.entry.row is not None):
-        raise error("needs a row" if computation.by_row else "takes no row")
-    expected = dict(computation.inputs)
-    if computation.any_number:
-        expected = dict.fromkeys(claim.inputs, computation.inputs["each"])
+        raise ValueError("needs a row" if computation.by_row else "takes no row")
+    expected = computation.inputs
+    if "each" in expected:
+        expected = dict.fromkeys(claim.inputs, expected["each"])
     if set(expected) != set(claim.inputs):
-        raise error(f"needs inputs {sorted(expected)}, not {sorted(claim.inputs)}")
-    shared: dict[str, str] = {}
+        raise ValueError(f"needs inputs {sorted(expected)}, not {sorted(claim.inputs)}")
+    shared = None
     for name, unit in expected.items():
-        own = " ".join(_unit_of(part, ledger, error) for part in claim.inputs[name])
-        unit = "1" if unit == EXPONENT else unit
+        own = " ".join(ledger.unit(part) for part in claim.inputs[name])
         if unit == SAME:
-            unit = shared.setdefault(SAME, own)
-        if not same_dimension(own, unit):
-            raise error(f"input {name} is in {own}, which does not measure what {unit} does")
-    result = shared.get(SAME, claim.unit) if computation.unit == SAME else computation.unit
+            unit = shared = shared or own
+        if not same_dimension(own, "1" if unit == EXPONENT else unit):
+            raise ValueError(f"input {name} is in {own}, which does not measure what {unit} does")
+    result = computation.unit if computation.unit != SAME else shared or claim.unit
     if not same_dimension(claim.unit, result):
-        raise error(f"unit {claim.unit} does not measure what {result} does")
-
-
-def _unit_of(name: str, ledger: Ledger, error: Callable[[str], LedgerError]) -> str:
-    if name.startswith(INFERRED) and name.removeprefix(INFERRED) in ledger.inferred:
-        return ledger.unit(name)
-    if name not in ledger.claims or ledger.claims[name].printed is None:
-        raise error(f"there is no number {name!r} to rest on")
-    return ledger.unit(name)
+        raise ValueError(f"unit {claim.unit} does not measure what {result} does")

@@ -13,35 +13,6 @@ from typing import NamedTuple
 from reference.arithmetic import Arithmetic, Number, Reals
 
 
-def contact_share(ar: Arithmetic, y: Number) -> Number:
-    """Contact area over pi R^2 [1] at normalized depth y = x/R (Eqs. 12-13): 2y - y^2, 1 beyond."""
-    return ar.contact_share(ar.least(y, ar.number(1)))
-
-
-def final_depth(
-    ar: Arithmetic,
-    velocity: Number,
-    radius: Number,
-    particle_density: Number,
-    target_density: Number,
-    resistance: Number,
-) -> Number:
-    """Depth at rest [m] from the energy integral of Eq. 13, whatever the time step.
-
-    M v dv / (rho_t v^2/2 + R_t) = -A(x) dx gives y^2 - y^3/3 = c up to y = x/R = 1, and one unit
-    of c for one unit of y beyond.
-    """
-    pressure = target_density * velocity**2 / 2
-    c = 4 * particle_density / (3 * target_density) * ar.log(1 + pressure / resistance)
-    return radius * _normalized_depth(ar, c)
-
-
-def _normalized_depth(ar: Arithmetic, c: Number) -> Number:
-    limit = ar.number(Fraction(2, 3))
-    beyond = ar.greatest(c - limit, ar.number(0))
-    return ar.cap_root(ar.least(c, limit)) + beyond
-
-
 class Row(NamedTuple):
     """One time step of the sheet: the columns of Table A-1 but its time, in SI units."""
 
@@ -79,10 +50,11 @@ def sheet_rows(
         area_over_mass = ar.pi * radius * radius / mass
 
     drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
-    half_step, per_radius = step / 2, 1 / radius
+    half_step, per_radius, one = step / 2, 1 / radius, ar.number(1)
 
     def deceleration(x: Number, v: Number) -> Number:
-        return (drag * v**2 + push) * contact_share(ar, x * per_radius)
+        # Eqs. 12-13: the contact area over pi R^2 is 2y - y^2, and 1 beyond y = x/R = 1.
+        return (drag * v**2 + push) * ar.contact_share(ar.least(x * per_radius, one))
 
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):
@@ -145,7 +117,13 @@ class Trajectory:
 
     @cached_property
     def _final(self) -> Number:
-        return _normalized_depth(self.reals, self._c)
+        return self._depth_of(self._c)
+
+    def _depth_of(self, c: Number) -> Number:
+        """y after a given work c: y^2 - y^3/3 = c up to y = 1, and one y for one c beyond."""
+        limit = self.context.mpf(2) / 3
+        beyond = self.reals.greatest(c - limit, self.context.zero)
+        return self.reals.cap_root(self.reals.least(c, limit)) + beyond
 
     @property
     def final_depth(self) -> Number:
@@ -182,9 +160,7 @@ class Trajectory:
         if abs(u) > 1:
             raise ValueError(f"the particle never has a velocity of {velocity} m/s")
         lost = (1 - u) * (1 + u) * self.drag / (self.push + self.drag * u * u)
-        return self.radius * _normalized_depth(
-            self.reals, self.context.log1p(lost) / (2 * self.drag)
-        )
+        return self.radius * self._depth_of(self.context.log1p(lost) / (2 * self.drag))
 
     def time_to_depth(self, depth: Number) -> Number:
         """Time [s] to a depth [m], which must not exceed the final one."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from enum import Enum
 from fractions import Fraction
+from functools import lru_cache
 
 
 class Rounding(Enum):
@@ -204,19 +205,10 @@ def _is_power_of_ten(number: Fraction) -> bool:
 
 
 _WORDS = {
-    "one": "1",
-    "two": "2",
+    "one": "1", "two": "2", "three": "3", "four": "4", "five": "5", "twice": "2", "thrice": "3",
     "several times": "2",  # in a bound: more than two
-    "twice": "2",
-    "thrice": "3",
-    "three": "3",
-    "four": "4",
-    "five": "5",
-    "third": "1/3",
-    "half": "1/2",
-    "one-sixth": "1/6",
-    "one-fifth": "1/5",
-}
+    "half": "1/2", "third": "1/3", "one-fifth": "1/5", "one-sixth": "1/6",
+}  # fmt: skip
 _DECIMAL = re.compile(
     r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?
         (?:[Ee](?P<e>[-+]?\d{1,4})
@@ -227,6 +219,7 @@ _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
 _POWER = re.compile(r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})")
 
 
+@lru_cache(4096)
 def parse(text: str) -> Printed:
     """Read one printed number.
 
@@ -240,20 +233,16 @@ def parse(text: str) -> Printed:
     ['[9.125E+9, 9.135E+9)', '[9.95, 10.05)']
     """
     bare = text.strip().removeprefix("~").strip()
+    exact = (Fraction(0),)
     if word := _WORDS.get(bare.lower()):
-        return Printed(text, Fraction(word), (Fraction(0),))
+        return Printed(text, Fraction(word), exact)
     if match := _FRACTION.fullmatch(bare):
-        over, under = (int(part) for part in match.groups() if part)
-        return Printed(text, Fraction(over, under), (Fraction(0),))
+        return Printed(text, Fraction(*(int(part) for part in match.groups() if part)), exact)
     if match := _POWER.fullmatch(bare):
-        return Printed(text, Fraction(10) ** int(match["power"].strip("{}")), (Fraction(0),))
+        return Printed(text, Fraction(10) ** int(match["power"].strip("{}")), exact)
     match = _DECIMAL.fullmatch(bare)
     if match is None:
         raise ValueError(f"cannot read {text!r} as a printed number")
-    return _decimal(text, match)
-
-
-def _decimal(text: str, match: re.Match[str]) -> Printed:
     whole, part = match["whole"].replace(",", ""), match["part"] or ""
     exponent = int((match["e"] or match["power"] or "0").strip("{}"))
     scale = Fraction(10) ** (exponent - len(part))

@@ -6,14 +6,46 @@ A unit is a product or quotient of listed ones with small powers, such as "kg/m^
 """
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-
-from reference.equations import Dimension
 
 
 class UnitError(ValueError):
     """An unknown unit, or one of another dimension than is asked for."""
+
+
+class DimensionError(ValueError):
+    """Quantities of different kinds are added, or one that is no pure number is an argument."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Powers of kilogram, metre and second."""
+
+    powers: tuple[Fraction, ...] = (Fraction(0), Fraction(0), Fraction(0))
+
+    def __neg__(self) -> "Dimension":
+        return self
+
+    def __add__(self, other: "Dimension") -> "Dimension":
+        if other != self:
+            raise DimensionError(f"{self} and {other} are added")
+        return self
+
+    def __mul__(self, other: "Dimension") -> "Dimension":
+        pairs = zip(self.powers, other.powers, strict=True)
+        return Dimension(tuple(a + b for a, b in pairs))
+
+    def __truediv__(self, other: "Dimension") -> "Dimension":
+        return self * other**-1
+
+    def __pow__(self, exponent: Fraction | int) -> "Dimension":
+        return Dimension(tuple(power * exponent for power in self.powers))
+
+    def __str__(self) -> str:
+        named = zip(("kg", "m", "s"), self.powers, strict=True)
+        return " ".join(f"{n}^{p}" if p != 1 else n for n, p in named if p) or "a pure number"
 
 
 _POUND, _GRAVITY, _INCH = Fraction("0.45359237"), Fraction("9.80665"), Fraction("0.0254")

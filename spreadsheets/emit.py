@@ -9,7 +9,7 @@ import re
 import zipfile
 from collections.abc import Mapping
 from errno import EEXIST
-from functools import cache
+from functools import cache, reduce
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -148,8 +148,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         for address, cell in sheet.cells.items():
-            target = f"={_absolute(sheet.name, address)}"
-            if cell.name and book.define_name(cell.name, target) == -1:
+            if not cell.name:
+                continue
+            if book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
                 raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         for chart in sheet.charts:
             _draw(book, page, sheet.name, chart)
@@ -207,17 +208,25 @@ def _split(address: str) -> tuple[str, int]:
     return column, int(address[len(column) :])
 
 
+@cache
+def _column_number(letters: str) -> int:
+    """XlsxWriter's number of a column: 0 for A, 26 for AA."""
+    return reduce(lambda number, letter: 26 * number + ord(letter) - 64, letters, 0) - 1
+
+
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
+    letters, row = _split(address)
+    place = row - 1, _column_number(letters)
     if cell.link:
         sheet, target = cell.link
-        page.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
+        page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)
     elif cell.formula:
-        page.write_formula(address, cell.formula, style, value)
+        page.write_formula(*place, cell.formula, style, value)
     elif isinstance(value, str):
         write = page.write_string if value else page.write_blank
-        write(address, value, style)
+        write(*place, value, style)
     else:
-        page.write_number(address, value, style)
+        page.write_number(*place, value, style)
     if cell.limits or cell.choices:
         page.data_validation(address, _validation(cell))
 
@@ -255,23 +264,29 @@ def _exact_worksheet() -> type[Any]:
 
     XlsxWriter writes a plain number with 16 digits, which a quarter of all doubles do not survive,
     and gives a formula whose value is "" no type, which makes the value a number without digits.
+    Formulas go the short way: to look in each for functions newer than Excel 2010, which ours do
+    not have, and for marks in its cell's address takes half of the time.
     """
-    from xlsxwriter.worksheet import Worksheet
+    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet
 
     class ExactWorksheet(Worksheet):  # type: ignore[misc]
         def _xml_number_element(self, number: float, attributes: Any = ()) -> None:
             places = "".join(f' {key}="{value}"' for key, value in attributes)
             self.fh.write(f"<c{places}><v>{float(number)!r}</v></c>")
 
-        def _prepare_formula(self, formula: str, *_: Any) -> str:
-            # No function of ours is newer than Excel 2010: to look for 30 of them takes half of
-            # the time.
-            return formula.removeprefix("=")
+        def _write_formula(
+            self, row: int, column: int, formula: str, style: Any, value: Any
+        ) -> int:
+            self._check_dimensions(row, column)
+            self.table[row][column] = CellFormulaTuple(formula.removeprefix("="), style, value)
+            return 0
 
         def _xml_formula_element(self, formula: str, result: Any, attributes: Any = ()) -> None:
-            if result == "":
-                attributes = [*attributes, ("t", "str")]
-            super()._xml_formula_element(formula, result, attributes)
+            places = "".join(f' {key}="{value}"' for key, value in attributes)
+            if isinstance(result, str):
+                places += "" if result else ' t="str"'
+                result = self._escape_data(result)
+            self.fh.write(f"<c{places}><f>{self._escape_data(formula)}</f><v>{result}</v></c>")
 
     return ExactWorksheet
 

@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 
-from reference.equations import Dimension
 from reference.printed import Printed, parse
+from reference.units import Dimension
 
 EQUATION_EDITS = (
     "number dropped",

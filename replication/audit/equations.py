@@ -4,9 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from reference.derivations import Check, derive
-from reference.equations import DimensionError, EquationError, Node, dimension, replaced
+from reference.derivations import Check, Sides, derive
+from reference.equations import EquationError, dimension
 from reference.ledger import Equation, Ledger
+from reference.units import DimensionError
 from replication.audit.verdict import Verdict
 
 
@@ -64,7 +65,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
         check = Check(str(error), holds=False)
         return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
     sides = ledger.sides
-    checks = tuple(_checks(ledger, name, sides))
+    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
@@ -75,8 +76,22 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) -> Iterator[Check]:
-    """The check of dimensions, and those of the derivation."""
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check: no more of its verdict, in less time."""
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError:
+        return False
+    return _follows(ledger, name, ledger.sides)
+
+
+def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
+    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
+    derived = all(check.holds for check in _derivation(ledger, name, sides))
+    return derived and _dimensions(ledger, name, sides).holds
+
+
+def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
     exponents = {
         key: ledger.value(symbol.value)
         for key, symbol in ledger.symbols.items()
@@ -85,33 +100,39 @@ def _checks(ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]]) ->
     says = "both sides have the same dimensions"
     try:
         own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
-        yield Check(says, all(unit == own[0] for unit in own))
+    except (DimensionError, EquationError) as error:
+        return Check(f"{says}: {error}", holds=False)
+    return Check(says, all(unit == own[0] for unit in own))
+
+
+def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    try:
         yield from derive(name, sides, ledger.symbols)
-    except DimensionError as error:
-        yield Check(f"{says}: {error}", holds=False)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
 
 
-def _constants(
-    ledger: Ledger, name: str, sides: Mapping[str, tuple[Node, ...]], holds: bool
-) -> dict[str, Constant]:
-    spans = ledger.constants_of(name)
+def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, Constant]:
+    claims = ledger.constants_of(name)
 
-    def passing(claim: str, sides: Mapping[str, tuple[Node, ...]]) -> tuple[Fraction, ...]:
+    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
+        """The values of a constant with which every check holds, another one given."""
         return tuple(
             value
             for value in _candidates(ledger.value(claim))
-            if all(c.holds for c in _checks(ledger, name, _with(sides, name, spans[claim], value)))
+            if _follows(ledger, name, mended({**given, claim: value}))
         )
 
-    needed = {claim: passing(claim, sides) for claim in spans}
+    def mended(constants: Mapping[str, Fraction]) -> Sides:
+        return {**sides, name: ledger.read(ledger.printed_text(name, constants))}
+
+    needed = {claim: passing(claim, {}) for claim in claims}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
         # The others are judged with the one number put right.
         (culprit,) = repairs
-        mended = _with(sides, name, spans[culprit], needed[culprit][0])
-        needed |= {claim: passing(claim, mended) for claim in spans if claim != culprit}
+        right = {culprit: needed[culprit][0]}
+        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
     constants = {}
     for claim, values in needed.items():
         if values == (ledger.value(claim),):
@@ -124,12 +145,6 @@ def _constants(
             verdict = Verdict.NOT_CHECKABLE
         constants[claim] = Constant(claim, verdict, values)
     return constants
-
-
-def _with(
-    sides: Mapping[str, tuple[Node, ...]], name: str, span: tuple[int, int], value: Fraction
-) -> dict[str, tuple[Node, ...]]:
-    return {**sides, name: tuple(replaced(side, span, value) for side in sides[name])}
 
 
 _USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))

@@ -10,7 +10,7 @@ from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
-from replication.audit.equations import assess_equation
+from replication.audit.equations import follows
 from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import Judge
@@ -176,9 +176,7 @@ class Explainer:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
         within = name if name in self.ledger.equations else self.ledger.claims[name].within
         if within is not None:
-            changed = self.ledger.misprint(entry, text)
-            fails = assess_equation(changed, within, constants=False).verdict.is_failure
-            return None if fails else ""
+            return "" if follows(self.ledger.misprint(entry, text), within) else None
         claim, screens, values = self.ledger.claims[name], self._as_printed, {}
         if claim.computation is None:
             return self._suits(claim, text) if entry == name else None
@@ -188,8 +186,17 @@ class Explainer:
             claim, screens = changed.claims[name], self._screens(changed)
         else:
             values[entry] = parse(text).value * self.ledger.claims[entry].si
+            if self._is_ruled_out(claim, entry, values[entry]):
+                return None
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
+
+    def _is_ruled_out(self, claim: Claim, entry: str, value: Fraction) -> bool:
+        """Whether it was proven already, by solving for the entry, that no reading agrees."""
+        if self.judge.moved or claim.id not in self._solved:
+            return False
+        found = [s.solutions for s in self._solved[claim.id] if s.entry == entry]
+        return bool(found) and not any(solutions.may_admit(value) for solutions in found)
 
     def _suits(self, claim: Claim, text: str) -> str | None:
         """Whether another text of a number that nothing computes suits what rests on it."""
@@ -210,8 +217,8 @@ class Explainer:
         within = entry if entry in self.ledger.equations else self.ledger.claims[entry].within
         if within is None:
             return failing | self._bad_equations
-        fails = assess_equation(changed, within, constants=False).verdict.is_failure
-        return failing | (self._bad_equations - {within}) | ({within} if fails else set())
+        own = set() if follows(changed, within) else {within}
+        return failing | (self._bad_equations - {within}) | own
 
     @cached_property
     def _failing_now(self) -> set[str]:
@@ -219,8 +226,7 @@ class Explainer:
 
     @cached_property
     def _bad_equations(self) -> set[str]:
-        assessed = (assess_equation(self.ledger, e, constants=False) for e in self.ledger.equations)
-        return {a.equation.id for a in assessed if a.verdict.is_failure}
+        return {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One culprit for all that fails
 

@@ -10,6 +10,8 @@ from reference.enclosure import Box, Constraint, Solutions, extent, holding, sat
 from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
+Ends = tuple[Fraction, Fraction]
+
 
 @dataclass(frozen=True, eq=False)
 class Inference:
@@ -29,6 +31,7 @@ class Inference:
     inner: Interval
     outer: Interval
     _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = field(default_factory=dict)
+    _rounded: dict[tuple[str, Ends], Ends] = field(default_factory=dict)
 
     @property
     def entry(self) -> Inferred:
@@ -69,9 +72,7 @@ class Inference:
             self._admitted[key] = Interval(*found), Interval(*bounds)
         return self._admitted[key]
 
-    def _box(
-        self, convention: Convention, *, by_mass: bool
-    ) -> dict[str, tuple[Fraction, Fraction]]:
+    def _box(self, convention: Convention, *, by_mass: bool) -> dict[str, Ends]:
         """The inputs that the evidence rests on and that may be other than printed.
 
         The printed mass and density tell the radius more closely than its own print does: with
@@ -85,18 +86,22 @@ class Inference:
         rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
         return {**rounded, self.name: self.entry.search}
 
-    def rounded(self, name: str, convention: Convention) -> tuple[Fraction, Fraction]:
+    def rounded(self, name: str, convention: Convention) -> Ends:
         """The values of an input that print like it, and for which what shows it alone does so.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
         """
         claim = self.ledger.claims[name]
-        low, high = claim.as_input(convention).ends
-        for shown in (self.ledger.claims[other] for other in claim.entry.shown_by):
-            if low != high and shown.entries == [name]:
-                found = solve(self.ledger.function(shown), name, (low, high), shown.target()).outer
-                low, high = (found[0][0], found[-1][1]) if found else (low, high)
-        return low, high
+        ends = claim.as_input(convention).ends
+        if (name, ends) not in self._rounded:
+            low, high = ends
+            for shown in (self.ledger.claims[other] for other in claim.entry.shown_by):
+                if low != high and shown.entries == [name]:
+                    function = self.ledger.function(shown)
+                    found = solve(function, name, (low, high), shown.target()).outer
+                    low, high = (found[0][0], found[-1][1]) if found else (low, high)
+            self._rounded[name, ends] = low, high
+        return self._rounded[name, ends]
 
     def _joint(
         self, convention: Convention, *, by_mass: bool, also: Sequence[Constraint] = ()
@@ -199,8 +204,8 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
 
 
 def _intersection(
-    unions: list[tuple[tuple[Fraction, Fraction], ...]],
-) -> list[tuple[Fraction, Fraction]]:
+    unions: list[tuple[Ends, ...]],
+) -> list[Ends]:
     """What unions of intervals have in common, in order."""
     common = list(unions[0])
     for union in unions[1:]:

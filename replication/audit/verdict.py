@@ -221,20 +221,24 @@ class Judge:
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         whole_sheet = claim.by_scheme and claim.entry.row is None
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
-        for box in self.box(claim, convention):
+        narrow, whole = self.box(claim, convention)
+        for box in (whole,) if narrow == whole else (narrow, whole):
             found = explore(function, box, inside, budget)
             if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
-                ends = enclose(function, self.box(claim, convention)[1]).ends
+                ends = enclose(function, whole).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
         if found.inside is not None:
             never = any(
                 self.inference(entry, centered=convention.centered).excludes(
-                    function, around, convention, box, budget
+                    function, around, convention, whole, budget
                 )
                 for entry in claim.inferred
             )
         else:
-            never = found.never and explore(function, box, around, budget).never
+            never = found.never and (
+                around.excludes(found.lower, found.upper)
+                or explore(function, whole, around, budget).never
+            )
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         judgement = _judgement(claim, convention, verdict, (found.lower, found.upper))
         return replace(judgement, against_evidence=never and found.inside is not None)
@@ -279,9 +283,14 @@ class Judge:
         )  # fmt: skip
         if key not in self._ranges:
             function = self.ledger.function(claim, reading=name, centered=convention.centered)
-            whole_sheet = computation.by_scheme and not computation.by_row
             range_ = enclose(function, box)
-            exact = None if whole_sheet else _exactly(function, box, range_.idle)
+            targets = [claim.target(rounding) for rounding in Rounding]
+            decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
+            # Of a whole sheet, or where a row squares twice, the fractions grow very long.
+            long = computation.by_scheme and (
+                not computation.by_row or (convention.centered and decided)
+            )
+            exact = None if long else _exactly(function, box, range_.idle)
             self._ranges[key] = range_.ends if exact is None else (exact, exact)
         return self._ranges[key]
 

@@ -3,6 +3,7 @@
 import re
 from base64 import b64encode
 from collections.abc import Callable, Sequence
+from functools import cache
 from hashlib import sha256
 from importlib import resources
 from string import ascii_lowercase
@@ -73,12 +74,13 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        optimized=False,  # nothing in the templates could be computed before they are filled
     )
     found.filters |= {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
-        "prose": prose,
+        "prose": cache(prose),
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }

@@ -7,7 +7,7 @@ from typing import Any
 import flint
 import mpmath
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from reference.arithmetic import (
@@ -19,7 +19,7 @@ from reference.arithmetic import (
     Ratios,
     Reals,
 )
-from reference.intervals import Intervals, Span
+from reference.intervals import Intervals
 
 OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {
     "sum": lambda ar, x, y: x + y + 1,
@@ -67,6 +67,7 @@ def test_derivatives_are_those_of_finite_differences(x: F, y: F) -> None:
 def test_spans_contain_what_points_give(xs: tuple[F, F], ys: tuple[F, F], s: F, t: F) -> None:
     ar = Intervals(20)
     (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    assume(not x0 == x1 == y0 == y1)  # the power of a ball about 0 is undefined to Arb
     point = REALS.number(x0 + s * (x1 - x0)), REALS.number(y0 + t * (y1 - y0))
     for name, function in OPERATIONS.items():
         with ar.working():
@@ -91,6 +92,7 @@ def test_spans_of_any_sign_contain_exact_rationals(
     xs: tuple[F, F], ys: tuple[F, F], s: F, t: F
 ) -> None:
     (x0, x1), (y0, y1) = sorted(xs), sorted(ys)
+    assume(not x0 == x1 == y0 == y1)  # the power of a ball about 0 is undefined to Arb
     ar = Intervals(15)
     x, y = ar.interval(x0, x1), ar.interval(y0, y1)
     for number, operation in enumerate(SIGNED_OPERATIONS):
@@ -273,4 +275,4 @@ def test_global_precision_is_left_alone() -> None:
         Intervals(40).cap_root(Intervals(40).interval(F(1, 3), F(1, 2)))
         assert flint.ctx.dps == 33
     assert (mpmath.mp.dps, flint.ctx.prec) == before
-    assert isinstance(Intervals(20).pi, Span)
+    assert isinstance(Intervals(20).pi, flint.arb)

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from reference.arithmetic import Floats, Reals
-from reference.computations import COMPUTATIONS, EXPONENT, SAME
+from reference.computations import COMPUTATIONS, EXPONENT, SAME, Formulas
 from reference.enclosure import enclose
 from reference.ledger import Claim, load
 from reference.units import to_si
@@ -30,7 +30,7 @@ def test_what_is_said_of_a_computation_is_true(name: str) -> None:
     assert set(computation.equations) <= set(LEDGER.equations)
     for unit in (computation.unit, *computation.inputs.values()):
         assert unit in (SAME, EXPONENT) or to_si(unit)
-    _, _, *rest = signature(computation.function).parameters.values()
+    _, *rest = signature(computation.function).parameters.values()
     named = {p.name for p in rest if p.kind is not Parameter.VAR_KEYWORD}
     assert computation.by_row == ("row" in named)
     assert computation.by_scheme == ("centered" in named)
@@ -57,6 +57,8 @@ def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
 FZ = {"length_ratio": 2 / 3, "particle_density": 8900, "target_density": 7850, "k_1": 0.557,
       "k_t": 1.046, "resistance": 9.13e9, "velocity": 500}  # fmt: skip
 EQ_16 = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + 1.046 * 7850 * 500**2 / 9.13e9)
+START = {"velocity": 500, "radius": 11, "particle_density": 8900, "target_density": 7850,
+         "resistance": 3.5e9, "depth": 1}  # fmt: skip
 ALPHA = (2 * 200e9 / (3 * 215e6)) ** (1 / 3)
 STEEL = {"elastic_modulus": 200e9, "flow_stress": 215e6}
 BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
@@ -90,13 +92,22 @@ BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
         ("greatest_beta", {**BETAS, "brinell": 9}, 9),
         ("strain_rate", {"velocity": 500, "length": 2e-5}, 2.5e7),
         ("row_time", {"row": 3, "step": 2}, 6),
+        ("deceleration_at_start", START, (7850 * 500**2 / 2 + 3.5e9) * 21 * 3 / (4 * 11**3 * 8900)),
         ("frank_zook_as_printed", FZ, EQ_16),
         ("frank_zook_derived", FZ, 2 * EQ_16),
     ],
 )
 def test_values_by_hand(name: str, inputs: dict[str, Any], expected: float) -> None:
-    value = COMPUTATIONS[name].function(Floats(), LEDGER.sides, **inputs)
+    value = COMPUTATIONS[name].function(Formulas(Floats(), LEDGER.sides), **inputs)
     assert isclose(value, expected, rel_tol=1e-14)  # a dozen roundings
+
+
+def test_lengths_of_equation_16_are_counted_in_diameters() -> None:
+    printed = LEDGER.printed_text("eq16")
+    of_radius = Formulas(Floats(), LEDGER.misprint("eq16", printed.replace("L/D", "L/R")).sides)
+    as_printed = COMPUTATIONS["frank_zook_as_printed"].function
+    longer = {**FZ, "length_ratio": 2 * FZ["length_ratio"]}
+    assert as_printed(of_radius, **FZ) == as_printed(Formulas(Floats(), LEDGER.sides), **longer)
 
 
 def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
@@ -110,7 +121,7 @@ def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
         lambda v: inertia * v / (case["k_t"] * case["target_density"] * v * v + case["resistance"]),
         [0, case["velocity"] / 2, case["velocity"]],
     )
-    derived = COMPUTATIONS["frank_zook_derived"].function(ar, LEDGER.sides, **case)
+    derived = COMPUTATIONS["frank_zook_derived"].function(Formulas(ar, LEDGER.sides), **case)
     assert abs(derived / (2 * depth) - 1) < 1e-27
 
 

@@ -121,7 +121,8 @@ def test_solutions_are_inside_and_nothing_else_is(
     for x in samples(*search):
         if not any(low <= x <= high for low, high in found.outer):
             assert not target.contains(at(name, x)), "outer"
-        assert found.admits(x) <= target.contains(at(name, x))
+        assert found.admits(x) <= target.contains(at(name, x)) <= found.may_admit(x)
+    assert found.may_admit(search[1] + 1), "nothing is known beyond the search"
     assert found.reaches_an_end == any(
         part[0] == search[0] or part[1] == search[1] for part in found.outer
     )
@@ -219,6 +220,7 @@ def test_boxes_of_two_inputs(
     assert outcome is not False or not any(map(target.contains, values))
     assert (point is not None) == (outcome is True)
     assert point is None or target.contains(function(EXACT, **point))
+    assert point is None or all(low <= point[name] <= high for name, (low, high) in box.items())
 
 
 def test_a_wide_input_frees_the_sign_of_another() -> None:
@@ -239,6 +241,9 @@ def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
         # ... and x - y in [0, 5], which keeps x above y: at most from sqrt 2.
         (constraints((lambda ar, x, y: x * y, 2, 3), (lambda ar, x, y: x - y, 0, 5)),
          (2, 3), (1, 3)),
+        # What bounds it less, before and after.
+        (constraints((lambda ar, x, y: x * y, 1, 9), (lambda ar, x, y: x * y, 2, 3),
+                     (lambda ar, x, y: x * y, F(1, 2), 4)), (1, 3), (1, 3)),
         # Falling with x: y / x in [1, 2].
         (constraints((lambda ar, x, y: y / x, 1, 2)), (F(1, 2), 2), (F(1, 2), 2)),
         # Out of reach at any corner: no bound, and only the start.
@@ -271,3 +276,12 @@ def test_several_constraints_together() -> None:
     assert point is not None
     assert all(target.contains(f(EXACT, **point)) for f, target in near)
     assert satisfying(constraints((lambda ar, x, y: x + y, 0, 1), (saddle, 3, 9)), box)[0] is False
+    # Tangents find at once what halving the box would find late.
+    sliver = constraints(
+        (lambda ar, x, y: x + 2 * y, F(29, 10), F(291, 100)),
+        (lambda ar, x, y: x - y, F(-3, 2), F(-149, 100)),
+    )
+    outcome, point = satisfying(sliver, {"x": (F(-3), F(3)), "y": (F(0), F(9))}, budget=1)
+    assert outcome is True
+    assert point is not None
+    assert all(target.contains(f(EXACT, **point)) for f, target in sliver)

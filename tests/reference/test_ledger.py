@@ -3,6 +3,7 @@
 import re
 import tomllib
 from collections import Counter
+from collections.abc import Iterable
 from copy import deepcopy
 from dataclasses import replace
 from fractions import Fraction as F
@@ -21,8 +22,32 @@ CLAIMS = list(LEDGER.claims.values())
 # The real ledger
 
 
+NUMBER = re.compile(
+    r"\d+|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|half|halves|thirds?|quarters?"
+    r"|sixths?|several|twice|thrice|double|dozen|hundred|thousand|million)\b",
+    re.IGNORECASE,
+)
+
+
+def uncovered(
+    text: str, claims: Iterable[Claim] = (), furniture: Iterable[str] = ()
+) -> list[tuple[int, str]]:
+    """Digits and number words of a text, with their lines, that no claim and no furniture has."""
+    spans = [(claim.place.start, claim.place.end) for claim in claims]
+    spans += [match.span() for pattern in furniture for match in re.finditer(pattern, text)]
+    taken = {at for span in spans for at in range(*span)}
+    return [
+        (text.count("\n", 0, match.start()) + 1, match[0])
+        for match in NUMBER.finditer(text)
+        if not taken.issuperset(range(*match.span()))
+    ]
+
+
+FURNITURE = [piece.pattern for piece in LEDGER.furniture]
+
+
 def test_nothing_that_the_report_prints_is_left_out() -> None:
-    assert LEDGER.uncovered() == []
+    assert uncovered(LEDGER.text, CLAIMS, FURNITURE) == []
     assert LEDGER.report.title in LEDGER.text
 
 
@@ -35,8 +60,8 @@ def test_a_claim_stands_where_its_quote_does_and_nowhere_else(claim: Claim) -> N
     assert LEDGER.text.count(before + text + after) == 1
     assert LEDGER.text.count("\n", 0, start) + 1 == claim.place.line
     # Without it, its words would be uncovered.
-    others = {key: other for key, other in LEDGER.claims.items() if key != claim.id}
-    left = [(line, word.lower()) for line, word in replace(LEDGER, claims=others).uncovered()]
+    others = [other for other in CLAIMS if other is not claim]
+    left = [(line, word.lower()) for line, word in uncovered(LEDGER.text, others, FURNITURE)]
     words = re.findall(r"\d+", text) or re.split("[ -]", text.lower().removesuffix(" times"))
     if claim.entry.kind in ("comparison", "remark"):
         assert left == []
@@ -54,13 +79,12 @@ def test_no_two_claims_share_a_word_and_they_come_in_order() -> None:
     assert {claim.entry.kind for claim in CLAIMS} == set(get_args(Kind))
 
 
-@pytest.mark.parametrize("number", range(len(LEDGER.furniture)))
-def test_every_piece_of_furniture_is_needed_and_hides_no_claim(number: int) -> None:
-    pattern, reason = LEDGER.furniture[number]
-    assert reason
-    others = LEDGER.furniture[:number] + LEDGER.furniture[number + 1 :]
-    assert replace(LEDGER, furniture=others).uncovered()
-    spans = [match.span() for match in re.finditer(pattern, LEDGER.text)]
+@pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece.pattern)
+def test_every_piece_of_furniture_is_needed_and_hides_no_claim(piece: Any) -> None:
+    assert piece.reason
+    others = [pattern for pattern in FURNITURE if pattern != piece.pattern]
+    assert uncovered(LEDGER.text, CLAIMS, others)
+    spans = [match.span() for match in re.finditer(piece.pattern, LEDGER.text)]
     for claim in (c for c in CLAIMS if c.entry.kind not in ("comparison", "remark")):
         assert all(claim.place.end <= a or b <= claim.place.start for a, b in spans), claim.id
 
@@ -151,15 +175,16 @@ def test_what_a_number_stands_for_as_an_input(
 def test_values_in_units_ranges_to_search_and_texts_to_show() -> None:
     assert LEDGER.value("flow-stress") == 700 * 10**6
     assert LEDGER.value("inferred:target-density") == 7850
-    assert LEDGER.in_unit("particle-volume", "mm^3") == "5.575E-6"
     assert LEDGER.search("a1-initial-velocity")[:2] == (50, 3000)
     assert LEDGER.search("inferred:target-density")[:2] == (1000, 23000)
     assert LEDGER.search("mean-diameter")[:2] == (F(22, 10**7), F(22, 10**5))
     assert LEDGER.search("initial-depth")[:2] == (-1, 1)
     assert shown(r"10^{-3}") == "10⁻³"
     assert LEDGER.claims["fz-resistance-rha"].shown == "9.13 × 10⁹"
-    with pytest.raises(LedgerError, match="no number to rest on"):
+    with pytest.raises(LedgerError, match="no number 'coarse-step-remark'"):
         LEDGER.value("coarse-step-remark")
+    with pytest.raises(LedgerError, match="prints no number"):
+        _ = LEDGER.claims["coarse-step-remark"].value
 
 
 def test_inputs_come_from_products_groups_and_inference() -> None:
@@ -308,10 +333,13 @@ def test_the_small_ledger_is_read() -> None:
         *("width", "radius", "two", "volume", "step", "time", "row", "fall", "farther", "edge"),
         "cell",
     ]
-    assert ledger.uncovered() == [(3, "3")]
+    assert uncovered(TEXT, ledger.claims.values(), [f.pattern for f in ledger.furniture]) == [
+        (3, "3")
+    ]
     assert ledger.blank == ("C1", "D1", "C2", "D2")
     assert ledger.claims["volume"].inputs == {"diameter": ("width",)}
     assert str(ledger.claims["farther"].interval()) == "(40, inf)"
+    assert small({"inferred:density:unit": "g/cm^3"}).value("inferred:density") == 2500
     own = small({"claim:volume:rests_on": {"group": "size", "diameter": "edge"}})
     assert own.claims["volume"].inputs == {"diameter": ("edge",)}, "an entry goes before its group"
 
@@ -325,15 +353,15 @@ def test_the_small_ledger_is_read() -> None:
     ],
 )
 def test_digits_and_number_words_need_a_claim(text: str, left: list[str]) -> None:
-    bare = replace(LEDGER, text=text, claims={}, furniture=())
-    assert [word for _, word in bare.uncovered()] == left
-    halves = replace(LEDGER, text="700 m", claims={}, furniture=(("7", ""), ("0 m", "")))
-    assert [word for _, word in halves.uncovered()] == ["700"], "half taken is not covered"
+    assert [word for _, word in uncovered(text)] == left
+    halves = uncovered("700 m", furniture=["7", "0 m"])
+    assert [word for _, word in halves] == ["700"], "half taken is not covered"
 
 
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no claims": ({"claim": []}, "the ledger is empty"),
     "no claim table": ({"claim": None}, "ledger.toml: Object missing required field `claim`"),
+    "no blank cells": ({"table:blank": None}, "ledger.toml: Object missing required field `blank`"),
     "unknown key": ({"claim:width:exakt": True}, "ledger.toml: Object contains unknown field"),
     "no title": ({"claim:width:title": None}, "ledger.toml: Object missing required field"),
     "unknown kind": ({"claim:width:kind": "guess"}, "ledger.toml: Invalid enum value 'guess'"),
@@ -360,15 +388,15 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "equation nobody derives": (
         {"equation:diameter:id": "eq99"},
-        "equation 'eq99': nothing derives it",
+        "equation 'eq99': nothing in reference/derivations.py derives it",
     ),
     "symbol that nobody explains": (
         {"symbols:R": None},
-        "[[equation]], [[slip]] or [symbols]: cannot read 'R' in the equation",
+        "equation 'diameter': cannot read 'R' in the equation",
     ),
-    "symbol in no unit": ({"symbols:R:unit": "ell"}, "[[equation]], [[slip]] or [symbols]: un"),
+    "symbol in no unit": ({"symbols:R:unit": "ell"}, "symbol 'R': unknown unit 'ell'"),
     "slip of no equation": ({"slip:off:equation": "eq9"}, "slip 'off': there is no equation 'eq9'"),
-    "slip that is none": ({"slip:off:text": "D + 3R"}, "[[equation]], [[slip]] or [symbols]: 'D +"),
+    "slip that is none": ({"slip:off:text": "D + 3R"}, "slip 'off': 'D + 3R' has no equals sign"),
     "slip of no input": ({"slip:off:inputs": {"a": "b"}}, "slip 'off': there is no number 'b'"),
     "unknown computation": (
         {"claim:radius:computed_by": "halve"},
@@ -385,15 +413,15 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "missing input": ({"claim:radius:rests_on": {}}, "claim 'radius', half: needs inputs"),
     "unknown input": (
         {"claim:radius:rests_on": {"value": "width * breadth"}},
-        "claim 'radius', half: there is no number 'breadth' to rest on",
+        "claim 'radius', half: there is no number 'breadth'",
     ),
     "unknown inferred input": (
         {"claim:radius:rests_on": {"value": "inferred:width"}},
-        "claim 'radius', half: there is no number 'inferred:width' to rest on",
+        "claim 'radius', half: there is no inferred input 'width'",
     ),
     "words as input": (
         {"claim:radius:rests_on": {"value": "farther"}},
-        "claim 'radius', half: there is no number 'farther' to rest on",
+        "claim 'radius', half: there is no number 'farther': what it prints is in words",
     ),
     "input of another dimension": (
         {"claim:time:rests_on": {"step": "step * width"}},
@@ -429,7 +457,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "bound without relation": ({"claim:fall:relation": None}, "claim 'fall': kind 'bound' needs a"),
     "compared with nothing": (
         {"claim:farther:against": "falls"},
-        "claim 'farther': there is no number 'falls' to compare with",
+        "claim 'farther': there is no number 'falls'; is it 'fall'?",
     ),
     "compared in another unit": (
         {"claim:farther:against": "width"},
@@ -453,6 +481,17 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 }  # fmt: skip
 
 
+def test_what_does_not_fit_a_table_is_told_with_the_name_of_its_entry() -> None:
+    for changes, place in (
+        ({"claim:width:kind": "guess"}, "`claim 'width'.kind`"),
+        ({"claim:fall:row": "three"}, "`claim 'fall'.row`"),
+        ({"slip:off:text": 7}, "`slip 'off'.text`"),
+        ({"claim:width:id": None}, "`claim '0'`"),
+    ):
+        with pytest.raises(LedgerError, match=re.escape(place)):
+            small(changes)
+
+
 @pytest.mark.parametrize("fault", REFUSED)
 def test_a_malformed_ledger_is_refused_by_name(fault: str) -> None:
     changes, message = REFUSED[fault]
@@ -472,7 +511,7 @@ def test_a_circle_names_all_who_stand_in_it() -> None:
     ("source", "message"),
     [
         ({"claims": ["width"]}, "source 'book': width is not in kg/m^3"),
-        ({"claims": ["breadth"]}, "there is no number 'breadth'"),
+        ({"claims": ["breadth"]}, "source 'book': there is no number 'breadth'"),
         ({"quote": "2.5"}, "source 'book': its quote marks no number"),
         ({"quote": "⟦1⟧ ⟦2⟧ ⟦3⟧"}, "source 'book': its quote marks no number"),
         ({"pages": "3"}, "sources.toml: Object contains unknown field"),

@@ -7,7 +7,7 @@ import pytest
 from reference.derivations import DERIVATIONS, derive
 from reference.ledger import Ledger, load
 from replication.audit.edits import equation_edits
-from replication.audit.equations import assess_equation
+from replication.audit.equations import assess_equation, follows
 from replication.audit.screen import Screen
 
 LEDGER = load()
@@ -81,8 +81,9 @@ MISREAD = {
 @pytest.mark.parametrize("fault", MISREAD)
 def test_known_misreadings_are_seen(fault: str) -> None:
     name, text = MISREAD[fault]
-    changed = assess_equation(LEDGER.misprint(name, text), name)
-    assert changed.verdict.is_failure
+    changed = LEDGER.misprint(name, text)
+    assert assess_equation(changed, name).verdict.is_failure
+    assert not follows(changed, name)
 
 
 def test_equation_16_would_follow_for_a_depth_in_diameters_or_without_the_2() -> None:
@@ -119,6 +120,7 @@ DEFINITIONS = {"eq7", "eqA-2"}
 @pytest.mark.parametrize("name", LEDGER.equations)
 def test_equation(name: str) -> None:
     assessed = assess_equation(LEDGER, name)
+    assert follows(LEDGER, name) != assessed.verdict.is_failure
     expected = "reproduced"
     if name in FAILING:
         expected = "not reproduced"

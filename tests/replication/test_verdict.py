@@ -34,6 +34,11 @@ def by_convention(reading: Reading) -> dict[Convention, Judgement]:
     return judged
 
 
+def test_a_value_that_meets_the_end_of_a_print_is_met_exactly(record: Record) -> None:
+    """In row 1 x = V dt/2 is 5.00E-08 m itself: cut off, it would be printed so in both schemes."""
+    assert record.claim("a1-depth-1").otherwise == []
+
+
 # Frank and Zook
 
 

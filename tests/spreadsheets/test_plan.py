@@ -164,7 +164,8 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 def test_a_wrong_address_is_refused() -> None:
     claim = LEDGER.claims["depth-beta-5"]
     entry = msgspec.structs.replace(claim.entry, workbook="Sheet beta 5!A1")
-    wrong = replace(LEDGER, claims={**LEDGER.claims, claim.id: replace(claim, entry=entry)})
+    claims = {**LEDGER.claims, claim.id: replace(claim, entry=entry)}
+    wrong = msgspec.structs.replace(LEDGER, claims=claims)
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
 
