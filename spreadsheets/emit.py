@@ -126,7 +126,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     shown = cell_values(plan, values)
     buffer = BytesIO()
-    book = xlsxwriter.Workbook(buffer, {"in_memory": True})
+    # The font of all cells: column widths are counted in digits of the default one.
+    font = {"font_name": "Arial", "font_size": 10}
+    book = xlsxwriter.Workbook(buffer, {"in_memory": True, "default_format_properties": font})
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
@@ -179,6 +181,8 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.set_footer('&R&"Arial"&10Page &P of &N')
     if sheet.print_area:
         page.print_area(sheet.print_area)
+    if sheet.page_break:
+        page.set_h_pagebreaks([sheet.page_break])
     if sheet.repeated_rows:
         first, last = sheet.repeated_rows
         page.repeat_rows(first - 1, last - 1)

@@ -104,7 +104,8 @@ class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
     frozen: the first cell that scrolls. repeated_rows: first and last row that head every printed
-    page. print_area: the cells that are printed, all by default. filtered: a table with a filter.
+    page. print_area: the cells printed, all by default. page_break: the last row of page 1.
+    filtered: a table with a filter.
     """
 
     name: str
@@ -115,6 +116,7 @@ class SheetPlan:
     rules: tuple[Rule, ...] = ()
     charts: tuple[Chart, ...] = ()
     print_area: str = ""
+    page_break: int | None = None
     filtered: str = ""
 
 

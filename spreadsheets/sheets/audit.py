@@ -45,7 +45,7 @@ _HEADS = (
     "To", "Where", "Computed in", "Explanation",
 )  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKL"
-_WIDTHS = (27.0, 36.0, 15.0, 8.0, 13.0, 15.0, 25.0, 12.0, 12.0, 34.0, 20.0, 60.0)
+_WIDTHS = (24.0, 50.0, 15.0, 8.0, 13.0, 14.0, 25.0, 11.0, 11.0, 34.0, 20.0, 60.0)
 _HEAD_ROW = 11
 
 

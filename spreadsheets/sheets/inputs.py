@@ -117,8 +117,8 @@ _BLOCKS = {
     "Frank and Zook": (
         Input("k_1", "k_1", "fz-k1"),
         Input("k_t", "k_t", "fz-kt"),
-        Input("R_t_RHA", "R_t", "fz-resistance-rha", "Pa"),
-        Input("R_t_lower", "R_t", "fz-resistance-stainless", "Pa"),
+        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
+        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
     ),
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
@@ -129,7 +129,7 @@ _HEADS = (
     "It prints", "Where", "Least", "Greatest", "Name",
 )  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKLM"
-_WIDTHS = (8.0, 42.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
+_WIDTHS = (9.0, 50.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
 _HEAD_ROW = 9
 _SCIENTIFIC = "0.0####E+00"
 

@@ -64,19 +64,21 @@ def sheet(
     rules = _results(page, ledger, cases)
     if findings is not None:
         _audit(page, ledger, findings)
+    sheets_from = page.row
     page.block("Sheets")
     for name, what in sheets.items():
         page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
     page.block("How to read it")
     for style, what in _HOW:
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
-    widths = dict(zip("ABCDEF", (34.0, 17.0, 17.0, 17.0, 17.0, 46.0), strict=True))
+    widths = dict(zip("ABCDEF", (38.0, 17.0, 17.0, 17.0, 17.0, 54.0), strict=True))
     return SheetPlan(
         name=HOME,
         cells=page.cells,
         widths=widths,
         rules=rules,
         print_area=f"A1:F{page.row - 1}",
+        page_break=sheets_from,
     )
 
 
@@ -121,7 +123,7 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
         )
         for name in names:
             claim = ledger.claims[name]
-            first, *more = wrap(findings.explanations[name], 92)
+            first, *more = wrap(findings.explanations[name], 100)
             cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
             if claim.entry.workbook:
                 there = "='{}'!{}".format(*place_of(claim.entry.workbook))
