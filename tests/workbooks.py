@@ -9,8 +9,7 @@ from typing import Any
 
 from openpyxl import load_workbook
 
-from spreadsheets.engines import Engine, EngineError, engine
-from spreadsheets.engines.base import Cell
+from spreadsheets.engines import Cell, Engine, EngineError, engine
 
 
 def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:

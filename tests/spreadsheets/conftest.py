@@ -18,8 +18,7 @@ from replication import workbook
 from replication.audit.audit import audit
 from replication.workbook import Workbook
 from spreadsheets import engines
-from spreadsheets.engines import Engine
-from spreadsheets.engines.base import worksheets
+from spreadsheets.engines import Engine, worksheets
 
 FROM_PIP = ("ironcalc", "formualizer")
 """Required for the tests, so a missing one fails; the others come from the system."""
