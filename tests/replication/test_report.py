@@ -25,7 +25,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.ledger import load
-from replication.audit.audit import audit
 from replication.audit.record import Record, schema
 from replication.cli import main
 from replication.report import terminal
@@ -38,11 +37,6 @@ from replication.report.render import page
 HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
 BESIDE = {"workbook.xlsx": b"PK"}
-
-
-@pytest.fixture(scope="module")
-def record() -> Record:
-    return audit()
 
 
 @pytest.fixture(scope="module")

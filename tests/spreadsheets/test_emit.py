@@ -9,16 +9,14 @@ import struct
 import subprocess
 import sys
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from openpyxl import load_workbook
-from workbooks import rewritten, stored
+from workbooks import rewritten, stored, usable
 
 from spreadsheets import emit
-from spreadsheets.engines import Engine
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
 
 
@@ -116,7 +114,7 @@ def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path)
 
 
 def test_a_file_that_libreoffice_saved_is_not_ours_and_keeps_its_looks(
-    emitted: Any, usable: Callable[[str], Engine], tmp_path: Path
+    emitted: Any, tmp_path: Path
 ) -> None:
     usable("libreoffice")
     command = ["soffice", f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}", "--headless"]

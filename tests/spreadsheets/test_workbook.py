@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from workbooks import stored
+from workbooks import stored, usable
 
 from reference.arithmetic import Reals
 from reference.motion import sheet_rows
@@ -168,7 +168,7 @@ def test_slow_impacts_keep_their_digits(engine: Engine, slow_files: list[Any]) -
 
 
 def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(
-    usable: Callable[[str], Engine], emitted: Any
+    emitted: Any,
 ) -> None:
     gnumeric, book = usable("gnumeric"), emitted.book
     found = gnumeric.recalculate(emitted.path)
