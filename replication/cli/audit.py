@@ -30,9 +30,9 @@ def run(options: argparse.Namespace) -> int:
 
         shared.print_json(schema())
         return 0
-    from replication.report import files
+    from replication.report import render
 
-    files.check(options.out)
+    render.check(options.out)
     from replication.audit.audit import audit
     from replication.error import hard_cases
     from replication.workbook import build
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         "workbook.xlsx": build(record=record).to_bytes(),
         "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
     }
-    written = files.write(record, options.out, beside)
+    written = render.write(record, options.out, beside)
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:

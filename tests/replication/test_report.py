@@ -30,9 +30,8 @@ from replication.cli import main
 from replication.report import terminal
 from replication.report.facts import OPEN, between
 from replication.report.figures import draw
-from replication.report.files import check, contents, write
 from replication.report.prose import Named, Prose
-from replication.report.render import page
+from replication.report.render import check, contents, page, write
 
 HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
