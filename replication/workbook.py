@@ -364,7 +364,7 @@ class _Builder:
         for slug, sheet in self.sheets.items():
             yield f"{slug}.depth_um", sheet.final_depth * 1e6
             yield f"{slug}.normalized_depth", sheet.normalized_depth
-            yield f"{slug}.message", _message(sheet)
+            yield f"{slug}.message", _state(sheet)[1]
 
     def _table(self) -> dict[str, Any]:
         sheet, given = list(self.sheets.values())[-1], _given(self.last)
@@ -377,13 +377,15 @@ class _Builder:
             used = k <= sheet.steps
             held[f"row[{k}].index"] = k if used else ""
             held[f"row[{k}].depth_um"] = sheet.rows[k].depth * 1e6 if used else ""
+        trust, message = _state(sheet)
         v, exact = impact.velocity, depth.normalized_depth(*_materials(impact))
         if impact.resistance is None:
             same = _label(impact) == _label(self.written[slug])
             held |= {"label": _label(impact), "renamed": "" if same else steps.KEPT_NAME}
         return held | {
-            "state": _message(sheet),
-            "message": _message(sheet),
+            "state": message,
+            "message": message,
+            "trust": trust,
             "stopped": 1,
             "final_depth": sheet.final_depth,
             "depth_um": sheet.final_depth * 1e6,
@@ -397,7 +399,6 @@ class _Builder:
             "exact_depth_um": depth.final_depth(*impact.motion.values()) * 1e6,
             "travel": impact.step * v / impact.radius,
             "over_exact": sheet.normalized_depth / exact,
-            "trust": _trust([doubt.kind for doubt in doubts_about(sheet)]),
         }
 
     def _figure_3(self) -> Iterator[tuple[str, Any]]:
@@ -407,7 +408,7 @@ class _Builder:
                 row = sheet.rows[min(k, sheet.steps)]
                 yield f"{slug}.time[{k}]", row.time * 1e9
                 yield f"{slug}.depth[{k}]", row.depth * 1e6
-            yield f"{slug}.message", f"{_label(sheet.impact)}: {_message(sheet)}"
+            yield f"{slug}.message", f"{_label(sheet.impact)}: {_state(sheet)[1]}"
 
     def _figure_5(self) -> Iterator[tuple[str, Any]]:
         low, high = self.si["V_from"], self.si["V_to"]
@@ -594,15 +595,12 @@ def _work(impact: Impact) -> dict[str, float]:
     return {"pressure": pressure, "c": 4 * particle / (3 * target) * math.log1p(pressure)}
 
 
-def _trust(kinds: Sequence[str]) -> int:
+def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
-    return 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
-
-
-def _message(sheet: Sheet) -> str:
     kinds = [doubt.kind for doubt in doubts_about(sheet)]
-    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[_trust(kinds)]
-    return state + "".join(steps.DOUBTS[kind] for kind in kinds)
+    trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
+    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[trust]
+    return trust, state + "".join(steps.DOUBTS[kind] for kind in kinds)
 
 
 def _cubed(volume: float) -> float:

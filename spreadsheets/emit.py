@@ -17,7 +17,7 @@ from textwrap import wrap
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import check_target, write_bytes
 from spreadsheets.styles import DASHES, STYLES
 
@@ -199,16 +199,12 @@ def _lines(sheet: SheetPlan) -> dict[int, int]:
     lines: dict[int, int] = {}
     for address, cell in sheet.cells.items():
         if cell.wrap:
-            column, row = _split(address)
+            column = address.rstrip("0123456789")
+            row = int(address.removeprefix(column))
             # Letters are narrower than the digits by which widths are counted.
             taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
             lines[row] = max(taken, lines.get(row, 1))
     return lines
-
-
-def _split(address: str) -> tuple[str, int]:
-    column = address.rstrip("0123456789")
-    return column, int(address[len(column) :])
 
 
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
@@ -222,26 +218,15 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         write(address, value, style)
     else:
         page.write_number(address, value, style)
-    if cell.limits or cell.choices:
-        page.data_validation(address, _validation(cell))
-
-
-def _validation(cell: Cell) -> dict[str, Any]:
-    """What a spreadsheet program asks of a typed input, and says before and after."""
+    # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
-        return {"validate": "list", "source": list(cell.choices)}
-    assert cell.limits is not None
-    words = f"A number from {cell.limits.least:,.10g} to {cell.limits.most:,.10g}"
-    words = f"{words} {written(cell.unit)}".rstrip() + "."
-    return {
-        "validate": "decimal",
-        "criteria": "between",
-        "minimum": cell.limits.least,
-        "maximum": cell.limits.most,
-        "input_message": words,
-        "error_title": "Out of range",
-        "error_message": words,
-    }
+        page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
+    elif cell.limits:
+        least, most = cell.limits
+        words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
+        asked = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
+        said = {"input_message": words, "error_title": "Out of range", "error_message": words}
+        page.data_validation(address, asked | said)
 
 
 def _absolute(sheet: str, cells: str) -> str:
@@ -250,8 +235,7 @@ def _absolute(sheet: str, cells: str) -> str:
     >>> _absolute("Figure 5", "B5:B25")
     "'Figure 5'!$B$5:$B$25"
     """
-    ends = ("${}${}".format(*_split(cell)) for cell in cells.split(":"))
-    return f"'{sheet}'!{':'.join(ends)}"
+    return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 
 def _exact_worksheet() -> type[Any]:
@@ -290,7 +274,18 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for series, look in zip(chart.series, DASHES, strict=False):
-        drawn.add_series(_series(sheet, series, look, chart))
+        settings = {
+            "name": f"={_absolute(*series.name)}",
+            "categories": f"={_absolute(sheet, series.x)}",
+            "values": f"={_absolute(sheet, series.y)}",
+            "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
+        }
+        first, last = map(int, re.findall(r"\d+", series.x))
+        if chart.logarithmic or last - first < 50:
+            # Few points: show where they are.
+            fill = {"color": look["color"]}
+            settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
+        drawn.add_series(settings)
     drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
     axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
     axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
@@ -299,18 +294,3 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
     page.insert_chart(chart.at, drawn, {"description": chart.description})
-
-
-def _series(sheet: str, series: Series, look: Mapping[str, str], chart: Chart) -> dict[str, Any]:
-    color, (first, _, last) = look["color"], series.x.partition(":")
-    settings = {
-        "name": f"={_absolute(*series.name)}",
-        "categories": f"={_absolute(sheet, series.x)}",
-        "values": f"={_absolute(sheet, series.y)}",
-        "line": {"color": color, "width": 2, "dash_type": look["dash"]},
-    }
-    if chart.logarithmic or _split(last)[1] - _split(first)[1] < 50:
-        # Few points: show where they are.
-        fill = {"color": color}
-        settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
-    return settings

@@ -95,14 +95,10 @@ class Engine(ABC):
         """The same for several files."""
         self._require()
         found: list[Recalculated] = [{name: {} for name in self._sheets(path)} for path in paths]
-        for path, sheets, cells in zip(paths, found, self._cells_of_each(paths), strict=True):
+        for sheets, cells in zip(found, self._cells_of_each(paths), strict=True):
             for sheet, place, value in cells:
-                if value is None or value == "":
-                    continue
-                if sheet not in sheets:
-                    reason = f"{path} has no worksheet {sheet!r}, yet it has cells"
-                    raise EngineError(self.name, reason)
-                sheets[sheet][place] = value
+                if value is not None and value != "":
+                    sheets.setdefault(sheet, {})[place] = value
         return found
 
     def _require(self) -> None:

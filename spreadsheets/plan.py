@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
@@ -17,8 +18,7 @@ Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(NamedTuple):
     """The least and the greatest number that may be typed into an input, in its unit."""
 
     least: float
@@ -72,8 +72,7 @@ class Rule:
     style: str
 
 
-@dataclass(frozen=True, slots=True)
-class Series:
+class Series(NamedTuple):
     """One curve: the cell with its name, and the cells of its x and y, such as "A5:A25"."""
 
     name: Place

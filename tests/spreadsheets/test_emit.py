@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from openpyxl import load_workbook
-from workbooks import rewritten, stored, usable
+from workbooks import rewritten, stored
 
 from spreadsheets import emit
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
@@ -111,27 +111,6 @@ def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path)
     other = emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": 2.5})
     emit.write(path, other)
     assert path.read_bytes() == other
-
-
-def test_a_file_that_libreoffice_saved_is_not_ours_and_keeps_its_looks(
-    emitted: Any, tmp_path: Path
-) -> None:
-    usable("libreoffice")
-    command = ["soffice", f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}", "--headless"]
-    command += ["--convert-to", "xlsx", "--outdir", str(tmp_path), str(emitted.path)]
-    subprocess.run(command, check=True, capture_output=True, timeout=120)
-    saved = tmp_path / "workbook.xlsx"
-    assert emit.is_own(emitted.path)
-    assert not emit.is_own(saved)
-    before, after = load_workbook(emitted.path), load_workbook(saved)
-    assert set(before.defined_names) <= set(after.defined_names)
-    for sheet in emitted.book.plan.sheets:
-        pages = before[sheet.name], after[sheet.name]
-        assert len({len(page._charts) for page in pages}) == 1
-        for address in list(sheet.cells)[:60]:
-            cells = [page[address] for page in pages]
-            assert len({(c.number_format, c.fill.fgColor.rgb, c.font.b) for c in cells}) == 1
-    assert len(after["Inputs"].data_validations.dataValidation) > 30
 
 
 # The whole workbook's file

@@ -149,11 +149,6 @@ def test_self_test_detects_an_echo(engine: Engine, tmp_path: Path) -> None:
     assert not engines.repairs_wrong_value(Fake(told=lambda *_: 41.0), tmp_path)
 
 
-def test_cells_of_an_unknown_worksheet_are_an_error(workbook: Path) -> None:
-    with pytest.raises(EngineError, match="has no worksheet 'Elsewhere'"):
-        Fake(surplus=(("Elsewhere", "A1", 1.0),)).recalculate(workbook)
-
-
 def test_missing_engine_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
