@@ -19,7 +19,6 @@ from replication.audit.wording import quantity
 from replication.plain import json_text
 from replication.power import measured
 from replication.report import facts as told
-from replication.report import tables
 from replication.report.figures import Drawing, draw
 from replication.report.prose import Prose, quoted
 from replication.text import number
@@ -165,13 +164,13 @@ def _context(record: Record) -> dict[str, Any]:
         "inferred": _inferred(record),
         "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
-        "tables": tables,
+        "tables": told,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": _touching(record),
         "sources": _sources(record),
         "table": _table_a_1(groups["table-a-1"]),
         "power": power,
-        "rates": tables.Table("Rates in percent", power.table()[0], power.table()[1:]),
+        "rates": told.Table("Rates in percent", power.table()[0], power.table()[1:]),
     }
 
 
@@ -221,7 +220,7 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
-        "proven": tables.proven(cells),
+        "proven": told.proven(cells),
     }
 
 
