@@ -192,6 +192,7 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         rules=(Rule(cells="A3", formula=f'=$A$3="{STALE}"', style="warning"),),
         charts=(chart,),
         print_area=f"A1:L{last + 4 + _CHART_ROWS}",
+        page_break=last + 2,
     )
 
 
