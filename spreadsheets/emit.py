@@ -179,8 +179,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     shown = cell_values(plan, values)
     buffer = BytesIO()
-    # The font of all cells: column widths are counted in digits of the default one.
-    options = {"in_memory": True, "default_format_properties": _ARIAL}
+    # The font of all cells, since column widths are counted in digits of the default one; a copy,
+    # since XlsxWriter writes into it.
+    options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
     book = xlsxwriter.Workbook(buffer, options)
 
     @cache
