@@ -141,6 +141,12 @@ def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
     book = load_workbook(emitted.path)
     names = [name.casefold() for name in book.defined_names]
     assert len(names) == len(set(names))
+    asked = {str(v.sqref): v for v in book["Inputs"].data_validations.dataValidation}
+    for address, cell in emitted.book.plan.sheets[1].cells.items():
+        assert (address in asked) == bool(cell.limits or cell.choices), address
+        if cell.limits:
+            ends = float(asked[address].formula1), float(asked[address].formula2)
+            assert ends == cell.limits, address
     with zipfile.ZipFile(emitted.path) as archive:
         parts = {name: archive.read(name).decode() for name in archive.namelist()}
     core, app = parts["docProps/core.xml"], parts["docProps/app.xml"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -151,12 +152,14 @@ def test_an_engine_that_gives_no_values(
 
 
 def test_a_sheet_that_is_lost_or_new_is_seen(path: Path) -> None:
-    def cells(expected: dict[str, Any]) -> dict[str, list[str]]:
-        (found,) = verify(path, PLAN, expected, [fake()], long_doubles=BOUND)
+    def cells(expected: dict[str, Any], engine: Fake | None = None) -> dict[str, list[str]]:
+        (found,) = verify(path, PLAN, expected, [engine or fake()], long_doubles=BOUND)
         return {s.sheet: [left.cell for left in s.unexplained] for s in found.sheets}
 
     lost = {**EXPECTED, "Lost": {"A1": 1.0}}
     assert cells(lost) == {"S": [], "Empty": [], "Lost": ["A1"]}
+    added = replace(fake(), surplus=(("New", "A1", 1.0),))
+    assert cells(EXPECTED, added) == {"S": [], "Empty": [], "New": ["A1"]}
     assert cells({"S": {}, "Empty": {}}) == {"S": ["A1", "B1", "B2", "B3", "B4"], "Empty": []}
 
 
