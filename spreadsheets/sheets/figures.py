@@ -197,7 +197,10 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
 
 
 def _levels(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
-    """The ladder of one case; all but the order was computed when the workbook was written."""
+    """The ladder of one case; all but the order was computed when the workbook was written.
+
+    The error, too: it is small beside the depths, and a program of long doubles reads those anew.
+    """
     part, error = f"convergence.{case.slug}", columns[2]
     words = ("Steps", "Final depth", "Error", "|Error|", "Order")
     cells = _heads(first - 2, columns, words, ("", "µm", "µm", "µm", "–"))
