@@ -81,14 +81,13 @@ def build(
     *,
     ledger: Ledger | None = None,
     typed: Mapping[str, float] | None = None,
-    written: Sequence[Impact] | None = None,
 ) -> Workbook:
-    """The workbook of one case, or of two that differ in nothing but beta: then it is the report's.
+    """The workbook of one case, or the report's: that of two cases that differ only in beta.
 
-    scheme: one of `SCHEMES`. rows: those to prepare after row 0, by default twice as many as the
-    longest case takes. record: the finished audit, made where it is needed and not given. typed:
-    other inputs than the report's, by name and in the unit of their cells. written: the cases that
-    it was written for, if their inputs were changed since. A number that the cell of its unit
+    The report's is written for `REPORT`; two other cases are as if typed into it. scheme: one of
+    `SCHEMES`. rows: those to prepare after row 0, by default twice as many as the longest case
+    takes. record: the finished audit, made where it is needed and not given. typed: other inputs
+    than the report's, by name and in the unit of their cells. A number that the cell of its unit
     cannot hold to the last bit is taken as the nearest that it can.
 
     Raises ValueError where a number is outside of what the workbook takes, where a case takes more
@@ -101,17 +100,12 @@ def build(
     """
     if scheme not in SCHEMES:
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
-    builder = _Builder(
-        tuple(cases), scheme, rows, ledger or load(), typed or {}, tuple(written or cases)
-    )
-    findings = None
-    if builder.report:
-        if record is None:
-            from replication.audit.audit import audit
+    builder = _Builder(tuple(cases), scheme, rows, ledger or load(), typed or {})
+    if builder.report and record is None:
+        from replication.audit.audit import audit
 
-            record = audit()
-        findings = _findings(record, scheme)
-    return builder.workbook(findings)
+        record = audit()
+    return builder.workbook(_findings(record, scheme) if builder.report and record else None)
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -202,14 +196,13 @@ class _Builder:
         rows: int | None,
         ledger: Ledger,
         typed: Mapping[str, float],
-        written: Sequence[Impact],
     ) -> None:
-        if not 1 <= len(cases) == len(written) <= 2:
+        if not 1 <= len(cases) <= 2:
             raise ValueError(f"a workbook holds one or two cases, not {len(cases)}")
         self.report, self.scheme, self.ledger = len(cases) == 2, scheme, ledger
         slugs = ("low", "high") if self.report else ("case",)
         given = dict(zip(slugs, cases, strict=True))
-        self.written = dict(zip(slugs, written, strict=True))
+        self.written = dict(zip(slugs, REPORT, strict=True)) if self.report else given
         self.pages = {slug: self._page(slug, impact) for slug, impact in self.written.items()}
         blocks = inputs.inputs_of(list(self.pages.values()), self.report)
         self.entries = {entry.name: entry for block in blocks.values() for entry in block}
@@ -247,21 +240,6 @@ class _Builder:
             resistance_given=impact.resistance is not None,
         )
 
-    def _pages(self) -> tuple[list[steps.CaseSheet], list[steps.CaseSheet]]:
-        """What the plan must know of the sheets, those with the coarser step apart."""
-        longer = ["coldspray workbook"]
-        if not self.report:
-            longer += _flags(self.written["case"])
-        if self.scheme != SCHEMES[0]:
-            longer.append(f"--scheme {self.scheme}")
-        longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
-        more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
-        fine, coarse = (
-            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
-            for runs in (self.sheets, self.coarse)
-        )
-        return fine, [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse]
-
     def _all_typed(
         self, cases: Mapping[str, Impact], typed: Mapping[str, float]
     ) -> dict[str, float]:
@@ -279,7 +257,14 @@ class _Builder:
                 number = cases[name.partition("_")[2] or "case"].beta or 0.0
             else:
                 number = typed.get(name, entry.of_report(self.ledger))
-            _require_taken(self.ledger, entry, number)
+            limits = entry.limits
+            if not limits.least <= number <= limits.most:
+                what = entry.meaning or self.ledger.title(entry.source)
+                most = with_unit(f"{limits.most:,.10g}", entry.unit)
+                raise ValueError(
+                    f"the workbook takes {limits.least:,.10g} to {most} for the {what}, "
+                    f"not {number!r}"
+                )
             numbers[name] = number
         return numbers
 
@@ -294,11 +279,18 @@ class _Builder:
 
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
-        cases, coarse = self._pages()
+        longer = ["coldspray workbook", *([] if self.report else _flags(self.written["case"]))]
+        longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
+        longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
+        more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
+        cases, coarse = (
+            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
+            for runs in (self.sheets, self.coarse)
+        )
         plan = workbook_plan(
             self.ledger,
             cases,
-            coarse,
+            [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse],
             findings,
             version=version("coldspray"),
             warning_limits=(COARSE, DEEP),
@@ -341,24 +333,38 @@ class _Builder:
             for what, value in dict(held).items():
                 yield f"{part}.{what}", value
 
-    def _inputs(self) -> dict[str, Any]:
-        held: dict[str, Any] = {"from": "yours", "unusable": 0}
-        changed = 0
+    def _inputs(self) -> Iterator[tuple[str, Any]]:
         for name, entry in self.entries.items():
-            typed, report = self.typed[name], entry.of_report(self.ledger)
-            same = "as inferred" if name == "rho_t" else "the report’s"
-            changed += typed != report
-            held |= {name: self.si[name], f"{name}.typed": typed}
-            held[f"{name}.check"] = same if typed == report else "yours"
-        held["changed"] = changed
-        held["message"] = inputs.MESSAGES["changed" if changed else "same"]
-        held |= {"D_p": self.first.diameter, "M_p": self.first.mass}
-        held["half_step"] = self.first.step / 2 * 1e9
-        held["mean_radius"] = self.si["D_mean"] / 2 * 1e6
+            same = self.typed[name] == entry.of_report(self.ledger)
+            yield name, self.si[name]
+            yield f"{name}.typed", self.typed[name]
+            own = "as inferred" if name == "rho_t" else "the report’s"
+            yield f"{name}.check", own if same else "yours"
+        yield from {
+            "from": "yours",
+            "unusable": 0,
+            "changed": self._changed,
+            "message": inputs.MESSAGES["changed" if self._changed else "same"],
+            "D_p": self.first.diameter,
+            "M_p": self.first.mass,
+            "half_step": self.first.step / 2 * 1e9,
+            "mean_radius": self.si["D_mean"] / 2 * 1e6,
+        }.items()
         for slug, impact in self.impacts.items():
             if impact.resistance is None:
-                held["R_t" if slug == "case" else f"R_t_{slug}"] = impact.target_resistance
-        return held
+                yield self.pages[slug].named("R_t"), impact.target_resistance
+
+    @property
+    def _changed(self) -> int:
+        """How many inputs are not the report's."""
+        return sum(self.typed[n] != e.of_report(self.ledger) for n, e in self.entries.items())
+
+    def _overview(self) -> Iterator[tuple[str, Any]]:
+        yield from {"inputs_changed": self._changed, "inputs_unusable": 0}.items()
+        for slug, sheet in self.sheets.items():
+            yield f"{slug}.depth_um", sheet.final_depth * 1e6
+            yield f"{slug}.normalized_depth", sheet.normalized_depth
+            yield f"{slug}.message", _state(sheet)[1]
 
     def _table(self) -> dict[str, Any]:
         sheet, given = list(self.sheets.values())[-1], _given(self.last)
@@ -371,13 +377,15 @@ class _Builder:
             used = k <= sheet.steps
             held[f"row[{k}].index"] = k if used else ""
             held[f"row[{k}].depth_um"] = sheet.rows[k].depth * 1e6 if used else ""
-        v = impact.velocity
-        kinds = [doubt.kind for doubt in doubts_about(sheet)]
-        exact = depth.normalized_depth(*_materials(impact))
+        trust, message = _state(sheet)
+        v, exact = impact.velocity, depth.normalized_depth(*_materials(impact))
         if impact.resistance is None:
             same = _label(impact) == _label(self.written[slug])
             held |= {"label": _label(impact), "renamed": "" if same else steps.KEPT_NAME}
-        held |= dict.fromkeys(("state", "message"), _message(sheet)) | {
+        return held | {
+            "state": message,
+            "message": message,
+            "trust": trust,
             "stopped": 1,
             "final_depth": sheet.final_depth,
             "depth_um": sheet.final_depth * 1e6,
@@ -391,9 +399,7 @@ class _Builder:
             "exact_depth_um": depth.final_depth(*impact.motion.values()) * 1e6,
             "travel": impact.step * v / impact.radius,
             "over_exact": sheet.normalized_depth / exact,
-            "trust": _trust(kinds),
         }
-        return held
 
     def _figure_3(self) -> Iterator[tuple[str, Any]]:
         """The curves in ns and µm; after the stop they hold the last row."""
@@ -402,7 +408,7 @@ class _Builder:
                 row = sheet.rows[min(k, sheet.steps)]
                 yield f"{slug}.time[{k}]", row.time * 1e9
                 yield f"{slug}.depth[{k}]", row.depth * 1e6
-            yield f"{slug}.message", f"{_label(sheet.impact)}: {_message(sheet)}"
+            yield f"{slug}.message", f"{_label(sheet.impact)}: {_state(sheet)[1]}"
 
     def _figure_5(self) -> Iterator[tuple[str, Any]]:
         low, high = self.si["V_from"], self.si["V_to"]
@@ -421,19 +427,18 @@ class _Builder:
             yield f"step[{k}]", step
             yield f"step_ns[{k}]", step * 1e9
         first = next(iter(self.runs.values()))
-        written = {name: getattr(first, _CASE_INPUTS[name]) for name in figures.RUN_INPUTS}
-        in_use = {name: self.si[name] for name in figures.RUN_INPUTS}
+        pairs = {
+            name: (getattr(first, _CASE_INPUTS[name]), self.si[name]) for name in figures.RUN_INPUTS
+        }
         for slug, impact in self.runs.items():
-            name = "R_t" if slug == "case" else f"R_t_{slug}"
-            written[name] = impact.target_resistance
-            in_use[name] = self.impacts[slug].target_resistance
+            resistances = impact.target_resistance, self.impacts[slug].target_resistance
+            pairs[self.pages[slug].named("R_t")] = resistances
             for what, value in self.levels[slug].items():
                 yield f"{slug}.{what}", value
-        same = {}
-        for name, number in written.items():
-            yield f"run.{name}", number
-            yield f"in_use.{name}", in_use[name]
-            same[name] = abs(number - in_use[name]) * 1e12 <= abs(number)
+        same = {n: abs(run - used) * 1e12 <= abs(run) for n, (run, used) in pairs.items()}
+        for name, (of_run, in_use) in pairs.items():
+            yield f"run.{name}", of_run
+            yield f"in_use.{name}", in_use
             yield f"same.{name}", same[name]
         yield "message", figures.CURRENT if all(same.values()) else figures.STALE
 
@@ -461,97 +466,75 @@ class _Builder:
             "Convergence": f"For {errors}.",
         }
 
-    def _frank_zook(self) -> dict[str, Any]:
-        impact, ratio = self.last, frank_zook.sphere_length_ratio()
-        held: dict[str, Any] = {"length_ratio": ratio}
-        k_1, k_t, v = self.si["k_1"], self.si["k_t"], impact.velocity
-        densities = impact.particle_density, impact.target_density
+    def _frank_zook(self) -> Iterator[tuple[str, Any]]:
+        impact, ratio, k_t = self.last, frank_zook.sphere_length_ratio(), self.si["k_t"]
+        v, target = impact.velocity, impact.target_density
+        yield "length_ratio", ratio
         for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
             r_t = self.si[name]
-            arguments = ratio, *densities, k_1, k_t, r_t, v
-            held |= {
-                f"{which}.resistance": r_t,
-                f"{which}.pressure": k_t * impact.target_density * v * v / r_t,
-                f"{which}.as_printed": frank_zook.depth_as_printed(*arguments),
-                f"{which}.derived": frank_zook.depth_derived(*arguments),
-            }
-        return held
+            arguments = ratio, impact.particle_density, target, self.si["k_1"], k_t, r_t, v
+            yield f"{which}.resistance", r_t
+            yield f"{which}.pressure", k_t * target * v * v / r_t
+            yield f"{which}.as_printed", frank_zook.depth_as_printed(*arguments)
+            yield f"{which}.derived", frank_zook.depth_derived(*arguments)
 
-    def _crater(self) -> dict[str, Any]:
-        impact = self.first
-        third = float(self.ledger.value("observed-third"))
+    def _crater(self) -> Iterator[tuple[str, Any]]:
+        impact, third = self.first, float(self.ledger.value("observed-third"))
         volume = crater.volume(impact.radius)
         contact = crater.contact_diameter(third, impact.diameter)
-        ratios = {"least": self.si["CV_PV"], "line": self.si["CV_PV_line"]}
-        held: dict[str, Any] = {
+        yield from {
             "volume": volume,
             "volume_um3": _cubed(volume),
-            "on_line": ratios["line"] * _cubed(volume),
+            "on_line": self.si["CV_PV_line"] * _cubed(volume),
             "third": third,
             "contact_diameter": contact,
             "contact_diameter_um": contact * 1e6,
-        }
-        for which, ratio in ratios.items():
-            y = crater.depth_from_volume_ratio(ratio)
+        }.items()
+        for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
+            y = crater.depth_from_volume_ratio(self.si[name])
             x = y * impact.radius
             cap = crater.cap_volume(x, impact.radius)
-            held |= {
-                f"{which}.normalized_depth": y,
-                f"{which}.over_diameter": y / 2,
-                f"{which}.depth": x,
-                f"{which}.depth_um": x * 1e6,
-                f"{which}.volume": cap,
-                f"{which}.volume_um3": _cubed(cap),
-                f"{which}.ratio": crater.volume_ratio(y),
-            }
-        sizes = {
-            "smallest": self.si["d_min"],
-            "average": impact.diameter,
-            "largest": self.si["d_max"],
-        }
-        for which, size in sizes.items():
+            yield f"{which}.normalized_depth", y
+            yield f"{which}.over_diameter", y / 2
+            yield f"{which}.depth", x
+            yield f"{which}.depth_um", x * 1e6
+            yield f"{which}.volume", cap
+            yield f"{which}.volume_um3", _cubed(cap)
+            yield f"{which}.ratio", crater.volume_ratio(y)
+        sizes = self.si["d_min"], impact.diameter, self.si["d_max"]
+        for which, size in zip(("smallest", "average", "largest"), sizes, strict=True):
             mass = particle_mass(size / 2, impact.particle_density)
+            yield f"{which}_mass", mass
             velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
-            held |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
-        return held
+            yield f"{which}_velocity", velocity
 
     def _resistance(self) -> dict[str, Any]:
         alpha = resistance.walker_anderson_alpha(self.si["E_t"], self.si["Y_steel"])
-        held: dict[str, Any] = {
+        betas = {
             "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
-            "alpha": alpha,
             "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
             "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
-            "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
         }
-        betas = [held[f"{route}_beta"] for route in ("goodier", "walker_anderson", "brinell")]
-        held |= {"least_beta": min(betas), "greatest_beta": max(betas)}
-        strengths = {w: self.si[f"S_{w}"] / 1e6 for w in ("feathery", "clear", "bulk")}
-        mean = (strengths["feathery"] + strengths["clear"]) / 2
-        held |= strengths | {
+        feathery, clear, bulk = (self.si[f"S_{w}"] / 1e6 for w in ("feathery", "clear", "bulk"))
+        mean = (feathery + clear) / 2
+        held = betas | {
+            "alpha": alpha,
+            "least_beta": min(betas.values()),
+            "greatest_beta": max(betas.values()),
+            "feathery": feathery,
+            "clear": clear,
+            "bulk": bulk,
             "mean_grain": mean,
-            "clear_over_bulk": strengths["clear"] / strengths["bulk"],
-            "grain_over_bulk": mean / strengths["bulk"],
+            "clear_over_bulk": clear / bulk,
+            "grain_over_bulk": mean / bulk,
+            "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
         }
         for slug, impact in self.impacts.items():
             r_t = impact.target_resistance
             stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
-            held |= {
-                f"{slug}.target_resistance": r_t,
-                f"{slug}.centerline_stress": stress,
-                f"{slug}.over_copper": stress / self.si["Y_copper"],
-            }
-        return held
-
-    def _overview(self) -> dict[str, Any]:
-        counts = self._inputs()
-        held = {f"inputs_{what}": counts[what] for what in ("changed", "unusable")}
-        for slug, sheet in self.sheets.items():
-            held |= {
-                f"{slug}.depth_um": sheet.final_depth * 1e6,
-                f"{slug}.normalized_depth": sheet.normalized_depth,
-                f"{slug}.message": _message(sheet),
-            }
+            held[f"{slug}.target_resistance"] = r_t
+            held[f"{slug}.centerline_stress"] = stress
+            held[f"{slug}.over_copper"] = stress / self.si["Y_copper"]
         return held
 
     def _audit(
@@ -566,9 +549,9 @@ class _Builder:
             value = values[plan.cell(place_of(str(claim.entry.workbook))).key]
             held[f"audit.{claim.id}.computed"] = value
             held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
-        counts = Counter(value for key, value in held.items() if key.endswith(".verdict"))
+        verdicts = [value for key, value in held.items() if key.endswith(".verdict")]
         for text, what in audit.KINDS:
-            held |= dict.fromkeys((f"audit.{what}", f"overview.audit_{what}"), float(counts[text]))
+            held[f"audit.{what}"] = held[f"overview.audit_{what}"] = float(verdicts.count(text))
         for name in (*findings.failing, *findings.differing):
             if self.ledger.claims[name].entry.workbook:
                 held[f"overview.{name}"] = held[f"audit.{name}.computed"]
@@ -601,16 +584,6 @@ def _given(impact: Impact) -> dict[str, Any]:
     return impact.motion | {name: getattr(impact, name) for name in names}
 
 
-def _require_taken(ledger: Ledger, entry: inputs.Input, number: float) -> None:
-    limits = entry.limits
-    if not limits.least <= number <= limits.most:
-        what, unit = entry.meaning or ledger.title(entry.source), with_unit("", entry.unit)
-        raise ValueError(
-            f"the workbook takes {limits.least:,.10g} to {limits.most:,.10g}{unit} for the {what}, "
-            f"not {number!r}"
-        )
-
-
 def _materials(impact: Impact) -> tuple[float, float, float, float]:
     return impact.velocity, impact.particle_density, impact.target_density, impact.target_resistance
 
@@ -622,15 +595,12 @@ def _work(impact: Impact) -> dict[str, float]:
     return {"pressure": pressure, "c": 4 * particle / (3 * target) * math.log1p(pressure)}
 
 
-def _trust(kinds: Sequence[str]) -> int:
+def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
-    return 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
-
-
-def _message(sheet: Sheet) -> str:
     kinds = [doubt.kind for doubt in doubts_about(sheet)]
-    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[_trust(kinds)]
-    return state + "".join(steps.DOUBTS[kind] for kind in kinds)
+    trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
+    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[trust]
+    return trust, state + "".join(steps.DOUBTS[kind] for kind in kinds)
 
 
 def _cubed(volume: float) -> float:
@@ -678,14 +648,13 @@ def _verdict(value: Value, interval: Interval) -> str:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
         return lines.NOT_COMPUTED
+    ends = interval.lower, interval.upper
     if interval.is_point:
         # Exact text, such as 2/3, which no double is: to nine digits.
         (exact, _) = interval.ends
         inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
     else:
-        low, high = (
-            None if e is None else Fraction(float(e)) for e in (interval.lower, interval.upper)
-        )
+        low, high = (None if end is None else Fraction(float(end)) for end in ends)
         rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = rounded.contains(Fraction(value))
     return audit.AS_PRINTED if inside else audit.OTHERWISE

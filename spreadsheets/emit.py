@@ -17,9 +17,62 @@ from textwrap import wrap
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, Series, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import check_target, write_bytes
-from spreadsheets.styles import DASHES, STYLES
+
+# How each named style looks: one font, light fills, thin lines (properties as XlsxWriter's)
+
+_INK, _GRAY, _BLUE, _RED = "#000000", "#5A5A5A", "#0000FF", "#B00020"
+_YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
+
+_ARIAL = {"font_name": "Arial", "font_size": 10}
+_TEXT: dict[str, Any] = {**_ARIAL, "font_color": _INK}
+_RIGHT: dict[str, Any] = {"align": "right"}
+_INDENT: dict[str, Any] = {"align": "left", "indent": 1}
+_INPUT: dict[str, Any] = {**_TEXT, "font_color": _BLUE, "border": 1, "border_color": _RULE}
+_HEADING: dict[str, Any] = {**_TEXT, "bold": True, "bg_color": _HEAD, "bottom": 1}
+
+STYLES: dict[str, dict[str, Any]] = {
+    "body": _TEXT,
+    "title": {**_TEXT, "bold": True, "font_size": 14},
+    "headline": {**_TEXT, "bold": True, "font_size": 11},
+    "note": {**_TEXT, "font_color": _GRAY, "italic": True},
+    "head": _HEADING,
+    "head right": {**_HEADING, **_RIGHT},
+    "head unit": {**_HEADING, **_INDENT},
+    "block": {**_TEXT, "bold": True},
+    "text": {**_TEXT, **_INDENT},
+    "unit": {**_TEXT, **_INDENT, "font_color": _GRAY},
+    "unit right": {**_TEXT, **_RIGHT, "font_color": _GRAY, "bottom": 1, "bottom_color": _RULE},
+    "number": {**_TEXT, **_RIGHT},
+    "result": {**_TEXT, **_RIGHT, "bold": True},
+    "message": {**_TEXT, "align": "left", "bold": True},
+    "state": {**_TEXT, **_INDENT, "bold": True},
+    "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
+    "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
+    "printed": {**_TEXT, **_RIGHT, "font_color": _GRAY},
+    "recorded": {**_TEXT, **_RIGHT, "font_color": _GRAY},
+    "link": {**_TEXT, "font_color": "#1F4E9E", "underline": 1},
+    # Styles of a rule change what a cell already has, so they name nothing else.
+    "ruled": {"bottom": 1, "bottom_color": _RULE},
+    "warning": {"font_color": _RED, "bold": True},
+    "changed": {"font_color": "#8A4B00", "bold": True},
+    "good": {"font_color": "#1B6E3C", "bold": True},
+}
+STYLES |= {
+    f"{name} sample": {**STYLES[name], "align": "center"}
+    for name in ("input", "inferred", "number", "printed")
+}
+"""Style name -> properties. "printed" is for what the report prints, "recorded" for other numbers
+that do not follow a change of the inputs; a "sample" looks like its style but holds no value."""
+
+DASHES = (
+    {"color": "#1F4E9E", "dash": "solid", "marker": "circle"},
+    {"color": "#C55A11", "dash": "dash", "marker": "square"},
+)
+"""How the curves of a chart differ, so that they can be told apart without color, too."""
+
+# Values and the file
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
@@ -126,7 +179,10 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     shown = cell_values(plan, values)
     buffer = BytesIO()
-    book = xlsxwriter.Workbook(buffer, {"in_memory": True})
+    # The font of all cells, since column widths are counted in digits of the default one; a copy,
+    # since XlsxWriter writes into it.
+    options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
+    book = xlsxwriter.Workbook(buffer, options)
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
@@ -180,6 +236,8 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.set_footer('&R&"Arial"&10Page &P of &N')
     if sheet.print_area:
         page.print_area(sheet.print_area)
+    if sheet.page_break:
+        page.set_h_pagebreaks([sheet.page_break])
     if sheet.repeated_rows:
         first, last = sheet.repeated_rows
         page.repeat_rows(first - 1, last - 1)
@@ -196,7 +254,8 @@ def _lines(sheet: SheetPlan) -> dict[int, int]:
     lines: dict[int, int] = {}
     for address, cell in sheet.cells.items():
         if cell.wrap:
-            column, row = _split(address)
+            column = address.rstrip("0123456789")
+            row = int(address.removeprefix(column))
             # Letters are narrower than the digits by which widths are counted.
             taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
             lines[row] = max(taken, lines.get(row, 1))
@@ -227,26 +286,15 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         write(*place, value, style)
     else:
         page.write_number(*place, value, style)
-    if cell.limits or cell.choices:
-        page.data_validation(address, _validation(cell))
-
-
-def _validation(cell: Cell) -> dict[str, Any]:
-    """What a spreadsheet program asks of a typed input, and says before and after."""
+    # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
-        return {"validate": "list", "source": list(cell.choices)}
-    assert cell.limits is not None
-    words = f"A number from {cell.limits.least:,.10g} to {cell.limits.most:,.10g}"
-    words = f"{words} {written(cell.unit)}".rstrip() + "."
-    return {
-        "validate": "decimal",
-        "criteria": "between",
-        "minimum": cell.limits.least,
-        "maximum": cell.limits.most,
-        "input_message": words,
-        "error_title": "Out of range",
-        "error_message": words,
-    }
+        page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
+    elif cell.limits:
+        least, most = cell.limits
+        words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
+        asked = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
+        said = {"input_message": words, "error_title": "Out of range", "error_message": words}
+        page.data_validation(address, asked | said)
 
 
 def _absolute(sheet: str, cells: str) -> str:
@@ -255,8 +303,7 @@ def _absolute(sheet: str, cells: str) -> str:
     >>> _absolute("Figure 5", "B5:B25")
     "'Figure 5'!$B$5:$B$25"
     """
-    ends = ("${}${}".format(*_split(cell)) for cell in cells.split(":"))
-    return f"'{sheet}'!{':'.join(ends)}"
+    return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 
 def _exact_worksheet() -> type[Any]:
@@ -301,7 +348,18 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for series, look in zip(chart.series, DASHES, strict=False):
-        drawn.add_series(_series(sheet, series, look, chart))
+        settings = {
+            "name": f"={_absolute(*series.name)}",
+            "categories": f"={_absolute(sheet, series.x)}",
+            "values": f"={_absolute(sheet, series.y)}",
+            "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
+        }
+        first, last = map(int, re.findall(r"\d+", series.x))
+        if chart.logarithmic or last - first < 50:
+            # Few points: show where they are.
+            fill = {"color": look["color"]}
+            settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
+        drawn.add_series(settings)
     drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
     axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
     axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
@@ -310,18 +368,3 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
     page.insert_chart(chart.at, drawn, {"description": chart.description})
-
-
-def _series(sheet: str, series: Series, look: Mapping[str, str], chart: Chart) -> dict[str, Any]:
-    color, (first, _, last) = look["color"], series.x.partition(":")
-    settings = {
-        "name": f"={_absolute(*series.name)}",
-        "categories": f"={_absolute(sheet, series.x)}",
-        "values": f"={_absolute(sheet, series.y)}",
-        "line": {"color": color, "width": 2, "dash_type": look["dash"]},
-    }
-    if chart.logarithmic or _split(last)[1] - _split(first)[1] < 50:
-        # Few points: show where they are.
-        fill = {"color": color}
-        settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
-    return settings

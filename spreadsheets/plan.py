@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
@@ -17,8 +18,7 @@ Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(NamedTuple):
     """The least and the greatest number that may be typed into an input, in its unit."""
 
     least: float
@@ -72,8 +72,7 @@ class Rule:
     style: str
 
 
-@dataclass(frozen=True, slots=True)
-class Series:
+class Series(NamedTuple):
     """One curve: the cell with its name, and the cells of its x and y, such as "A5:A25"."""
 
     name: Place
@@ -104,7 +103,8 @@ class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
     frozen: the first cell that scrolls. repeated_rows: first and last row that head every printed
-    page. print_area: the cells that are printed, all by default. filtered: a table with a filter.
+    page. print_area: the cells printed, all by default. page_break: the last row of page 1.
+    filtered: a table with a filter.
     """
 
     name: str
@@ -115,6 +115,7 @@ class SheetPlan:
     rules: tuple[Rule, ...] = ()
     charts: tuple[Chart, ...] = ()
     print_area: str = ""
+    page_break: int | None = None
     filtered: str = ""
 
 

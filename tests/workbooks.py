@@ -1,16 +1,17 @@
 """What the tests of workbooks share: files read and changed without the program, a false engine."""
 
 import io
+import os
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import pytest
 from openpyxl import load_workbook
 
-from spreadsheets.engines import Engine, EngineError, engine
-from spreadsheets.engines.base import Cell
+from spreadsheets.engines import Cell, Engine, EngineError, engine
 
 
 def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
@@ -34,6 +35,20 @@ def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
             if part := change(name, before.read(name)):
                 after.writestr(name, part)
     return buffer.getvalue()
+
+
+FROM_PIP = ("ironcalc", "formualizer")
+"""Required for the tests, so a missing one fails; the others come from the system."""
+
+
+def usable(name: str) -> Engine:
+    """An engine; skips or fails the test when it is missing."""
+    found = engine(name)
+    if (reason := found.missing()) is None:
+        return found
+    if name in FROM_PIP or os.environ.get("COLDSPRAY_REQUIRE_ENGINES") == "1":
+        pytest.fail(reason)
+    pytest.skip(reason)
 
 
 @dataclass

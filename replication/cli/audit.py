@@ -31,9 +31,6 @@ def run(options: argparse.Namespace) -> int:
 
         shared.print_json(schema())
         return 0
-    from replication.report import files
-
-    files.check(options.out)
     gc.disable()  # to look for garbage would take a twentieth of the time
     try:
         return _audit(options)
@@ -42,9 +39,11 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _audit(options: argparse.Namespace) -> int:
+    from replication.report import render
+
+    render.check(options.out)
     from replication.audit.audit import audit
     from replication.error import hard_cases
-    from replication.report import files
     from replication.workbook import build
 
     record = audit()
@@ -53,7 +52,7 @@ def _audit(options: argparse.Namespace) -> int:
         "workbook.xlsx": build(record=record).to_bytes(),
         "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
     }
-    written = files.write(record, options.out, beside)
+    written = render.write(record, options.out, beside)
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:

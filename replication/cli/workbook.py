@@ -53,34 +53,33 @@ def run(options: argparse.Namespace) -> int:
     own = options.case is not None or options.case_file is not None or shared.given(options)
     cases = [shared.case(options)] if own else workbook.REPORT
     book = workbook.build(cases, options.scheme, options.rows)
-    if not options.verify:
+    said, checks = [f"Written: {options.output}"], []
+    if options.verify:
+        checks = workbook.write_verified(options.output, book, force=options.force)
+        said += ["", _text(checks, book.rounding)]
+    else:
         emit.write(options.output, book.to_bytes(), force=options.force)
-        _say(options, [f"Written: {options.output}"])
-        shared.warn(options, book.warnings)
-        return 0
-    checks = workbook.write_verified(options.output, book, force=options.force)
     passed = all(check.passed for check in checks)
     if options.json:
-        record = [_engine_record(check) for check in checks]
-        bound = {"long_double_bound": book.rounding}
         shared.print_json(
-            {"file": str(options.output), "passed": passed, **bound, "engines": record}
+            {
+                "file": str(options.output),
+                "passed": passed,
+                "long_double_bound": book.rounding,
+                "engines": [_engine_record(check) for check in checks],
+            }
         )
-    else:
-        _say(options, [f"Written: {options.output}", "", _text(checks, book.rounding)])
+    elif not options.quiet:
+        print(*said, sep="\n")
     shared.warn(options, book.warnings)
     return 0 if passed else 1
-
-
-def _say(options: argparse.Namespace, lines: Sequence[str]) -> None:
-    if not options.quiet:
-        print(*lines, sep="\n")
 
 
 # What the engines make of the workbook
 
 
 def _engine_record(check: "EngineCheck") -> dict[str, Any]:
+    keys = ("cell", "expected", "found", "ulps")
     return {
         "engine": check.engine,
         "version": check.version or None,
@@ -91,10 +90,7 @@ def _engine_record(check: "EngineCheck") -> dict[str, Any]:
             {
                 "sheet": sheet.sheet,
                 **sheet.counts,
-                "unexplained": [
-                    {key: getattr(left, key) for key in ("cell", "expected", "found", "ulps")}
-                    for left in sheet.unexplained
-                ],
+                "unexplained": [{k: getattr(d, k) for k in keys} for d in sheet.unexplained],
             }
             for sheet in check.sheets
         ],
@@ -129,13 +125,10 @@ def _engine_lines(check: "EngineCheck") -> Iterator[str]:
         yield from (f"{head}: {check.outcome}", f"  {check.reason}")
         return
     yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
-    counts = [sheet.counts for sheet in check.sheets]
-    whole = {key: sum(count[key] for count in counts) for key in counts[0]}
-    whole["largest_ulps"] = max(count["largest_ulps"] for count in counts)
-    names = [*(sheet.sheet for sheet in check.sheets), "all"]
-    rows = [
-        (name, *map(str, row.values())) for name, row in zip(names, [*counts, whole], strict=True)
-    ]
+    counts = {sheet.sheet: sheet.counts for sheet in check.sheets}
+    whole = {key: sum(of[key] for of in counts.values()) for key in next(iter(counts.values()))}
+    whole["largest_ulps"] = max(of["largest_ulps"] for of in counts.values())
+    rows = [(name, *map(str, of.values())) for name, of in (*counts.items(), ("all", whole))]
     widths = [max(map(len, column)) for column in zip(_HEADS, _UNITS, *rows, strict=True)]
     for name, *numbers in (_HEADS, _UNITS, *rows):
         right = (f"{text:>{width}}" for text, width in zip(numbers, widths[1:], strict=True))

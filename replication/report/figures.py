@@ -6,10 +6,11 @@ and its style attributes are what the page's content policy forbids.
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from itertools import count
 from math import log10
 from typing import NamedTuple
 
-from replication.audit.record import Approach, Effect, Level, Record
+from replication.audit.record import Effect, Level, Record
 from replication.report.facts import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
@@ -32,13 +33,8 @@ class Drawing(NamedTuple):
 
 def draw(record: Record) -> list[Drawing]:
     """Every figure of the record."""
-    return [
-        _comparison(record),
-        _sensitivity(record),
-        _figure_3(record),
-        _figure_5(record),
-        _convergence(record),
-    ]
+    figures = (_comparison, _sensitivity, _figure_3, _figure_5, _convergence)
+    return [figure(record) for figure in figures]
 
 
 def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str]) -> Drawing:
@@ -74,31 +70,31 @@ class _Plot:
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Where a point lies in the figure."""
-        across, up = self._share(x, self.x), self._share(y, self.y)
-        return self.left + across * self.width, self.top + (1 - up) * self.height
 
-    def _share(self, value: float, ends: tuple[float, float]) -> float:
-        low, high = map(log10, ends) if self.logarithmic else ends
-        return ((log10(value) if self.logarithmic else value) - low) / (high - low)
+        def share(value: float, ends: tuple[float, float]) -> float:
+            low, high, here = map(log10, (*ends, value)) if self.logarithmic else (*ends, value)
+            return (here - low) / (high - low)
+
+        down = 1 - share(y, self.y)
+        return self.left + share(x, self.x) * self.width, self.top + down * self.height
 
     def axes(self, x: Iterable[float], y: Iterable[float], x_label: str, y_label: str = "") -> None:
         """Grid, numbers at both axes, and what they are."""
-        bottom, middle = self.top + self.height, self.left + self.width / 2
+        bottom, right = self.top + self.height, self.left + self.width
         for value in x:
             across, _ = self.at(value, self.y[0])
             self.parts.append(_line([(across, self.top), (across, bottom)], INK, 0.15))
             self.parts.append(_text(across, bottom + 16, f"{value:g}", "middle"))
         for value in y:
             _, down = self.at(self.x[0], value)
-            self.parts.append(_line([(self.left, down), (self.left + self.width, down)], INK, 0.15))
+            self.parts.append(_line([(self.left, down), (right, down)], INK, 0.15))
             self.parts.append(_text(self.left - 6, down + 4, f"{value:g}", "end"))
-        self.parts.append(
-            _line([(self.left, self.top), (self.left, bottom), (self.left + self.width, bottom)])
-        )
-        self.parts.append(_text(middle, bottom + 33, x_label, "middle"))
+        self.parts.append(_line([(self.left, self.top), (self.left, bottom), (right, bottom)]))
+        self.parts.append(_text(self.left + self.width / 2, bottom + 33, x_label, "middle"))
         if y_label:
-            turned = f' transform="rotate(-90 12 {_n(self.top + self.height / 2)})"'
-            self.parts.append(_text(12, self.top + self.height / 2, y_label, "middle", turned))
+            middle = self.top + self.height / 2
+            turned = f' transform="rotate(-90 12 {_n(middle)})"'
+            self.parts.append(_text(12, middle, y_label, "middle", turned))
 
     def rows(self, labels: Sequence[str]) -> None:
         """Labels of rows 0, 1, ... at the left; a semicolon begins a second line."""
@@ -116,8 +112,7 @@ class _Plot:
         self.parts += [_mark(kind, color, *self.at(*point)) for point in points]
 
     def bar(self, low: float, high: float, y: float, color: str, height: float) -> None:
-        left, down = self.at(min(low, high), y)
-        right, _ = self.at(max(low, high), y)
+        (left, down), (right, _) = self.at(min(low, high), y), self.at(max(low, high), y)
         self.parts.append(
             f'<rect x="{_n(left)}" y="{_n(down - height / 2)}" width="{_n(right - left)}" '
             f'height="{_n(height)}" fill="{color}"/>'
@@ -148,22 +143,19 @@ def _mark(kind: str, color: str, x: float, y: float) -> str:
     looks = f'fill="{color if filled else "none"}" stroke="{color}"'
     if shape == "circle":
         return f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{r}" {looks}/>'
-    turned = f' transform="rotate(45 {_n(x)} {_n(y)})"' if shape == "diamond" else ""
-    return (
-        f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}{turned}/>'
-    )
+    if shape == "diamond":
+        looks += f' transform="rotate(45 {_n(x)} {_n(y)})"'
+    return f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}/>'
 
 
 def _legend(x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> list[str]:
     """Words below each other, each with its mark (of a kind and a color) or line."""
     parts = []
-    for k, (words, (kind, color)) in enumerate(entries.items()):
-        down = y + 17 * k
-        if kind.endswith("line"):
-            dashes = "5 3" if kind == "dashed line" else ""
-            parts.append(_line([(x - 9, down), (x + 9, down)], color, 1.0, dashes))
-        else:
-            parts.append(_mark(kind, color, x, down))
+    for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
+        dashes = "5 3" if kind == "dashed line" else ""
+        line = kind.endswith("line")
+        sample = [(x - 9, down), (x + 9, down)]
+        parts.append(_line(sample, color, 1.0, dashes) if line else _mark(kind, color, x, down))
         parts.append(_text(x + 15, down + 4, words))
     return parts
 
@@ -176,16 +168,13 @@ def _comparison(record: Record) -> Drawing:
     observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
     shown = [a for a in record.approaches if a.kind != "observed"]
     plot = _Plot((190, 8, 240, 30 * len(shown)), (0, 1.1), (len(shown) - 0.5, -0.5))
-    middle = (len(shown) - 1) / 2
-    plot.bar(min(observed), max(observed), middle, "#8c959f", plot.height)
+    plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, "#8c959f", plot.height)
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
-    names = (a.name.replace(", ", ",; ").replace("beta", "β") for a in shown)
-    plot.rows([f"{a.kind}: {name}" for a, name in zip(shown, names, strict=True)])
+    plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
     for y, a in enumerate(shown):
-        if a.computed is None:
-            plot.marks("hollow diamond", INK, [(float(a.printed), y)])
-        elif a.printed:
-            plot.marks("hollow square", VERMILION, [(float(a.printed), y)])
+        if a.printed:
+            kind = ("hollow diamond", INK) if a.computed is None else ("hollow square", VERMILION)
+            plot.marks(*kind, [(float(a.printed), y)])
         if a.computed is not None:
             plot.marks("circle", BLUE, [(a.computed, y)])
     bottom = plot.top + plot.height
@@ -195,17 +184,16 @@ def _comparison(record: Record) -> Drawing:
         "quoted by the report, not recomputable": ("hollow diamond", INK),
         "observed": ("square", "#8c959f"),
     }
-    words = "; ".join(f"{a.kind}, {a.name}: {_value(a)}" for a in record.approaches)
+    values = []
+    for a in record.approaches:
+        value = f"{a.printed}, quoted by the report and not recomputable"
+        if a.computed is not None:
+            value = f"{a.computed:.3f} computed" + (f", printed {a.printed}" if a.printed else "")
+        values.append(f"{a.kind}, {a.name}: {value}")
+    words = f"{'; '.join(values)}.".replace("beta", "β")
     title = "Normalized depth by every approach of the report"
     parts = plot.parts + _legend(100, bottom + 52, legend)
-    return _drawing("comparison", title, f"{words}.".replace("beta", "β"), int(bottom + 115), parts)
-
-
-def _value(approach: Approach) -> str:
-    if approach.computed is None:
-        return f"{approach.printed}, quoted by the report and not recomputable"
-    printed = f", printed {approach.printed}" if approach.printed else ""
-    return f"{approach.computed:.3f} computed{printed}"
+    return _drawing("comparison", title, words, int(bottom + 115), parts)
 
 
 # What each input does
@@ -214,26 +202,26 @@ def _value(approach: Approach) -> str:
 def _sensitivity(record: Record) -> Drawing:
     """Two panels of bars about the depth as printed, the longest on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
+    at_rest = case.depth * 1e6
     parts, words, top = [], [], 24.0
-    for title, effects in (
-        ("each input ± 10 %", case.ten_percent),
-        ("its own stated range", case.stated),
+    for title, stated, effects in (
+        ("each input ± 10 %", False, case.ten_percent),
+        ("its own stated range", True, case.stated),
     ):
-        effects = sorted(effects, key=_reach, reverse=True)
+        effects = sorted(effects, key=lambda e: -abs(e.depths[1] - e.depths[0]))
         plot = _Plot((140, top, 240, 32 * len(effects)), (5.4, 10.6), (len(effects) - 0.5, -0.5))
         parts.append(_text(260, top - 8, title, "middle"))
-        plot.axes(range(6, 11), [], "" if effects[0] in case.ten_percent else "Depth X [µm]")
-        stated = effects[0] in case.stated
+        plot.axes(range(6, 11), [], "Depth X [µm]" if stated else "")
         plot.rows([_input(e) + f"; {shown_range(e)}" * stated for e in effects])
         for y, effect in enumerate(effects):
             ends = [depth * 1e6 for depth in effect.depths]
             for end, color in zip(ends, (VERMILION, BLUE), strict=True):
-                plot.bar(case.depth * 1e6, end, y, color, 18)
-            changes = [f"{end - case.depth * 1e6:+.3f}".replace("-", "−") for end in ends]
-            for k, change in enumerate(c for c in changes if float(c.replace("−", "-"))):
+                plot.bar(at_rest, end, y, color, 18)
+            changes = [f"{end - at_rest:+.3f}" for end in ends]
+            for k, change in enumerate(change for change in changes if float(change)):
                 _, down = plot.at(5.4, y)
-                parts.append(_text(434, down - 2 + 13 * k, change, "end"))
-        plot.line([(case.depth * 1e6, -0.5), (case.depth * 1e6, len(effects) - 0.5)])
+                parts.append(_text(434, down - 2 + 13 * k, change.replace("-", "−"), "end"))
+        plot.line([(at_rest, -0.5), (at_rest, len(effects) - 0.5)])
         told = (
             f"{_input(e)} {' to '.join(f'{x * 1e6:.2f}' for x in e.depths)} µm" for e in effects
         )
@@ -244,10 +232,6 @@ def _sensitivity(record: Record) -> Drawing:
     parts += [*_legend(150, top + 4, legend), _text(434, 16, "change [µm]", "end")]
     title = f"What each input does to the exact penetration depth, β = {case.beta:g}"
     return _drawing("sensitivity", title, " ".join(words), int(top + 32), parts)
-
-
-def _reach(effect: Effect) -> float:
-    return abs(effect.depths[1] - effect.depths[0])
 
 
 def _input(effect: Effect) -> str:
@@ -261,30 +245,29 @@ def _figure_3(record: Record) -> Drawing:
     """Every eighth row of each sheet as a point, the exact motion as a line."""
     plot = _Plot((44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
-    legend, words = {"exact": ("line", INK)}, []
-    for curve, color, kind in zip(
-        record.curves, (VERMILION, BLUE), ("circle", "square"), strict=True
-    ):
-        exact = _scaled(curve.exact_time, curve.exact_depth)
-        sheet = _scaled(curve.sheet_time, curve.sheet_depth)
+    legend, words, looks = {"exact": ("line", INK)}, [], (("circle", VERMILION), ("square", BLUE))
+    for curve, (kind, color) in zip(record.curves, looks, strict=True):
+        exact, sheet = (
+            [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
+            for times, depths in (
+                (curve.exact_time, curve.exact_depth),
+                (curve.sheet_time, curve.sheet_depth),
+            )
+        )
         plot.line(exact)
         plot.marks(kind, color, sheet[::8])
         legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = (kind, color)
         x, y = plot.at(*exact[-1])
-        end = sheet[-1]
-        plot.parts.append(_text(x + 8, y, f"{end[1]:.4f} µm,"))
+        time, depth = sheet[-1]
+        plot.parts.append(_text(x + 8, y, f"{depth:.4f} µm,"))
         plot.parts.append(_text(x + 8, y + 14, f"printed {curve.printed}"))
         words.append(
-            f"for β = {curve.beta:g} the sheet stops at {end[1]:.4f} µm after {end[0]:.1f} ns "
+            f"for β = {curve.beta:g} the sheet stops at {depth:.4f} µm after {time:.1f} ns "
             f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
         )
     told = f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
     title = "Penetration depth against time, as in Figure 3 of the report"
     return _drawing("figure-3", title, told, 310, plot.parts + _legend(205, 205, legend))
-
-
-def _scaled(times: Sequence[float], depths: Sequence[float]) -> list[tuple[float, float]]:
-    return [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
 
 
 def _figure_5(record: Record) -> Drawing:
@@ -316,11 +299,6 @@ def _figure_5(record: Record) -> Drawing:
 
 # The sheet's error against its time step
 
-_SCHEMES = {
-    "published": ("initial", VERMILION, "circle"),
-    "centered": ("middle", BLUE, "square"),
-}
-
 
 def _convergence(record: Record) -> Drawing:
     """The error of the final depth over the time step, both axes logarithmic."""
@@ -330,10 +308,11 @@ def _convergence(record: Record) -> Drawing:
     plot = _Plot((44, 8, 386, 260), (0.04, 4), (0.01, 300), logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
-    legend, words = {}, []
+    looks = {"published": ("initial", VERMILION, "circle"), "centered": ("middle", BLUE, "square")}
+    legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
     for (scheme, beta), levels in ladders.items():
-        velocity, color, shape = _SCHEMES[scheme]
-        kind = shape if beta == max(level.beta for level in record.ladders) else f"hollow {shape}"
+        velocity, color, shape = looks[scheme]
+        kind = shape if beta == greatest else f"hollow {shape}"
         points = [(level.step * 1e9, abs(level.error) * 1e9) for level in levels]
         plot.line(points, color)
         plot.marks(kind, color, points)

@@ -1,26 +1,91 @@
-"""The record as a page and as Markdown: one arrangement, two templates."""
+"""The record as the audit's folder: page, Markdown, JSON, CSV and figures, written all or none."""
 
+import csv
+import io
 import re
 from base64 import b64encode
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib import resources
+from pathlib import Path
 from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
 from replication.audit.wording import quantity
+from replication.plain import json_text
 from replication.power import measured
 from replication.report import facts as told
-from replication.report import tables
-from replication.report.figures import Drawing
+from replication.report.figures import Drawing, draw
 from replication.report.prose import Prose, quoted
 from replication.text import number
+from spreadsheets.safely import check_folder, write_folder
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+
+def check(folder: Path) -> None:
+    """Raise OSError, naming the path, where the audit's files could not be written."""
+    names = ("audit.html", "audit.md", "audit.json", "audit.csv", "workbook.xlsx", "figures/x.svg")
+    check_folder(folder, names)
+
+
+def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Write the record, and the files `beside` it by name, into a folder that is made if needed.
+
+    All or none. Returns what was written. Raises OSError, naming the file.
+    """
+    files = contents(record, beside)
+    write_folder(folder, files)
+    return files
+
+
+def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Every file of the folder by its name; the record names the hashes of those beside it."""
+    hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
+    provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
+    record = msgspec.structs.replace(record, provenance=provenance)
+    drawings = draw(record)
+    texts = {
+        "audit.html": page(record, drawings),
+        "audit.md": markdown(record),
+        "audit.csv": _csv(record),
+        **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
+    }
+    files = {name: text.encode() for name, text in texts.items()}
+    return {**beside, **files, "audit.json": json_text(record).encode()}
+
+
+_COLUMNS = (
+    "id", "where", "printed", "unit", "kind", "interval_lower", "interval_upper", "computed",
+    "enclosure_lower", "enclosure_upper", "verdict", "error_in_last_digit", "title", "explanation",
+    "holds", "restates",
+)  # fmt: skip
+
+
+def _csv(record: Record) -> str:
+    """A line for each claim; what does not apply is empty."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    writer.writerows([_cell(claim, column) for column in _COLUMNS] for claim in record.claims)
+    return buffer.getvalue()
+
+
+def _cell(claim: ClaimRecord, column: str) -> Any:
+    name, _, end = column.rpartition("_")
+    if end in ("lower", "upper"):
+        ends = getattr(claim, name)
+        return ends and ends[end == "upper"]
+    return getattr(claim, column)
+
+
+# Page and Markdown: one arrangement, two templates
 
 SECTIONS = {
     "summary": "Summary",
@@ -101,13 +166,13 @@ def _context(record: Record) -> dict[str, Any]:
         "inferred": _inferred(record),
         "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
-        "tables": tables,
+        "tables": told,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": _touching(record),
         "sources": _sources(record),
         "table": _table_a_1(groups["table-a-1"]),
         "power": power,
-        "rates": tables.Table("Rates in percent", power.table()[0], power.table()[1:]),
+        "rates": told.Table("Rates in percent", power.table()[0], power.table()[1:]),
     }
 
 
@@ -157,7 +222,7 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
-        "proven": tables.proven(cells),
+        "proven": told.proven(cells),
     }
 
 

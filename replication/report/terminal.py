@@ -13,7 +13,6 @@ from replication.audit.wording import quantity
 from replication.report import facts as told
 from replication.report.prose import Named, Prose
 from replication.report.render import counted, environment
-from replication.report.tables import Table, failing, tried
 from replication.text import number
 
 MAIN = (
@@ -41,13 +40,13 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         record=record,
         counted=counted(record),
         verdicts=told.VERDICTS,
-        failing=_by_title(record, failing(record)),
-        main=Table("Main results", ("number", "printed", "computed", "verdict"), rows),
+        failing=_by_title(record, told.failing(record)),
+        main=told.Table("Main results", ("number", "printed", "computed", "verdict"), rows),
         shown=FINDINGS,
     )
 
 
-def _by_title(record: Record, table: Table) -> Table:
+def _by_title(record: Record, table: told.Table) -> told.Table:
     """The table with claims by their titles alone."""
     rows = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in table.rows]
     return table._replace(rows=rows)
@@ -70,7 +69,7 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
         claim=claim,
         printed=told.printed,
         facts=told.facts(claim, names),
-        tables=tried(claim),
+        tables=told.tried(claim),
         findings=[
             finding.title
             for finding in load().values()

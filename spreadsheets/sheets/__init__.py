@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import SheetPlan, WorkbookPlan, place_of
+from spreadsheets.plan import WorkbookPlan, place_of
 from spreadsheets.sheets import audit, figures, inputs, models, overview, steps, table_a1
 from spreadsheets.sheets.audit import Findings
 from spreadsheets.sheets.steps import CaseSheet
@@ -26,50 +26,34 @@ def workbook_plan(
     warning_limits: see `inputs.sheet`. shown: sheet -> what its chart shows as written, in words.
     Raises ValueError where the ledger has a claim computed by a cell that is none.
     """
-    report = findings is not None
-    table = table_a1.sheet(ledger, cases[-1], report)
-    sheets = [
-        (
-            inputs.sheet(ledger, cases, report, warning_limits),
-            "Every physical number: yours and the report’s, unit, check, limits, name",
-        ),
-        (table, "The five rows that the report’s appendix prints, cell for cell"),
-    ]
-    if report:
-        check = "Printed, computed in full, and the difference in the last digit"
-        sheets.append((table_a1.check_sheet(ledger, table), check))
-    for case in (*cases, *coarse):
-        what = "All rows of the scheme down to the stop, and its final depth (appendix)"
-        again = "The same with the coarser time step, and what that changes (section 3)"
-        sheets.append((steps.sheet(ledger, case), again if case.coarse else what))
+    report, last = findings is not None, cases[-1]
+    table = table_a1.sheet(ledger, last, report)
+    sheets = [inputs.sheet(ledger, cases, report, warning_limits), table]
+    sheets += [table_a1.check_sheet(ledger, table)] if report else []
+    sheets += [steps.sheet(ledger, case) for case in (*cases, *coarse)]
     sheets += [
-        (figures.figure_3(cases, shown["Figure 3"]), "Depth against time, with its chart"),
-        (
-            figures.figure_5(cases[-1], shown["Figure 5"]),
-            "Normalized depth against velocity, with its chart (section 4)",
-        ),
-        (
-            figures.convergence(cases, shown["Convergence"]),
-            "Final depth at eight time steps against the depth at rest, with its chart",
-        ),
-        (models.frank_zook(ledger), "Eq. 16 as printed and as derived (Eqs. 14 to 17)"),
-        (
-            models.crater(ledger),
-            "Section 2: crater volume, depth and contact diameter; particle velocities",
-        ),
-        (
-            models.resistance(ledger, cases),
-            "β by three routes, grain strengths, centerline stress, strain rate",
-        ),
+        figures.figure_3(cases, shown["Figure 3"]),
+        figures.figure_5(last, shown["Figure 5"]),
+        figures.convergence(cases, shown["Convergence"]),
+        models.frank_zook(ledger),
+        models.crater(ledger),
+        models.resistance(ledger, cases),
     ]
     if findings is not None:
-        everything = "Every printed number: what prints like it, computed value, verdict, its cell"
-        sheets.append((audit.sheet(ledger, findings), everything))
-        _require_cells(ledger, [sheet for sheet, _ in sheets])
-    described = {sheet.name: what for sheet, what in sheets}
-    first = overview.sheet(ledger, cases, described, version, findings)
+        sheets.append(audit.sheet(ledger, findings))
+        cells = {sheet.name: sheet.cells for sheet in sheets}
+        for claim in audit.computed_claims(ledger):
+            name, address = place_of(str(claim.entry.workbook))
+            cell = cells.get(name, {}).get(address)
+            if cell is None or not cell.formula:
+                raise ValueError(
+                    f"claim {claim.id!r}: the workbook computes nothing in {name}!{address}"
+                )
+    said = {sheet.name: _SAID.get(sheet.name, "") for sheet in sheets}
+    said |= {case.name: _SHEET for case in cases} | {case.name: _COARSE for case in coarse}
+    first = overview.sheet(ledger, cases, said, version, findings)
     return WorkbookPlan(
-        sheets=(first, *(sheet for sheet, _ in sheets)),
+        sheets=(first, *sheets),
         title=f"{ledger.report.title}: the model as a workbook",
         properties={
             "author": f"coldspray {version}",
@@ -82,13 +66,18 @@ def workbook_plan(
     )
 
 
-def _require_cells(ledger: Ledger, sheets: Sequence[SheetPlan]) -> None:
-    """Raise ValueError unless every claim's cell is one that is computed."""
-    cells = {sheet.name: sheet.cells for sheet in sheets}
-    for claim in audit.computed_claims(ledger):
-        sheet, address = place_of(str(claim.entry.workbook))
-        cell = cells.get(sheet, {}).get(address)
-        if cell is None or not cell.formula:
-            raise ValueError(
-                f"claim {claim.id!r}: the workbook computes nothing in {sheet}!{address}"
-            )
+_SAID = {
+    "Inputs": "Every physical number: yours and the report’s, unit, check, limits, name",
+    "Table A-1": "The five rows that the report’s appendix prints, cell for cell",
+    "Table A-1 check": "Printed, computed in full, and the difference in the last digit",
+    "Figure 3": "Depth against time, with its chart",
+    "Figure 5": "Normalized depth against velocity, with its chart (section 4)",
+    "Convergence": "Final depth at eight time steps against the depth at rest, with its chart",
+    "Frank-Zook": "Eq. 16 as printed and as derived (Eqs. 14 to 17)",
+    "Crater": "Section 2: crater volume, depth and contact diameter; particle velocities",
+    "Resistance": "β by three routes, grain strengths, centerline stress, strain rate",
+    "Audit": "Every printed number: what prints like it, computed value, verdict, its cell",
+}
+_SHEET = "All rows of the scheme down to the stop, and its final depth (appendix)"
+_COARSE = "The same with the coarser time step, and what that changes (section 3)"
+"""What each sheet shows, for the first of them; those of the cases apart."""

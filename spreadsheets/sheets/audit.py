@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from reference.ledger import Claim, Ledger
 from spreadsheets.plan import Cell, SheetPlan, place_of
@@ -45,7 +44,7 @@ _HEADS = (
     "To", "Where", "Computed in", "Explanation",
 )  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKL"
-_WIDTHS = (27.0, 36.0, 15.0, 8.0, 13.0, 15.0, 25.0, 12.0, 12.0, 34.0, 20.0, 60.0)
+_WIDTHS = (24.0, 50.0, 15.0, 8.0, 13.0, 14.0, 25.0, 11.0, 11.0, 34.0, 20.0, 60.0)
 _HEAD_ROW = 11
 
 
@@ -65,11 +64,14 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
         "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
         width=150,
     )
-    cells |= _counts(first, last)
+    cells["A6"] = text("Live verdicts", "block")
+    for row, (words, what) in enumerate(KINDS, start=7):
+        count = f'=COUNTIF(F{first}:F{last},"{words}")'
+        cells[f"A{row}"] = text(words, "text")
+        cells[f"B{row}"] = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
     cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CEHI")
     for row, claim in enumerate(ledger.claims.values(), start=first):
-        live = _live(claim, row) if claim.entry.workbook else {"F": text("–", "text")}
-        cells |= row_of(row, _claim(ledger, claim, findings) | live)
+        cells |= row_of(row, _row(ledger, claim, findings, row))
     return SheetPlan(
         name="Audit",
         cells=cells,
@@ -85,17 +87,9 @@ def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
     )
 
 
-def _counts(first: int, last: int) -> dict[str, Cell]:
-    cells = {"A6": text("Live verdicts", "block")}
-    for row, (words, what) in enumerate(KINDS, start=7):
-        cells[f"A{row}"] = text(words, "text")
-        count = f'=COUNTIF(F{first}:F{last},"{words}")'
-        cells[f"B{row}"] = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
-    return cells
-
-
-def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
-    return {
+def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
+    """A claim, and where a cell computes it the live verdict with the ends of what prints so."""
+    cells = {
         "A": text(claim.id),
         "B": text(claim.title, wrap=True),
         "C": printed(ledger, claim.id, claim.unit, wrap=True),
@@ -104,32 +98,25 @@ def _claim(ledger: Ledger, claim: Claim, findings: Findings) -> dict[str, Cell]:
         "J": text(str(claim.place), "unit"),
         "L": text(findings.explanations[claim.id], "unit"),
     }
-
-
-def _live(claim: Claim, row: int) -> dict[str, Cell]:
-    """The computed value, the ends of what prints like the text, and the verdict, by column."""
-    assert claim.entry.workbook
-    place, interval = place_of(claim.entry.workbook), claim.interval()
-    key, shown = f"audit.{claim.id}", _format(claim)
-    cells = {
-        column: Cell(number=float(end), style="recorded", number_format=shown, claim=claim.id)
-        for column, end in (("H", interval.lower), ("I", interval.upper))
-        if end is not None
-    }
-    # It may hand on a value that is transcendental.
-    there = "='{}'!{}".format(*place)
-    more: dict[str, Any] = {"unit": claim.unit, "transcendental": True}
+    if not claim.entry.workbook:
+        return cells | {"F": text("–", "text")}
+    # Fixed decimals for most, powers of ten where those would be long.
+    size = 0 if claim.printed is None else abs(claim.printed.value)
+    shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
+    key, place, interval = f"audit.{claim.id}", place_of(claim.entry.workbook), claim.interval()
+    for column, end in (("H", interval.lower), ("I", interval.upper)):
+        if end is not None:
+            cells[column] = Cell(
+                number=float(end), style="recorded", number_format=shown, claim=claim.id
+            )
     return cells | {
-        "E": formula(f"{key}.computed", there, number_format=shown, **more),
+        "E": formula(
+            f"{key}.computed", "='{}'!{}".format(*place), number_format=shown, unit=claim.unit,
+            transcendental=True,  # it may hand on a value that is
+        ),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
         "K": text(claim.entry.workbook, "link", link=place),
-    }
-
-
-def _format(claim: Claim) -> str:
-    """Fixed decimals for most, powers of ten where those would be long."""
-    size = 0 if claim.printed is None else abs(claim.printed.value)
-    return "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
+    }  # fmt: skip
 
 
 def _inside(claim: Claim, row: int) -> str:

@@ -33,10 +33,23 @@ def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
     said = "After the stop the columns hold the last row, so that each cell has a number to draw."
     cells["P2"] = text(said, "note")
     for at, (columns, case) in enumerate(zip(("PQ", "RS"), cases, strict=False), start=3):
+        key = f"figure_3.{case.slug}"
         message = f"='{case.name}'!I1&\": \"&{case.result('message')}"
-        cells[f"A{at}"] = formula(f"figure_3.{case.slug}.message", message, "message")
+        cells[f"A{at}"] = formula(f"{key}.message", message, "message")
         rules += case.rules(f"A{at}")
-        cells |= _curve(case, columns, first)
+        cells[f"{columns[0]}{first - 3}"] = text(case.name, "block")
+        cells |= _heads(first - 2, columns, ("Time", "Depth"), ("ns", "µm"))
+        for k in range(case.rows + 1):
+            there = f"'{case.name}'!{{}}{FIRST_ROW + k}"
+            for column, what, source, shown, like in (
+                (columns[0], "time", f"{there.format('B')}*1000000000", "0.00", ""),
+                (columns[1], "depth", there.format("G"), "0.0000", f"{case.part}.depth_um"),
+            ):
+                before = f"{column}{first + k - 1}" if k else "0"
+                running = f"=IF(ISNUMBER({there.format('A')}),{source},{before})"
+                cells[f"{column}{first + k}"] = formula(
+                    f"{key}.{what}[{k}]", running, number_format=shown, column=like
+                )
         x, y = (f"{column}{first}:{column}{first + case.rows}" for column in columns)
         series.append(Series((case.name, "I1"), x, y))
     chart = Chart(
@@ -56,24 +69,6 @@ def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         charts=(chart,),
         print_area=f"A1:N{5 + _CHART_ROWS}",
     )
-
-
-def _curve(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
-    cells = {f"{columns[0]}{first - 3}": text(case.name, "block")}
-    cells |= _heads(first - 2, columns, ("Time", "Depth"), ("ns", "µm"))
-    for k in range(case.rows + 1):
-        there = f"'{case.name}'!{{}}{FIRST_ROW + k}"
-        running = f"ISNUMBER({there.format('A')})"
-        sources = f"{there.format('B')}*1000000000", there.format("G")
-        for column, what, source in zip(columns, ("time", "depth"), sources, strict=True):
-            before = f"{column}{first + k - 1}" if k else "0"
-            cells[f"{column}{first + k}"] = formula(
-                f"figure_3.{case.slug}.{what}[{k}]",
-                f"=IF({running},{source},{before})",
-                number_format="0.00" if what == "time" else "0.0000",
-                column=f"{case.part}.depth_um" if what == "depth" else "",
-            )
-    return cells
 
 
 POINTS = 21
@@ -96,8 +91,22 @@ def figure_5(case: CaseSheet, written: str) -> SheetPlan:
     cells["A3"] = formula("figure_5.message", message, "message")
     words, units = ("Point", "Velocity", "p", "c", "X/R", "X"), ("", "m/s", "–", "–", "–", "µm")
     cells |= _heads(first - 2, "PQRSTU", words, units)
-    for point in range(POINTS):
-        cells |= _point(point, first + point, last, case)
+    for point, row in enumerate(range(first, last + 1)):
+        c, depth = rest_depth(f"R{row}", f"S{row}")
+        cells[f"P{row}"] = Cell(number=float(point), style="number")
+        for column, what, expression in (
+            ("Q", "velocity", f"=V_from+(V_to-V_from)*P{row}/P{last}"),
+            ("R", "pressure", f"=rho_t*Q{row}*Q{row}/2/{case.named('R_t')}"),
+            ("S", "c", c),
+            ("T", "normalized_depth", depth),
+            ("U", "depth_um", f"=T{row}*R_p*1000000"),
+        ):
+            cells[f"{column}{row}"] = formula(
+                f"figure_5.{what}[{point}]",
+                guarded(expression),
+                number_format="General" if column == "Q" else "0.0000",
+                transcendental=column in "STU",
+            )
     chart = Chart(
         at="A7",
         title="Normalized penetration depth against impact velocity",
@@ -118,26 +127,6 @@ def figure_5(case: CaseSheet, written: str) -> SheetPlan:
 
 
 COMPLETE = "All points are computed."
-
-
-def _point(point: int, row: int, last: int, case: CaseSheet) -> dict[str, Cell]:
-    c, depth = rest_depth(f"R{row}", f"S{row}")
-    formulas = {
-        "Q": ("velocity", f"=V_from+(V_to-V_from)*P{row}/P{last}"),
-        "R": ("pressure", f"=rho_t*Q{row}*Q{row}/2/{case.named('R_t')}"),
-        "S": ("c", c),
-        "T": ("normalized_depth", depth),
-        "U": ("depth_um", f"=T{row}*R_p*1000000"),
-    }
-    cells = {f"P{row}": Cell(number=float(point), style="number")}
-    for column, (what, expression) in formulas.items():
-        cells[f"{column}{row}"] = formula(
-            f"figure_5.{what}[{point}]",
-            guarded(expression),
-            number_format="General" if column == "Q" else "0.0000",
-            transcendental=column in "STU",
-        )
-    return cells
 
 
 LEVELS = 8
@@ -173,7 +162,7 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
     cells |= _heads(first - 2, "AB", ("Time step", "Time step"), ("s", "ns"))
     for k, row in enumerate(range(first, last + 1)):
         key = f"convergence.step[{k}]"
-        cells[f"A{row}"] = Cell(key=key, style="recorded", number_format="0.00E+00")
+        cells[f"A{row}"] = _recorded(key, "0.00E+00")
         cells[f"B{row}"] = formula(
             f"convergence.step_ns[{k}]", f"=A{row}*1000000000", number_format="0.0000"
         )
@@ -203,23 +192,25 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         rules=(Rule(cells="A3", formula=f'=$A$3="{STALE}"', style="warning"),),
         charts=(chart,),
         print_area=f"A1:L{last + 4 + _CHART_ROWS}",
+        page_break=last + 2,
     )
 
 
 def _levels(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
-    """The ladder of one case; all but the order was computed when the workbook was written."""
+    """The ladder of one case; all but the order was computed when the workbook was written.
+
+    The error, too: it is small beside the depths, and a program of long doubles reads those anew.
+    """
     part, error = f"convergence.{case.slug}", columns[2]
     words = ("Steps", "Final depth", "Error", "|Error|", "Order")
     cells = _heads(first - 2, columns, words, ("", "µm", "µm", "µm", "–"))
     cells[f"{columns[0]}{first - 3}"] = text(f"{case.name}, {case.label}", "block")
-    cells[f"{columns[1]}{first + LEVELS}"] = Cell(
-        key=f"{part}.rest_um", style="recorded", number_format="0.000000"
-    )
+    cells[f"{columns[1]}{first + LEVELS}"] = _recorded(f"{part}.rest_um", "0.000000")
     for k, row in enumerate(range(first, first + LEVELS)):
-        for column, what, shown in zip(columns, _LADDER, _LADDER.values(), strict=True):
+        for column, (what, shown) in zip(columns, _LADDER.items(), strict=True):
             key = f"{part}.{what}[{k}]"
             if what != "order":
-                cells[f"{column}{row}"] = Cell(key=key, style="recorded", number_format=shown)
+                cells[f"{column}{row}"] = _recorded(key, shown)
             elif k:
                 order = f"LN({error}{row - 1}/{error}{row})/LN(A{row - 1}/A{row})"
                 order = f'=IFERROR({order},"{NO_ORDER}")'
@@ -227,6 +218,11 @@ def _levels(case: CaseSheet, columns: str, first: int) -> dict[str, Cell]:
                     key, order, number_format=shown, transcendental=True
                 )
     return cells
+
+
+def _recorded(key: str, shown: str) -> Cell:
+    """A number that was computed when the workbook was written."""
+    return Cell(key=key, style="recorded", number_format=shown)
 
 
 def _same_inputs(names: Sequence[str], row: int) -> dict[str, Cell]:
@@ -237,9 +233,8 @@ def _same_inputs(names: Sequence[str], row: int) -> dict[str, Cell]:
         # To twelve digits: programs round a conversion of units in their own way.
         same = f"=IF(ABS(J{at}-K{at})*1000000000000<=ABS(J{at}),1,0)"
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
-        key = f"convergence.run.{name}"
         cells[f"I{at}"] = text(name, "text")
-        cells[f"J{at}"] = Cell(key=key, style="recorded", number_format=shown)
+        cells[f"J{at}"] = _recorded(f"convergence.run.{name}", shown)
         cells[f"K{at}"] = formula(f"convergence.in_use.{name}", f"={name}", number_format=shown)
         cells[f"L{at}"] = formula(
             f"convergence.same.{name}", same, "text", number_format='"same";;"other"'

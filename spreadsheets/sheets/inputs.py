@@ -54,18 +54,13 @@ class Input:
     symbol: str
     source: str
     unit: str = "1"
-    least: float | None = None
-    most: float | None = None
+    own_limits: Limits | None = None
     meaning: str = ""
 
     @property
     def limits(self) -> Limits:
-        """The limits of its unit, or narrower or wider ones of its own."""
-        usual = LIMITS[self.unit]
-        return Limits(
-            usual.least if self.least is None else self.least,
-            usual.most if self.most is None else self.most,
-        )
+        """Its own limits, or those of its unit."""
+        return self.own_limits or LIMITS[self.unit]
 
     def of_report(self, ledger: Ledger) -> float:
         """The report's number in this unit.
@@ -80,6 +75,9 @@ class Input:
 COARSE = "dt_coarse"
 """The input that only the report's own workbook has."""
 
+_CAP = Limits(1e-4, 0.5)
+"""A crater of at most half a sphere."""
+
 _BLOCKS = {
     "Impact": (
         Input("V_impact", "V", "a1-initial-velocity", "m/s"),
@@ -87,7 +85,7 @@ _BLOCKS = {
         Input("rho_p", "ρ_p", "a1-density", "kg/m^3"),
         Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3"),
         Input("dt_s", "Δt", "a-step", "ns"),
-        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", least=0.0),
+        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", Limits(0.0, 1e6)),
         Input(COARSE, "Δt", "coarse-step", "ns"),
     ),
     "Target resistance": (Input("Y_t", "Y_t", "flow-stress", "MPa"),),
@@ -96,8 +94,8 @@ _BLOCKS = {
         Input("V_to", "V", "figure-5-velocity-greatest", "m/s"),
     ),
     "Craters and particles": (
-        Input("CV_PV", "CV/PV", "volume-ratio", most=0.5),
-        Input("CV_PV_line", "CV/PV", "volume-ratio-line", most=0.5),
+        Input("CV_PV", "CV/PV", "volume-ratio", own_limits=_CAP),
+        Input("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_CAP),
         Input("D_mean", "D", "mean-diameter", "um"),
         Input("d_min", "d", "particle-size-least", "um"),
         Input("d_max", "d", "particle-size-greatest", "um"),
@@ -117,8 +115,8 @@ _BLOCKS = {
     "Frank and Zook": (
         Input("k_1", "k_1", "fz-k1"),
         Input("k_t", "k_t", "fz-kt"),
-        Input("R_t_RHA", "R_t", "fz-resistance-rha", "Pa"),
-        Input("R_t_lower", "R_t", "fz-resistance-stainless", "Pa"),
+        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
+        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
     ),
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
@@ -129,7 +127,7 @@ _HEADS = (
     "It prints", "Where", "Least", "Greatest", "Name",
 )  # fmt: skip
 _COLUMNS = "ABCDEFGHIJKLM"
-_WIDTHS = (8.0, 42.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
+_WIDTHS = (9.0, 50.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
 _HEAD_ROW = 9
 _SCIENTIFIC = "0.0####E+00"
 
@@ -239,9 +237,8 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     taken = f'=IF(inputs_from="{REPORT}",{own}{factor},IF(ISNUMBER({typed}),{taken},{none}))'
     good = f'IF(inputs_from="{REPORT}","{same}",IF({typed}={own},"{same}","{_YOURS}"))'
     bad = f'IF(ISNUMBER({typed}),IF({typed}<{least},"{_BAD[0]}","{_BAD[1]}"),"{_BAD[2]}")'
-    style = "inferred" if inferred else "input"
-    shown = _SCIENTIFIC if factor else "General"
-    si = _si(entry.unit)
+    style, shown = "inferred" if inferred else "input", _SCIENTIFIC if factor else "General"
+    si = _SI.get(entry.unit, entry.unit)
     cells = {
         "A": text(entry.symbol, "text"),
         "B": text(entry.meaning or ledger.title(entry.source)),
@@ -265,9 +262,8 @@ def _as_printed(ledger: Ledger, claim: str, unit: str) -> dict[str, Cell]:
     return {"I": printed(ledger, claim, unit), "J": text(place, "unit")}
 
 
-def _si(unit: str) -> str:
-    """The SI unit in which a value is in use."""
-    return {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}.get(unit, unit)
+_SI = {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}
+"""The unit in which a value is in use, where it is not that in which it is typed."""
 
 
 def _factor(unit: str) -> str:
@@ -276,33 +272,29 @@ def _factor(unit: str) -> str:
     >>> _factor("ns"), _factor("MPa"), _factor("m/s")
     ('/1000000000', '*1000000', '')
     """
-    if unit == "ksi":
-        return "*ksi_Pa"
-    factor = to_si(unit)
-    if factor == 1:
+    if unit not in _SI:
         return ""
-    return f"*{factor}" if factor > 1 else f"/{1 / factor}"
+    factor = to_si(unit)
+    return "*ksi_Pa" if unit == "ksi" else f"*{factor}" if factor > 1 else f"/{1 / factor}"
 
 
 def _derived(ledger: Ledger, cases: Sequence[CaseSheet]) -> Iterator[dict[str, Cell]]:
-    """Name, symbol, meaning, formula, unit and claim of what follows; no name, no use elsewhere."""
+    """The rows of what follows from the inputs; what is not in SI units is used nowhere else."""
     rows = [
         ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
         ("M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", "a1-mass"),
-    ]
-    if not cases[0].resistance_given:
-        rows += [
+        *(
             (case.named("R_t"), "R_t", f"target resistance, {case.name}",
              f"={case.named('beta')}*Y_t", "Pa", "a1-resistance" if case.slug == "high" else "")
             for case in cases
-        ]  # fmt: skip
-    rows += [
+            if not case.resistance_given
+        ),
         ("half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns", "a-half-step"),
         ("mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
          "particle-radius"),
     ]  # fmt: skip
     for name, symbol, meaning, expression, unit, claim in rows:
-        in_si = unit not in ("ns", "um")
+        in_si = unit not in _SI
         value = formula(
             f"inputs.{name}", guarded(expression), unit=unit, name=name if in_si else "",
             number_format=_SCIENTIFIC if in_si else "General",

@@ -112,8 +112,9 @@ def log1p(x: str) -> str:
 class Line:
     """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
 
-    The formula calls other lines of the same table by their `id` in braces; `guard`: see `guarded`.
-    claim: where the report prints the value. shown: the number format. Others: as in `Cell`.
+    The key is that within its sheet: "rha.derived". The formula calls other lines of its table by
+    their `id` in braces; `guard`: see `guarded`. claim: where the report prints the value. shown:
+    the number format. Others: as in `Cell`.
     """
 
     key: str
@@ -126,69 +127,71 @@ class Line:
     shown: str = "0.0000"
     style: str = "number"
     name: str = ""
-    transcendental: bool = False
     column: str = ""
     guard: bool = True
 
     @property
     def id(self) -> str:
-        """The key without its sheet: "frank_zook.rha.derived" is called {rha_derived}."""
-        return self.key.partition(".")[2].replace(".", "_")
+        """What formulas call it: "rha.derived" is {rha_derived}."""
+        return self.key.replace(".", "_")
 
 
 def place(
-    ledger: Ledger, lines: Sequence[Line | str], row: int, columns: str = "ABCDEF"
+    ledger: Ledger, part: str, lines: Sequence[Line | str], row: int, columns: str = "ABCDEF"
 ) -> dict[str, Cell]:
     """A table with its heads in `row`; a plain string heads a block, after a blank row.
 
-    `columns` names the six columns taken: symbol, meaning, value, unit, printed text, source.
+    part: what its keys begin with. columns: of symbol, meaning, value, unit, printed text, source.
+    A line is transcendental that calls such a function or such a line above it.
     """
     words = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
     cells = heads(row, columns, words, columns[2] + columns[4])
     rows: dict[int, Line | str] = {}
-    at = row
     for line in lines:
-        at += 2 if isinstance(line, str) and rows else 1
-        rows[at] = line
-    addresses = {
-        line.id: f"{columns[2]}{at}" for at, line in rows.items() if not isinstance(line, str)
-    }
+        row += 2 if isinstance(line, str) and rows else 1
+        rows[row] = line
+    addresses = {line.id: f"{columns[2]}{at}" for at, line in rows.items() if type(line) is Line}
+    transcendental: set[str] = set()
     for at, line in rows.items():
         if isinstance(line, str):
             cells[f"{columns[0]}{at}"] = text(line, "block")
-        else:
-            of_line = _cells(ledger, line, addresses)
-            cells |= row_of(at, dict(zip(columns, of_line, strict=True)))
-    return {address: cell for address, cell in cells.items() if cell != Cell()}
-
-
-def _cells(ledger: Ledger, line: Line, addresses: dict[str, str]) -> tuple[Cell, ...]:
-    expression = line.formula.format_map(addresses)
-    value = formula(
-        line.key, guarded(expression) if line.guard else expression, line.style,
-        number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
-        transcendental=line.transcendental,
-    )  # fmt: skip
-    source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
-    return (
-        text(line.symbol, "text") if line.symbol else Cell(),
-        text(line.meaning),
-        value,
-        unit_text(line.unit) if line.style == "number" else Cell(),
-        printed(ledger, line.claim, line.unit) if line.claim else Cell(),
-        text(source, "unit") if source else Cell(),
-    )
+            continue
+        called = set(re.findall(r"{(\w+)}", line.formula))
+        if re.search(r"LN\(|SIN\(|\^", line.formula) or called & transcendental:
+            transcendental.add(line.id)
+        expression = line.formula.format_map(addresses)
+        value = formula(
+            f"{part}.{line.key}",
+            guarded(expression) if line.guard else expression,
+            line.style,
+            number_format=line.shown,
+            name=line.name,
+            unit=line.unit,
+            column=line.column,
+            transcendental=line.id in transcendental,
+        )
+        source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
+        of_line = {
+            columns[0]: text(line.symbol, "text") if line.symbol else None,
+            columns[1]: text(line.meaning) if line.meaning else None,
+            columns[2]: value,
+            columns[3]: unit_text(line.unit) if line.style == "number" else None,
+            columns[4]: printed(ledger, line.claim, line.unit) if line.claim else None,
+            columns[5]: text(source, "unit") if source else None,
+        }
+        cells |= {f"{column}{at}": cell for column, cell in of_line.items() if cell}
+    return cells
 
 
 def sheet_of_lines(
     ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
 ) -> SheetPlan:
-    """A sheet of one table under notes."""
+    """A sheet of one table under notes; its keys begin with its name."""
     above = title(heading) | notes(3, *said)
     row = 2 + len(above)
     return SheetPlan(
         name=name,
-        cells=above | place(ledger, lines, row),
+        cells=above | place(ledger, name.lower().replace("-", "_"), lines, row),
         widths=dict(zip("ABCDEF", (9.0, 44.0, 14.0, 8.0, 20.0, 46.0), strict=True)),
         frozen=f"A{row + 1}",
         repeated_rows=(row, row),

@@ -1,7 +1,7 @@
 """The sheet `Overview`: results, whether they can be trusted, what the audit found, the sheets."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from itertools import zip_longest
 from textwrap import wrap
 
 from reference.ledger import Ledger
@@ -16,26 +16,24 @@ _HOW = (
     ("number", "Black: a formula, stored with the value that coldspray computed for it."),
     ("printed", "Gray: what the report prints, or what was computed once. It follows no change."),
 )
-_WIDTH = 165
-"""Characters of a line of running text."""
 
 
-@dataclass
 class _Page:
     """The cells so far, and the row where the next go."""
 
-    cells: dict[str, Cell]
-    row: int = 1
+    def __init__(self) -> None:
+        self.cells: dict[str, Cell] = {}
+        self.row = 1
 
     def put(self, **cells: Cell) -> None:
         """One row, by column."""
         self.cells |= row_of(self.row, cells)
         self.row += 1
 
-    def say(self, words: str, style: str = "body", width: int = _WIDTH, column: str = "A") -> None:
+    def say(self, words: str, style: str = "body", width: int = 165) -> None:
         """Running text, broken into lines."""
         for line in wrap(words, width):
-            self.put(**{column: text(line, style)})
+            self.put(A=text(line, style))
 
     def block(self, *words: str, right: str = "") -> None:
         """The heads of a table, after a blank row."""
@@ -52,8 +50,7 @@ def sheet(
     findings: Findings | None,
 ) -> SheetPlan:
     """The first sheet; `sheets` says what each of the others shows."""
-    report, scheme = ledger.report, cases[0].scheme
-    page = _Page({})
+    report, scheme, page = ledger.report, cases[0].scheme, _Page()
     page.put(A=text(f"{report.title}: the model as a workbook", "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by coldspray {version}; "
@@ -64,38 +61,39 @@ def sheet(
     rules = _results(page, ledger, cases)
     if findings is not None:
         _audit(page, ledger, findings)
+    first_page = page.row
     page.block("Sheets")
     for name, what in sheets.items():
         page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
     page.block("How to read it")
     for style, what in _HOW:
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
-    widths = dict(zip("ABCDEF", (34.0, 17.0, 17.0, 17.0, 17.0, 46.0), strict=True))
     return SheetPlan(
         name=HOME,
         cells=page.cells,
-        widths=widths,
-        rules=rules,
+        widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0},
+        rules=tuple(rules),
         print_area=f"A1:F{page.row - 1}",
+        page_break=first_page,
     )
 
 
-def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> tuple[Rule, ...]:
+def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> list[Rule]:
     page.block(
         "Results with the inputs in use", "Final depth [µm]", "The report prints",
         "Depth over radius", "The report prints", "State of the run", right="BCDE",
     )  # fmt: skip
     rules: list[Rule] = []
     for case in cases:
-        part, like = f"overview.{case.slug}", f"{case.part}.depth_um"
-        depth, ratio = f"={case.result('depth_um')}", f"={case.result('normalized_depth')}"
-        more = {"number_format": "0.0000"}
-        cells = {
-            "A": text(case.name, "link", link=(case.name, "A1")),
-            "B": formula(f"{part}.depth_um", depth, "result", unit="um", column=like, **more),
-            "D": formula(f"{part}.normalized_depth", ratio, "result", **more),
-            "F": formula(f"{part}.message", f"={case.result('message')}", "state"),
-        }
+        like = {"unit": "um", "column": f"{case.part}.depth_um"}
+        cells = {"A": text(case.name, "link", link=(case.name, "A1"))}
+        for column, what, style, more in (
+            ("B", "depth_um", "result", like | {"number_format": "0.0000"}),
+            ("D", "normalized_depth", "result", {"number_format": "0.0000"}),
+            ("F", "message", "state", {}),
+        ):
+            key = f"overview.{case.slug}.{what}"
+            cells[column] = formula(key, f"={case.result(what)}", style, **more)
         if case.depth_claim:
             cells["C"] = printed(ledger, case.depth_claim, "um")
             cells["E"] = printed(ledger, case.ratio_claim)
@@ -108,7 +106,7 @@ def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> tuple[R
         rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
         page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
-    return tuple(rules)
+    return rules
 
 
 def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
@@ -121,7 +119,7 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
         )
         for name in names:
             claim = ledger.claims[name]
-            first, *more = wrap(findings.explanations[name], 92)
+            first, *more = wrap(findings.explanations[name], 100)
             cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
             if claim.entry.workbook:
                 there = "='{}'!{}".format(*place_of(claim.entry.workbook))
@@ -134,13 +132,12 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
                 page.put(D=text(line, "text"))
     page.block("Verdicts of the audit", "Numbers", "", "Live verdicts", "Cells", right="BDE")
     given = [(verdict, count) for verdict, count in findings.counts.items() if count]
-    for at, (verdict, count) in enumerate(given):
+    for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
         number = Cell(number=float(count), style="recorded")
         cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": number}
-        if at < len(KINDS):
-            words, what = KINDS[at]
-            cells["D"] = text(words, "number")
-            cells["E"] = formula(f"overview.audit_{what}", f"=audit_{what}", "result")
+        if kind:
+            cells["D"] = text(kind[0], "number")
+            cells["E"] = formula(f"overview.audit_{kind[1]}", f"=audit_{kind[1]}", "result")
         page.put(**cells)
     page.say(
         "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "

@@ -184,10 +184,9 @@ def step_formulas(
     """The formulas of one time step, by column (appendix, Eqs. A-1 to A-3, both cases of Eq. 13).
 
     Columns C to F hold dx/dt initial, x, d²x/dt² and dx/dt final; `first` marks the row after row
-    0, with its half step. counted: what stands in column A until the stop. resistance, step: the
-    defined names of R_t and the time step. middle: in the centered scheme, the column of the
-    velocity in the middle of the row. The order of the operations is fixed: it decides the last
-    digit.
+    0, with its half step. counted: what stands in column A until the stop. resistance, step: names
+    of R_t and the time step. middle: the centered scheme's column of the velocity in mid-row. The
+    order of the operations is fixed: it decides the last digit.
     """
     above = row - 1
     reached = f"C{above}" if first else f"F{above}"
@@ -219,13 +218,12 @@ def where_running(row: int, expression: str) -> str:
 
 def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
     """One row of the sheet; row 0 is the impact itself, with no final velocity."""
-    row, dt = FIRST_ROW + step, case.step_name
+    row, dt, resistance = FIRST_ROW + step, case.step_name, case.named("R_t")
     if step:
         middle = "H" if case.scheme == "centered" else ""
-        resistance = case.named("R_t")
         formulas = step_formulas(row, step == 1, f"A{row - 1}+1", resistance, dt, middle)
     else:
-        needed = ("V_impact", "R_p", "rho_p", "rho_t", case.named("R_t"), dt, "v_stop", "M_p")
+        needed = ("V_impact", "R_p", "rho_p", "rho_t", resistance, dt, "v_stop", "M_p")
         formulas = {"A": f'=IF(COUNT({",".join(needed)})={len(needed)},0,"")'}
         starts = {"C": "V_impact", "D": "0", "E": "0"}
         formulas |= {column: where_running(row, text) for column, text in starts.items()}
@@ -277,8 +275,15 @@ def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
         *_doubts(case),
     ]
     if case.coarse:
-        lines += ["Against the sheet with the step dt_s", *_against_fine(case)]
-    return place(ledger, lines, FIRST_ROW - 2, _RESULTS)
+        fine = case.named("depth_um")
+        lines += [
+            "Against the sheet with the step dt_s",
+            Line("fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
+                 claim=case.depth_claim),
+            Line("over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
+                 claim="coarse-step-remark", shown="0.00%"),
+        ]  # fmt: skip
+    return place(ledger, case.part, lines, FIRST_ROW - 2, _RESULTS)
 
 
 def _inputs(case: CaseSheet) -> list[Line]:
@@ -294,50 +299,42 @@ def _inputs(case: CaseSheet) -> list[Line]:
         ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
     )
     return [
-        Line(f"{case.part}.{what}", symbol, meaning, f"={name}", unit, shown="0.0000E+00")
+        Line(what, symbol, meaning, f"={name}", unit, shown="0.0000E+00")
         for what, symbol, meaning, name, unit in inputs
     ]
 
 
 def _result(case: CaseSheet) -> list[Line]:
-    part = case.part
-
     def cells(column: str) -> str:
         return f"{column}{FIRST_ROW}:{column}{case.last_row}"
 
     # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
     count = f"COUNT({cells('A')})"
-
-    def result(
-        what: str, symbol: str, meaning: str, expression: str, unit: str, shown: str,
-        claim: str = "", column: str = "",
-    ) -> Line:  # fmt: skip
-        return Line(
-            f"{part}.{what}", symbol, meaning,
-            f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit, "" if claim else "Appendix",
-            claim=claim, shown=shown, name=case.result(what),
-            column=column and f"{part}.{column}", guard=False,
-        )  # fmt: skip
-
-    def final(column: str) -> str:
-        return f"INDEX({cells(column)},{count})"
-
-    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({final("F")}<v_stop,1,0),"{NOT_COMPUTED}")'
+    time, depth, velocity = (f"INDEX({cells(column)},{count})" for column in "BDF")
+    depth_claim, ratio_claim = ("", "") if case.coarse else (case.depth_claim, case.ratio_claim)
+    results = (
+        ("final_depth", "X", "final penetration depth", depth, "m", "0.0000E+00", "", "depth"),
+        ("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000", depth_claim,
+         "depth_um"),
+        ("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
+         ratio_claim, ""),
+        ("steps", "", "steps taken", f"{count}-1", "1", "0", "", ""),
+        ("stop_time", "t", "time of the final row", time, "s", "0.0000E+00", "", ""),
+        ("final_velocity", "v", "velocity that ends it", f"IF({{steps}}>0,{velocity},V_impact)",
+         "m/s", "0.0000", "", "velocity"),
+    )  # fmt: skip
+    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({velocity}<v_stop,1,0),"{NOT_COMPUTED}")'
     return [
-        Line(f"{part}.stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
+        Line("stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
              name=case.result("stopped"), guard=False),
-        result("final_depth", "X", "final penetration depth", final("D"), "m", "0.0000E+00",
-               column="depth"),
-        result("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000",
-               "" if case.coarse else case.depth_claim, "depth_um"),
-        result("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
-               "" if case.coarse else case.ratio_claim),
-        result("steps", "", "steps taken", f"{count}-1", "1", "0"),
-        result("stop_time", "t", "time of the final row", final("B"), "s", "0.0000E+00"),
-        result("final_velocity", "v", "velocity that ends it",
-               f"IF({{steps}}>0,{final('F')},V_impact)", "m/s", "0.0000", column="velocity"),
-        Line(f"{part}.excess", "", "X/R over the observed X/R",
-             "={normalized_depth}/observed_ratio", claim="excess", shown="0.00"),
+        *(
+            Line(what, symbol, meaning, f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit,
+                 "" if claim else "Appendix", claim, shown, name=case.result(what),
+                 column=like and f"{case.part}.{like}", guard=False)
+            for what, symbol, meaning, expression, unit, shown, claim, like in results
+        ),
+        Line("excess", "", "X/R over the observed X/R", "={normalized_depth}/observed_ratio",
+             claim="excess", shown="0.00"),
     ]  # fmt: skip
 
 
@@ -349,61 +346,41 @@ def rest_depth(pressure: str, c: str) -> tuple[str, str]:
 
 
 def _exact(case: CaseSheet) -> list[Line]:
-    pressure = f"=rho_t*V_impact*V_impact/2/{case.named('R_t')}"
     c, depth = rest_depth("{pressure}", "{c}")
-    lines = (
-        ("pressure", "p", "dynamic pressure over R_t", pressure, "1", "ρ_t V²/2R_t"),
-        ("c", "c", "work over the particle’s inertia", c, "1", "(4ρ_p/3ρ_t) ln(1 + p)"),
-        ("exact_normalized_depth", "X/R", "normalized depth at rest", depth, "1",
-         "root of y² - y³/3 = c, or 1/3 + c"),
-        ("exact_depth_um", "X", "penetration depth at rest",
-         "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above"),
-    )  # fmt: skip
     return [
-        Line(f"{case.part}.{what}", symbol, meaning, expression, unit, source,
-             transcendental=what != "pressure",
-             shown="0.0000E+00" if what in ("pressure", "c") else "0.0000",
-             name=case.result(what) if unit == "um" else "")
-        for what, symbol, meaning, expression, unit, source in lines
+        Line("pressure", "p", "dynamic pressure over R_t",
+             f"=rho_t*V_impact*V_impact/2/{case.named('R_t')}", source="ρ_t V²/2R_t",
+             shown="0.0000E+00"),
+        Line("c", "c", "work over the particle’s inertia", c, source="(4ρ_p/3ρ_t) ln(1 + p)",
+             shown="0.0000E+00"),
+        Line("exact_normalized_depth", "X/R", "normalized depth at rest", depth,
+             source="root of y² - y³/3 = c, or 1/3 + c"),
+        Line("exact_depth_um", "X", "penetration depth at rest",
+             "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above",
+             name=case.result("exact_depth_um")),
     ]  # fmt: skip
 
 
 def _doubts(case: CaseSheet) -> list[Line]:
     """What tells that the time step is too long for the motion, and the message."""
-    part = case.part
     signs = {
         "reversed": "{final_velocity}<-v_stop",
         "coarse": "{travel}>travel_most",
         "deep": "{over_exact}>1+excess_most",
     }
     said = "&".join(f'IF({sign},"{DOUBTS[kind]}","")' for kind, sign in signs.items())
-    none = f'"{NOT_COMPUTED}"'
     serious = "IF({coarse},1,IF({deep},1,0))".format_map(signs)
     trust = f"IF({serious}=1,0,IF({signs['reversed']},1,2))"
     stopped = f'IF({{trust}}=2,"{STOPPED}",IF({{trust}}=1,"{WARNED}","{DOUBTFUL}")&{said})'
     message = f'IF({{stopped}}=1,{stopped},"{OUT_OF_ROWS}")'
     return [
-        Line(f"{part}.travel", "Δt V/R", "radii passed in one step at V",
-             f"={case.step_name}*V_impact/R_p", shown="0.0000",
-             source="warning above travel_most"),
-        Line(f"{part}.over_exact", "", "depth over the depth at rest",
-             f"=IF({{stopped}}=1,{{normalized_depth}}/{{exact_normalized_depth}},{none})",
-             transcendental=True, shown="0.0000",
-             source="warning above 1 + excess_most", guard=False),
-        Line(f"{part}.trust", "", "2 sound, 1 with a warning, 0 do not use",
-             f"=IF({{stopped}}=1,{trust},0)",
-             shown="0", name=case.result("trust"), guard=False),
-        Line(f"{part}.message", "", "",
-             f'=IF(ISNUMBER({{stopped}}),{message},"{INVALID}")', style="message",
-             name=case.result("message"), guard=False),
-    ]  # fmt: skip
-
-
-def _against_fine(case: CaseSheet) -> list[Line]:
-    part, fine = case.part, case.named("depth_um")
-    return [
-        Line(f"{part}.fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
-             claim=case.depth_claim),
-        Line(f"{part}.over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
-             claim="coarse-step-remark", shown="0.00%"),
+        Line("travel", "Δt V/R", "radii passed in one step at V",
+             f"={case.step_name}*V_impact/R_p", source="warning above travel_most"),
+        Line("over_exact", "", "depth over the depth at rest",
+             "=IF({stopped}=1,{normalized_depth}/{exact_normalized_depth},"
+             f'"{NOT_COMPUTED}")', source="warning above 1 + excess_most", guard=False),
+        Line("trust", "", "2 sound, 1 with a warning, 0 do not use",
+             f"=IF({{stopped}}=1,{trust},0)", shown="0", name=case.result("trust"), guard=False),
+        Line("message", "", "", f'=IF(ISNUMBER({{stopped}}),{message},"{INVALID}")',
+             style="message", name=case.result("message"), guard=False),
     ]  # fmt: skip

@@ -25,7 +25,7 @@ ROWS = 5
 
 _FIRST = 8
 _LABELS = ("R =", "Density =", "M =", "D =", "Initial vel =", "Rt =")
-_HEADS = ("Time", "", "dx/dt initial", "x", "d²x/dt²", "dx/dt final")
+_HEADS = ("Time", "", "dx/dt initial", "x", "d²x/dt²", "dx/dt final", "dx/dt middle")
 _HEADER = {
     "B1": ("radius", "R_p"),
     "B2": ("particle_density", "rho_p"),
@@ -44,6 +44,9 @@ _COLUMNS = {
 }
 
 
+_SCIENTIFIC = "0.00E+00"
+
+
 def _claims(ledger: Ledger) -> dict[str, Claim]:
     """Address in the table -> the claim that is printed there."""
     return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
@@ -54,20 +57,34 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 
     report: with the printed text beside it.
     """
-    claims = _claims(ledger)
+    claims, resistance, centered = _claims(ledger), case.named("R_t"), case.scheme == "centered"
+
+    def live(address: str, what: str, expression: str) -> Cell:
+        """A cell in the unit of what is printed there, and as it is: "6E-10" or "2.00E-10"."""
+        claim = claims.get(address)
+        shown = _SCIENTIFIC if claim is None or "." in claim.text else "General"
+        unit = "m/s" if claim is None else claim.unit
+        return formula(f"table.{what}", expression, number_format=shown, unit=unit)
+
     cells = {f"A{row}": text(words) for row, words in enumerate(_LABELS, start=1)}
     for address, (what, symbol) in _HEADER.items():
-        name = case.named(symbol) if symbol == "R_t" else symbol
-        cells[address] = _live(claims, address, f"table.{what}", f"={name}")
-    for column, words in zip("ABCDEFG", (*_HEADS, "dx/dt middle"), strict=True):
-        if column != "G" or case.scheme == "centered":
-            style = "head" if column in "AB" else "head right"
-            cells[f"{column}{_FIRST - 1}"] = text(words, style)
+        cells[address] = live(address, what, f"={resistance if symbol == 'R_t' else symbol}")
+    for column, words in zip("ABCDEFG"[: 7 if centered else 6], _HEADS, strict=False):
+        style = "head" if column in "AB" else "head right"
+        cells[f"{column}{_FIRST - 1}"] = text(words, style)
     for step in range(ROWS):
-        for column, expression in _row(step, case).items():
-            key = f"table.row[{step}].{_COLUMNS[column]}"
-            address = f"{column}{_FIRST + step}"
-            cells[address] = _live(claims, address, key, expression)
+        row = _FIRST + step
+        if step:
+            time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
+            middle = "G" if centered else ""
+            formulas = step_formulas(row, step == 1, time, resistance, case.step_name, middle)
+        else:
+            starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
+            ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
+            formulas = {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
+        for column, expression in formulas.items():
+            address = f"{column}{row}"
+            cells[address] = live(address, f"row[{step}].{_COLUMNS[column]}", expression)
     if report:
         cells |= _beside(ledger, claims)
     cells |= notes(
@@ -77,49 +94,20 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
     )
     cells["A18"] = title("")["A2"]
-    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0)
-    if case.scheme != "centered":
-        widths["G"] = 4.0
+    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
     return SheetPlan(name="Table A-1", cells=cells, widths=widths)
 
 
-def _live(claims: dict[str, Claim], address: str, key: str, expression: str) -> Cell:
-    """A cell of the table, in the unit and with the number format of what is printed there."""
-    if address not in claims:
-        return formula(key, expression, number_format=_SCIENTIFIC, unit="m/s")
-    shown, unit = _format(claims[address].text), claims[address].unit
-    return formula(key, expression, number_format=shown, unit=unit)
-
-
-def _row(step: int, case: CaseSheet) -> dict[str, str]:
-    """The formulas of one row of the table, by column; row 0 is the impact itself."""
-    row = _FIRST + step
-    if not step:
-        ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
-        starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
-        return {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
-    time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
-    middle = "G" if case.scheme == "centered" else ""
-    return step_formulas(row, step == 1, time, case.named("R_t"), case.step_name, middle)
-
-
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
+    """The table as printed, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
     cells = {f"H{row}": text(words, "unit") for row, words in enumerate(_LABELS, start=1)}
-    for column, words in zip("ABCDEF", _HEADS, strict=True):
+    for column, words in zip(shifted.values(), _HEADS, strict=False):
         if words:
-            cells[f"{shifted[column]}{_FIRST - 1}"] = text(words, "unit right")
+            cells[f"{column}{_FIRST - 1}"] = text(words, "unit right")
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
-
-
-_SCIENTIFIC = "0.00E+00"
-
-
-def _format(words: str) -> str:
-    """The number format that shows a number as printed: "6E-10" is General, "2.00E-10" is not."""
-    return _SCIENTIFIC if "." in words else "General"
 
 
 # The check

@@ -31,8 +31,7 @@ def with_openpyxl(f: Foreign, path: Path) -> Path:
 
 def calculated(f: Foreign, path: Path) -> Values:
     """What each formula gives, by an engine that the program under test does not use."""
-    from spreadsheets.engines import engine
-    from spreadsheets.engines.base import address
+    from spreadsheets.engines import address, engine
 
     found = engine("formualizer").recalculate(with_openpyxl(f, path))
     return {

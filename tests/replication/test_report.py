@@ -25,24 +25,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.ledger import load
-from replication.audit.audit import audit
 from replication.audit.record import Record, schema
 from replication.cli import main
 from replication.report import terminal
 from replication.report.facts import OPEN, between
 from replication.report.figures import draw
-from replication.report.files import check, contents, write
 from replication.report.prose import Named, Prose
-from replication.report.render import page
+from replication.report.render import check, contents, page, write
 
 HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
 BESIDE = {"workbook.xlsx": b"PK"}
-
-
-@pytest.fixture(scope="module")
-def record() -> Record:
-    return audit()
 
 
 @pytest.fixture(scope="module")

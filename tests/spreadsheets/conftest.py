@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import zipfile
 from collections.abc import Callable, Mapping
@@ -12,45 +11,25 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from workbooks import rewritten
+from workbooks import rewritten, usable
 
 from replication import workbook
-from replication.audit.audit import audit
+from replication.audit.record import Record
 from replication.workbook import Workbook
 from spreadsheets import engines
-from spreadsheets.engines import Engine
-from spreadsheets.engines.base import worksheets
-
-FROM_PIP = ("ironcalc", "formualizer")
-"""Required for the tests, so a missing one fails; the others come from the system."""
-
-
-@pytest.fixture(scope="session")
-def usable() -> Callable[[str], Engine]:
-    """Return a function that gives an engine, or skips or fails the test when it is missing."""
-
-    def find(name: str) -> Engine:
-        found = engines.engine(name)
-        reason = found.missing()
-        if reason is None:
-            return found
-        if name in FROM_PIP or os.environ.get("COLDSPRAY_REQUIRE_ENGINES") == "1":
-            pytest.fail(reason)
-        pytest.skip(reason)
-
-    return find
+from spreadsheets.engines import Engine, worksheets
 
 
 @pytest.fixture(scope="session", params=[engine.name for engine in engines.ENGINES])
-def engine(request: pytest.FixtureRequest, usable: Callable[[str], Engine]) -> Engine:
+def engine(request: pytest.FixtureRequest) -> Engine:
     """Each engine in turn."""
     return usable(request.param)
 
 
 @pytest.fixture(scope="session")
-def build() -> Callable[..., Workbook]:
+def build(record: Record) -> Callable[..., Workbook]:
     """`workbook.build`, with one finished audit for all."""
-    return partial(workbook.build, record=audit())
+    return partial(workbook.build, record=record)
 
 
 @pytest.fixture(scope="session")

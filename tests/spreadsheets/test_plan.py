@@ -17,11 +17,11 @@ from reference.units import written
 from replication.audit.audit import audit
 from replication.cases import BETA_5
 from replication.workbook import Workbook, build
+from spreadsheets.emit import DASHES
 from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan, place_of
 from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.inputs import INPUTS
 from spreadsheets.sheets.steps import MAX_ROWS, prepared_rows
-from spreadsheets.styles import DASHES
 
 LEDGER = load()
 RECORD = audit()

@@ -1,19 +1,29 @@
-"""Verifying a file: what each engine makes of it, and which differences an arithmetic explains."""
+"""Comparing values, every difference named; and what each engine makes of a file."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from workbooks import Fake
 
 from spreadsheets import emit
-from spreadsheets.compare import ulps_apart
 from spreadsheets.engines import Engine
 from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
-from spreadsheets.verify import EngineCheck, SheetCheck, verify
+from spreadsheets.verify import (
+    Difference,
+    EngineCheck,
+    SheetCheck,
+    Values,
+    compare,
+    ulps_apart,
+    verify,
+)
 
 SMALL = 0.1 + 0.2 - 0.29
 CELLS = {
@@ -142,10 +152,49 @@ def test_an_engine_that_gives_no_values(
 
 
 def test_a_sheet_that_is_lost_or_new_is_seen(path: Path) -> None:
-    def cells(expected: dict[str, Any]) -> dict[str, list[str]]:
-        (found,) = verify(path, PLAN, expected, [fake()], long_doubles=BOUND)
+    def cells(expected: dict[str, Any], engine: Fake | None = None) -> dict[str, list[str]]:
+        (found,) = verify(path, PLAN, expected, [engine or fake()], long_doubles=BOUND)
         return {s.sheet: [left.cell for left in s.unexplained] for s in found.sheets}
 
     lost = {**EXPECTED, "Lost": {"A1": 1.0}}
     assert cells(lost) == {"S": [], "Empty": [], "Lost": ["A1"]}
+    added = replace(fake(), surplus=(("New", "A1", 1.0),))
+    assert cells(EXPECTED, added) == {"S": [], "Empty": [], "New": ["A1"]}
     assert cells({"S": {}, "Empty": {}}) == {"S": ["A1", "B1", "B2", "B3", "B4"], "Empty": []}
+
+
+# Two maps of values
+
+
+def test_one_ulp_is_a_difference_and_empty_text_none() -> None:
+    values: Values = {"S": {"A1": 1.0, "A2": "text", "A3": True}}
+    assert compare(values, {"S": {**values["S"], "B1": ""}}) == []
+    found = compare(values, {"S": {**values["S"], "A1": math.nextafter(1.0, 2.0)}})
+    assert found == [Difference("S", "A1", 1.0, math.nextafter(1.0, 2.0))]
+    assert str(found[0]) == "S!A1: expected 1.0, found 1.0000000000000002 (1 ulp)"
+
+
+def test_only_named_cells_are_allowed_a_distance() -> None:
+    expected, found = {"S": {"A1": 10.0, "A2": 10.0}}, {"S": {"A1": 10.1, "A2": 10.1}}
+    (left,) = compare(expected, found, {("S", "A1"): 0.2})
+    assert left.cell == "A2"
+    assert len(compare(expected, found, {("S", "A1"): 0.05})) == 2  # it is not relative
+
+
+@pytest.mark.parametrize(("want", "got"), [(0.0, None), (1.0, "1.0"), ("#N/A", 1.0), ("a", "b")])
+def test_kinds_are_not_mixed(want: float | str, got: float | str | None) -> None:
+    found = {"S": {} if got is None else {"A1": got}}
+    (left,) = compare({"S": {"A1": want}}, found, {("S", "A1"): 9.0})
+    assert (left.expected, left.found, left.ulps) == (want, got, None)
+
+
+def test_surplus_cells_and_sheets_are_differences() -> None:
+    left = compare({"S": {}}, {"S": {"B1": 1.0}, "T": {"A1": "x"}})
+    assert [(d.sheet, d.cell, d.expected) for d in left] == [("S", "B1", None), ("T", "A1", None)]
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False, max_value=1e308))
+def test_neighbors_are_one_ulp_apart(number: float) -> None:
+    above = math.nextafter(number, math.inf)
+    assert ulps_apart(number, above) == ulps_apart(above, number) == 1
+    assert ulps_apart(-5e-324, 5e-324) == 2

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from workbooks import stored
+from workbooks import stored, usable
 
 from reference.arithmetic import Reals
 from reference.motion import sheet_rows
@@ -25,9 +25,8 @@ from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run
 from replication.workbook import REPORT, Workbook
-from spreadsheets.compare import compare
 from spreadsheets.engines import Engine
-from spreadsheets.verify import OF_FUNCTIONS, tolerances
+from spreadsheets.verify import OF_FUNCTIONS, compare, tolerances
 
 GIVEN = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
 ODD = replace(BETA_5, step=3.3e-10, radius=7.3e-6, flow_stress=1.234e8, beta=4.567)
@@ -101,7 +100,7 @@ def typed_book(build: Callable[..., Workbook], book: Workbook, seed: int) -> Wor
     draw = Random(seed + 1).uniform
     report = {name: book.values[f"inputs.{name}.typed"] for name in MATERIALS}
     typed = {name: float(number) * draw(0.8, 1.25) for name, number in report.items()}
-    return build(random_cases(seed), rows=400, typed=typed, written=REPORT)
+    return build(random_cases(seed), rows=400, typed=typed)
 
 
 SEEDS = st.integers(0, 2**32)
@@ -169,7 +168,7 @@ def test_slow_impacts_keep_their_digits(engine: Engine, slow_files: list[Any]) -
 
 
 def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(
-    usable: Callable[[str], Engine], emitted: Any
+    emitted: Any,
 ) -> None:
     gnumeric, book = usable("gnumeric"), emitted.book
     found = gnumeric.recalculate(emitted.path)
@@ -246,7 +245,7 @@ def test_a_workbook_too_short_for_the_case_is_refused() -> None:
     with pytest.raises(ValueError, match="100 rows do not do: the case needs 131 to 20,000"):
         workbook.build([BETA_5], rows=100)
     with pytest.raises(ValueError, match="needs 711 steps, and the workbook has 400"):
-        workbook.build([replace(BETA_3, step=5e-11)], rows=400, written=[BETA_3])
+        workbook.build([replace(case, step=5e-11) for case in REPORT])
     assert workbook.build([BETA_5], rows=1000).values["case.row[1000].index"] == ""
 
 

@@ -1,9 +1,9 @@
 """Recalculate workbooks in LibreOffice and print the values of each as a line of JSON.
 
-Run by ``libreoffice.py`` as ``PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...`` with a Python that
-has the UNO bindings, perhaps an old one: only ``uno`` and the standard library can be imported
-here, and no part of this project. On failure the last line of standard error says why. Whoever
-runs this script gives it a time limit and cleans up after it.
+Run by `engines.py` as `PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...` with a Python that has the
+UNO bindings, perhaps an old one: only `uno` and the standard library can be imported here, and no
+part of this project. On failure the last line of standard error says why. Whoever runs this script
+gives it a time limit and cleans up after it.
 
 The JSON maps each sheet's name to its rows from A1 on: numbers with all their digits, text (""
 where a cell is blank) and errors as text.
@@ -37,17 +37,23 @@ ERRORS = {
 """Error numbers with a text of their own. The cells show the same, but in the user's language."""
 
 
+def create(context: Any, service: str) -> Any:
+    """Create a UNO service."""
+    return context.ServiceManager.createInstanceWithContext(service, context)
+
+
 def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
     """Start LibreOffice with a private profile and pipe; return its process and its desktop."""
     pipe = f"pipe,name=coldspray{uuid4().hex};urp;"
     options = ["--headless", "--norestore", "--nologo", "--nodefault", f"--accept={pipe}"]
     command = [soffice, *options, f"-env:UserInstallation={Path(profile).as_uri()}"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    resolver = create(uno.getComponentContext(), "com.sun.star.bridge.UnoUrlResolver")
     deadline = time.monotonic() + START_LIMIT_S
     while time.monotonic() < deadline:
-        desktop = connect(pipe)
-        if desktop is not None:
-            return process, desktop
+        with suppress(uno.getClass("com.sun.star.connection.NoConnectException")):
+            context = resolver.resolve(f"uno:{pipe}StarOffice.ComponentContext")
+            return process, create(context, "com.sun.star.frame.Desktop")
         status = process.poll()
         if status == RESTART:
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
@@ -55,22 +61,6 @@ def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
             sys.exit(f"soffice ended with status {status} before it answered")
         time.sleep(0.05)
     sys.exit(f"soffice did not answer within {START_LIMIT_S} s")
-
-
-def connect(pipe: str) -> Any:
-    """Return LibreOffice's desktop, or None while nobody listens on the pipe."""
-    context = uno.getComponentContext()
-    resolver = create(context, "com.sun.star.bridge.UnoUrlResolver")
-    try:
-        remote = resolver.resolve(f"uno:{pipe}StarOffice.ComponentContext")
-    except uno.getClass("com.sun.star.connection.NoConnectException"):
-        return None
-    return create(remote, "com.sun.star.frame.Desktop")
-
-
-def create(context: Any, service: str) -> Any:
-    """Create a UNO service."""
-    return context.ServiceManager.createInstanceWithContext(service, context)
 
 
 def load(desktop: Any, workbook: str) -> Any:
@@ -86,29 +76,21 @@ def load(desktop: Any, workbook: str) -> Any:
     return document
 
 
-def stop(process: subprocess.Popen[bytes], desktop: Any) -> None:
-    """End LibreOffice, which may hang up before it has answered the request to end."""
-    with suppress(uno.getClass("com.sun.star.lang.DisposedException")):
-        desktop.terminate()
-    process.wait()
-
-
 def rows(sheet: Any) -> list[list[float | str]]:
-    """Read all cells from A1 to the end of the used area."""
+    """All cells from A1 to the end of the used area; the data array gives an error as None."""
     cursor = sheet.createCursor()
     cursor.gotoEndOfUsedArea(False)
     end = cursor.RangeAddress
     data = sheet.getCellRangeByPosition(0, 0, end.EndColumn, end.EndRow).getDataArray()
+
+    def error(row: int, column: int) -> str:
+        number = sheet.getCellByPosition(column, row).getError()
+        return ERRORS.get(number, f"Err:{number}")
+
     return [
-        [error(sheet, row, column) if value is None else value for column, value in enumerate(line)]
+        [error(row, column) if value is None else value for column, value in enumerate(line)]
         for row, line in enumerate(data)
     ]
-
-
-def error(sheet: Any, row: int, column: int) -> str:
-    """Spell the error of a cell, which the data array gives as None."""
-    number = sheet.getCellByPosition(column, row).getError()
-    return ERRORS.get(number, f"Err:{number}")
 
 
 def main() -> None:
@@ -122,7 +104,10 @@ def main() -> None:
             print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
             document.close(True)
     finally:
-        stop(process, desktop)
+        # It may hang up before it has answered the request to end.
+        with suppress(uno.getClass("com.sun.star.lang.DisposedException")):
+            desktop.terminate()
+        process.wait()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,373 @@
+"""Real spreadsheet engines, all behind one small interface.
+
+    engine("ironcalc").recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
+
+An engine opens a workbook, computes every formula again and gives the values by sheet and address;
+`Recalculated` says how each kind of value comes back. Two engines come with pip, two from the
+system. The libraries behind them are imported only when an engine is used.
+"""
+
+import json
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import warnings
+import zipfile
+import zlib
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from urllib.parse import urljoin
+from xml.etree import ElementTree as ET
+
+Value = float | str | bool
+
+Recalculated = dict[str, dict[str, Value]]
+"""Worksheet name -> address such as "B7" -> value.
+
+- Every worksheet is a key, even one without values. Chart sheets are left out.
+- A number is a float, and so is a date (its serial number).
+- A boolean is a bool; LibreOffice stores booleans as numbers and gives 1.0 and 0.0, which compare
+  equal to True and False.
+- A blank cell is absent, and so is one whose formula gives the empty string.
+- An error is the text that stands for it, such as "#VALUE!". LibreOffice has errors of its own
+  ("Err:502"). Text that merely spells an error cannot be told from it.
+"""
+
+Cell = tuple[str, str, Value | None]
+"""Worksheet name, address and value; None where the cell holds nothing."""
+
+TIME_LIMIT_S = 120
+"""So long may a program take for one workbook."""
+
+
+class EngineError(Exception):
+    """An engine is missing, failed, or could not read the workbook. Its message is one line."""
+
+    def __init__(self, engine: str, reason: str) -> None:
+        super().__init__(f"{engine}: {' '.join(reason.split())}")
+
+
+class Engine(ABC):
+    """A program that recalculates workbooks."""
+
+    name: str
+    long_doubles = False
+    """Whether it computes in 80-bit long doubles, so that its last digits are others by design."""
+
+    @abstractmethod
+    def missing(self) -> str | None:
+        """None when the engine can be used, or else a sentence on what to install."""
+
+    @abstractmethod
+    def _version(self) -> str:
+        """The version; only asked for when the engine is not missing."""
+
+    @abstractmethod
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        """Recalculate a sound workbook and yield its cells, blank ones included or not."""
+
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        """The same for several, in one run of the program where that saves time."""
+        return map(self._cells, paths)
+
+    def version(self) -> str:
+        """The version of the program that would be used."""
+        self._require()
+        return self._version()
+
+    def recalculate(self, path: Path) -> Recalculated:
+        """Compute every formula of an .xlsx file again; the file itself stays as it is."""
+        (recalculated,) = self.recalculate_many([path])
+        return recalculated
+
+    def recalculate_many(self, paths: Sequence[Path]) -> list[Recalculated]:
+        """The same for several files."""
+        self._require()
+        found: list[Recalculated] = [{name: {} for name in self._sheets(path)} for path in paths]
+        for sheets, cells in zip(found, self._cells_of_each(paths), strict=True):
+            for sheet, place, value in cells:
+                if value is not None and value != "":
+                    sheets.setdefault(sheet, {})[place] = value
+        return found
+
+    def _require(self) -> None:
+        if (reason := self.missing()) is not None:
+            raise EngineError(self.name, reason)
+
+    def _sheets(self, path: Path) -> list[str]:
+        """The worksheets, once every part is well formed: some engines load damaged files."""
+        try:
+            with zipfile.ZipFile(path) as archive:
+                for part in archive.namelist():
+                    if part.endswith((".xml", ".rels")):
+                        _parsed(archive, part)
+                sheets = worksheets(archive)
+                for part in sheets.values():
+                    archive.getinfo(part)
+                return list(sheets)
+        except (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError) as error:
+            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+
+
+# The parts of an .xlsx file: enough to find its worksheets and their cells
+
+
+def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
+    """Each worksheet's name, in the workbook's order -> the part that holds its cells."""
+    parts = {
+        # A target is relative to xl/ unless it starts at the root.
+        relation.attrib["Id"]: urljoin("/xl/", relation.attrib["Target"])[1:]
+        for relation in _parsed(archive, "xl/_rels/workbook.xml.rels")
+        if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
+    }
+    related = {
+        # The namespace of r:id differs between the two kinds of Office Open XML.
+        sheet.attrib["name"]: next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
+        for sheet in _parsed(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
+    }
+    return {name: parts[relation] for name, relation in related.items() if relation in parts}
+
+
+def _parsed(archive: zipfile.ZipFile, part: str) -> ET.Element:
+    return ET.fromstring(archive.read(part))
+
+
+def address(row: int, column: int) -> str:
+    """The cell in that row and column, both counted from 1: (7, 2) is B7."""
+    from openpyxl.utils import get_column_letter
+
+    return f"{get_column_letter(column)}{row}"
+
+
+# From pip
+
+
+class PipEngine(Engine):
+    """An engine that is a Python package of the same name."""
+
+    def missing(self) -> str | None:
+        if find_spec(self.name) is not None:
+            return None
+        return f"The Python package {self.name} is not installed: run pip install {self.name}."
+
+    def _version(self) -> str:
+        return version(self.name)
+
+
+class IronCalc(PipEngine):
+    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
+
+    name = "ironcalc"
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        import ironcalc
+
+        try:
+            model = ironcalc.load_from_xlsx(str(path))
+        except ironcalc.WorkbookError as error:
+            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+        model.evaluate()
+        sheets = [sheet["name"] for sheet in model.get_worksheets_properties()]
+        for sheet, row, column in model.get_all_cells():
+            yield sheets[sheet], address(row, column), model.get_cell_value(sheet, row, column)
+
+
+class Formualizer(PipEngine):
+    """Exact doubles and booleans; it cannot be asked which cells there are, so the file is."""
+
+    name = "formualizer"
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        import formualizer
+        from openpyxl.utils.cell import coordinate_to_tuple
+
+        try:
+            workbook = formualizer.load_workbook(str(path))
+            workbook.set_temporal_egress("serial")  # dates as numbers, like the other engines
+            workbook.evaluate_all()
+        except (OSError, formualizer.ExcelEvaluationError) as error:
+            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+        spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
+        with zipfile.ZipFile(path) as archive:
+            for sheet, part in worksheets(archive).items():
+                for cell in _parsed(archive, part).iterfind("{*}sheetData/{*}row/{*}c"):
+                    value = workbook.get_value(sheet, *coordinate_to_tuple(cell.attrib["r"]))
+                    if isinstance(value, dict):  # an error
+                        value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
+                    yield sheet, cell.attrib["r"], value
+
+
+# From the system
+
+
+class SystemEngine(Engine):
+    """An engine that is a program of its own."""
+
+    def _run(self, command: list[str], workbooks: int = 1) -> str:
+        """Run a command in a group of its own and leave none of its processes behind."""
+        limit, pipe = TIME_LIMIT_S * workbooks, subprocess.PIPE
+        with subprocess.Popen(
+            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
+        ) as process:
+            try:
+                output, complaint = process.communicate(timeout=limit)
+            except subprocess.TimeoutExpired as error:
+                raise EngineError(self.name, f"no answer within {limit} s") from error
+            finally:
+                with suppress(ProcessLookupError):  # the good case: nothing is left
+                    os.killpg(process.pid, signal.SIGKILL)
+                process.communicate()  # its pipes end with the last process that holds them
+        if process.returncode != 0:
+            # The last line says why; those before it are the program's own chatter.
+            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
+        return output
+
+    def _version_by(self, command: list[str], pattern: str) -> str:
+        found = re.search(pattern, self._run([*command, "--version"]))
+        if found is None:
+            raise EngineError(self.name, f"{Path(command[0]).name} does not tell its version")
+        return found[1]
+
+
+class LibreOffice(SystemEngine):
+    """LibreOffice through UNO, its programming interface: the only way to its exact doubles.
+
+    What LibreOffice saves is rounded to 15 digits, so nothing is read from a saved file. The UNO
+    bindings belong to one certain Python, seldom the one that runs this: `uno_script.py` runs in
+    the first of this Python, `python3` on the PATH, `/usr/bin/python3` and LibreOffice's own that
+    can import them. An office starts in one to two seconds; several workbooks share it.
+    """
+
+    name = "libreoffice"
+
+    def missing(self) -> str | None:
+        try:
+            _uno_python(_soffice())
+        except LookupError as reason:
+            return str(reason)
+        return None
+
+    def _version(self) -> str:
+        return self._version_by([_soffice()], r"LibreOffice\S* (\S+)")
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        (cells,) = self._cells_of_each([path])
+        return cells
+
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        soffice, script = _soffice(), str(Path(__file__).with_name("uno_script.py"))
+        with TemporaryDirectory(prefix="coldspray-") as folder:
+            # Copies, since LibreOffice puts a lock file beside what it opens.
+            copies = [
+                str(shutil.copyfile(path, Path(folder, f"workbook{number}.xlsx")))
+                for number, path in enumerate(paths)
+            ]
+            command = [_uno_python(soffice), script, soffice, f"{folder}/profile", *copies]
+            return map(self._read, self._run(command, len(paths)).splitlines())
+
+    @staticmethod
+    def _read(line: str) -> Iterator[Cell]:
+        for sheet, rows in json.loads(line).items():
+            for row, values in enumerate(rows, start=1):
+                for column, value in enumerate(values, start=1):
+                    yield sheet, address(row, column), value
+
+
+def _soffice() -> str:
+    soffice = shutil.which("soffice") or shutil.which("libreoffice")
+    if soffice is None:
+        raise LookupError(
+            "LibreOffice is not installed: install the system package libreoffice-calc."
+        )
+    return soffice
+
+
+@cache
+def _uno_python(soffice: str) -> str:
+    bundled = str(Path(soffice).resolve().with_name("python"))
+    for python in (sys.executable, shutil.which("python3"), "/usr/bin/python3", bundled):
+        if python is None or not Path(python).is_file():
+            continue
+        probe = [python, "-c", "import uno; uno.getComponentContext"]
+        if subprocess.run(probe, capture_output=True, check=False).returncode == 0:
+            return python
+    raise LookupError("No Python here can import uno: install the system package python3-uno.")
+
+
+class Gnumeric(SystemEngine):
+    """Gnumeric through its converter `ssconvert`.
+
+    Its own file format keeps no values, and CSV cannot tell a number from text, so the recalculated
+    workbook is written as .xlsx, with all digits, and read by openpyxl. Debian's Gnumeric computes
+    in long doubles, which are rounded to doubles only on reading.
+    """
+
+    name = "gnumeric"
+    long_doubles = True
+
+    def missing(self) -> str | None:
+        if shutil.which("ssconvert") is not None:
+            return None
+        return "The command ssconvert is not installed: install the system package gnumeric."
+
+    def _version(self) -> str:
+        return self._version_by(["ssconvert"], r"version '(.+)'")
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        from openpyxl import load_workbook
+        from openpyxl.utils.datetime import to_excel
+
+        with TemporaryDirectory(prefix="coldspray-") as folder:
+            converted = Path(folder, "converted.xlsx")
+            # Without --recalc stored values would come back; without the importer's name, it would
+            # take any text file for a table.
+            formats = (f"--{way}port-type=Gnumeric_Excel:xlsx" for way in ("im", "ex"))
+            self._run(["ssconvert", "--recalc", *formats, str(path.resolve()), str(converted)])
+            with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
+                book = load_workbook(converted, data_only=True)
+        for sheet in book.worksheets:
+            for cell in (cell for row in sheet.iter_rows() for cell in row):
+                value: Any = cell.value
+                if not isinstance(value, str | bool | None):
+                    number = float(value if isinstance(value, float | int) else to_excel(value))  # type: ignore[no-untyped-call]
+                    # One beyond all doubles is the error that the other engines give.
+                    value = number if math.isfinite(number) else "#NUM!"
+                yield sheet.title, cell.coordinate, value
+
+
+ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeric())
+
+
+def engine(name: str) -> Engine:
+    """The engine of that name; an unknown name is an EngineError."""
+    for candidate in ENGINES:
+        if candidate.name == name:
+            return candidate
+    known = ", ".join(candidate.name for candidate in ENGINES)
+    raise EngineError(name, f"no such engine; known are {known}")
+
+
+def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
+    """Plant a wrong stored value beside a formula and tell whether the engine puts it right.
+
+    One that gives stored values back verifies nothing.
+    """
+    import xlsxwriter
+
+    path = folder / f"planted-{engine.name}.xlsx"
+    with xlsxwriter.Workbook(path) as workbook:
+        sheet = workbook.add_worksheet("planted")
+        sheet.write_number("A1", 6)
+        sheet.write_formula("A2", "=A1*7", value=41)
+    return engine.recalculate(path)["planted"].get("A2") == 42
