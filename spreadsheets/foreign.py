@@ -17,6 +17,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 from posixpath import join, normpath
 from tempfile import TemporaryDirectory
@@ -71,7 +72,7 @@ class Cell(NamedTuple):
     array: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Book:
     """The worksheets in their order, cell by (row, column); the names; what else there is."""
 
@@ -83,6 +84,24 @@ class Book:
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
         return self.sheets[sheet].get((row, column), _BLANK)
+
+    @cached_property
+    def called(self) -> dict[str, str]:
+        """The sheets' names in capitals -> the names: formulas write them either way."""
+        return {name.upper(): name for name in self.sheets}
+
+    @cached_property
+    def meanings(self) -> dict[str, str]:
+        """The defined names in capitals -> what they stand for."""
+        return {name.upper(): meaning for name, meaning in self.names.items()}
+
+    @cached_property
+    def size(self) -> dict[str, tuple[int, int]]:
+        """The last row and the last column that each sheet uses."""
+        return {
+            name: (max((r for r, _ in cells), default=0), max((c for _, c in cells), default=0))
+            for name, cells in self.sheets.items()
+        }
 
     def cells(self) -> Iterator[tuple[Position, Cell]]:
         """Every cell that is not blank."""

@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 from reference.ledger import load
 from replication.cases import BETA_3, BETA_5
 from replication.check.findings import KINDS
-from replication.check.printed import report_inputs
-from replication.check.record import check_record, safe
+from replication.check.inputs import report_inputs
+from replication.check.record import check_record
 from replication.check.scheme import BRAKES, REPORT, Case, march
+from replication.check.show import safe
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
