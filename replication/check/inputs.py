@@ -333,7 +333,7 @@ def _hinted(table: Table) -> Report:
     speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
     first = tuple(islice((speed for speed in speeds if speed), 1))
     before, after = table.number("time", 2), table.number("time", 3)
-    step = () if before is None or after is None else (after - before,)
+    step = (after - before,) if before is not None and after and after > before else ()
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
