@@ -43,6 +43,20 @@ class Calculation:
             return None if value == "#N/A" else value
         return None
 
+    def areas(self, place: Position | None) -> tuple[Area, ...]:
+        """What a cell's formula refers to; nothing for a number, or a formula of numbers alone."""
+        formula = self.formulas.get(place) if place else None
+        return formula.areas if formula else ()
+
+    def source(self, place: Position) -> Position:
+        """The cell that a formula brings into another unit, if it reads only that; else itself."""
+        for _ in range(8):
+            areas = self.areas(place)
+            if len(areas) != 1 or areas[0].cells > 1:
+                break
+            place = areas[0].corner
+        return place
+
     @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a name, with it."""
@@ -75,7 +89,7 @@ class Calculation:
                     order[here] = len(order)
                 elif here not in started:
                     started.add(here)
-                    areas = self.formulas[here].areas if here not in too_much else ()
+                    areas = () if here in too_much else self.areas(here)
                     read = [p for area in areas for p in _filled(area, self.book).places()]
                     stack.append((here, True))
                     stack.extend((p, False) for p in read[::-1] if p in self.formulas)

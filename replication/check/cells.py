@@ -11,8 +11,8 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-from replication.check.findings import Findings, joined
-from replication.check.inputs import NEAR, Input, source
+from replication.check.findings import Verdict, joined
+from replication.check.inputs import NEAR, Input
 from replication.check.scheme import BEYOND, REPORT, Case, orders
 from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
@@ -21,7 +21,7 @@ from spreadsheets.recalculation import Calculation
 from spreadsheets.references import Formula
 
 
-def each_cell(f: Findings) -> None:
+def each_cell(f: Verdict) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
     odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
     accused, before = f.accused, len(f.differences)
@@ -127,7 +127,7 @@ def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
             if math.isfinite(wanted) and not _plain(wanted)
             for number in formula.literals
         )
-    read = (source(area.corner, calculation) for area in formula.areas if area.cells == 1)
+    read = (calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != own.place for cell in read)
 
 
@@ -138,7 +138,7 @@ def _plain(value: float) -> bool:
     return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
 
 
-def _expected(f: Findings, role: str, k: int) -> float | None:
+def _expected(f: Verdict, role: str, k: int) -> float | None:
     """What a cell should hold by the rules that its table follows."""
     rows = f.setting.rows
     if role == "time":
@@ -153,7 +153,7 @@ def _expected(f: Findings, role: str, k: int) -> float | None:
     return f.rules.value(role, rows, k)
 
 
-def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
+def _fails(f: Verdict, role: str, k: int, expected: float | None) -> bool:
     """Whether a cell is not what it should hold."""
     column, place = f.setting.rows.columns[role], f.table.place(role, k)
     found = column.get(k)
@@ -168,7 +168,7 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     return abs(found - expected) > NEAR * size
 
 
-def _text(f: Findings, place: Position) -> bool:
+def _text(f: Verdict, place: Position) -> bool:
     """Whether a text is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
@@ -176,16 +176,15 @@ def _text(f: Findings, place: Position) -> bool:
     return typed and isinstance(value, str) and bool(value.strip())
 
 
-def _breaks(f: Findings, place: Position) -> bool:
+def _breaks(f: Verdict, place: Position) -> bool:
     """Whether a cell gives an error that comes from no other cell of the table."""
-    formula = f.calculation.formulas.get(place)
-    if formula is None or not f.calculation.error(place):
-        return False
-    read = (cell for area in formula.areas if area.cells == 1 for cell in [area.corner])
-    return not any(cell != place and (f.calculation.error(cell) or _text(f, cell)) for cell in read)
+    areas = (area for area in f.calculation.areas(place) if area.cells == 1)
+    others = (area.corner for area in areas if area.corner != place)
+    broken = any(f.calculation.error(cell) or _text(f, cell) for cell in others)
+    return f.calculation.error(place) is not None and not broken
 
 
-def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
+def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, str]:
     """The kind of a cell that alone is not what the cells before it give."""
     place = f.table.place(role, k)
     found = f.setting.rows.columns[role].get(k)
@@ -209,7 +208,7 @@ def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, 
     return ("unit", f"{what}: a factor of 1e{abs(power)}") if power else (alone, what)
 
 
-def order(f: Findings) -> None:
+def order(f: Verdict) -> None:
     """Columns whose last digits no order of the report's operations gives."""
     factors = {own.factor for own in (*f.setting.inputs.values(), *f.setting.derived.values())}
     if any(f.setting.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
@@ -239,13 +238,13 @@ def order(f: Findings) -> None:
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 
-def _differing(f: Findings, role: str, rows: Sequence[int], case: Case) -> list[int]:
+def _differing(f: Verdict, role: str, rows: Sequence[int], case: Case) -> list[int]:
     """The rows whose value no order gives."""
     column = f.setting.rows.columns[role]
     return [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
 
 
-def _ordered(f: Findings, role: str, k: int, case: Case) -> set[float]:
+def _ordered(f: Verdict, role: str, k: int, case: Case) -> set[float]:
     rows = f.setting.rows
     x, v = rows("depth", k), rows("velocity_initial", k)
     if role == "deceleration":

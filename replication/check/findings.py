@@ -53,8 +53,13 @@ def rank(place: Position, setting: Setting) -> tuple[float, ...]:
     return (0 if place in setting.read or order < 0 else 2, order)
 
 
-class Findings:
-    """Collects differences; `setting` becomes what the workbook really does, as that is learnt."""
+class Verdict:
+    """What is found out about one table.
+
+    `setting` becomes what the workbook really does, as that is learnt. `right_depth` [m] is that of
+    the report's scheme with the table's inputs, None if it does not end. `differing` counts the
+    cells that differ from that run, causes and consequences alike.
+    """
 
     def __init__(self, setting: Setting) -> None:
         self.setting, self.table = setting, setting.table
@@ -63,6 +68,18 @@ class Findings:
         self.differences: list[Difference] = []
         self.spoils: dict[Position, Callable[[Case], Case]] = {}
         """What a wrong input's cell makes of the case that is intended."""
+        self.right_depth: float | None = None
+        self.differing = 0
+
+    @property
+    def final_depth(self) -> float | None:
+        """The depth in the last row [m]."""
+        return self.setting.rows("depth", self.table.steps)
+
+    @property
+    def ends(self) -> bool:
+        """Whether the rows go down to the stop."""
+        return not any(d.kind == "not calculated" for d in self.differences)
 
     @property
     def case(self) -> Case:

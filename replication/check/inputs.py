@@ -6,7 +6,7 @@ own numbers, or solved back from the rows, and is said to be so.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
@@ -26,10 +26,9 @@ from replication.check.words import (
     title,
     titles,
     unit_in,
-)
+)  # fmt: skip
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
-from spreadsheets.references import Area
 
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
@@ -115,10 +114,6 @@ class Setting:
         """The same table whose rows follow another case."""
         return replace(self, rows=Rows(self.rows.columns, case))
 
-    def revised(self, change: Callable[[Case], Case]) -> "Setting":
-        """The same table with a change in what its rows follow and in what they should."""
-        return replace(self.with_case(change(self.case)), intended=change(self.intended))
-
     def filled(self, part: str, k: int) -> float | None:
         """What a row has in the column of a part; or what the velocities say."""
         role, rows = PARTS[part][0], self.rows
@@ -166,11 +161,12 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
     }
-    typed = {r: [c for c in cells if not _areas(c, calculation)] for r, cells in nearest.items()}
+    found = [cell for cells in nearest.values() for cell in cells]
+    typed = {cell for cell in found if not calculation.areas(cell.place)}
     choices = {
-        role: typed[role] or cells
+        role: [cell for cell in cells if cell in typed] or cells
         for role, cells in nearest.items()
-        if typed[role] or role not in _FOLLOWS
+        if role not in _FOLLOWS or typed & set(cells)
     }
     for role, place in mapped.items():
         choices[role] = [_mapped(role, place, candidates, calculation)]
@@ -194,7 +190,8 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     setting = _settled(table, choices, feeding)
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     pi = next(rounded, math.pi)
-    setting = setting.revised(lambda case: replace(case, pi=pi))
+    intended = replace(setting.intended, pi=pi)
+    setting = replace(setting.with_case(replace(setting.case, pi=pi)), intended=intended)
     taken = {own.place for own in setting.inputs.values()}
     again = _by_role([cell for cell in reads if cell.place not in taken], report_inputs())
     left = {role: _nearest(cells, read, calculation)[0] for role, cells in again.items()}
@@ -204,12 +201,6 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     return replace(setting, read=frozenset(read), derived=derived, unread=single)
 
 
-def _areas(cell: Input, calculation: Calculation) -> Sequence[Area]:
-    """What a cell's formula refers to; nothing for a number, or a formula of numbers alone."""
-    formula = calculation.formulas.get(cell.place) if cell.place else None
-    return formula.areas if formula else ()
-
-
 def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
     """Every cell that some cells' formulas read, and through how many others; 0 for themselves."""
     edge = list(cells)
@@ -217,8 +208,7 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
     distance = 0
     while edge:
         distance += 1
-        formulas = (formula for place in edge if (formula := calculation.formulas.get(place)))
-        areas = (area for formula in formulas for area in formula.areas if area.cells <= 64)
+        areas = (area for place in edge for area in calculation.areas(place) if area.cells <= 64)
         edge = list({p for area in areas for p in area.places() if p not in found})
         found.update(dict.fromkeys(edge, distance))
     return found
@@ -229,8 +219,8 @@ def _reading(
 ) -> Input | None:
     """The cell without a known label whose formula reads these cells and nothing else."""
     for cell in reads:
-        areas = () if cell.roles else _areas(cell, calculation)
-        if areas and {source(area.corner, calculation) for area in areas} == sources:
+        areas = () if cell.roles else calculation.areas(cell.place)
+        if areas and {calculation.source(area.corner) for area in areas} == sources:
             return cell
     return None
 
@@ -241,18 +231,8 @@ def _nearest(
     """Of the cells for one role those that are read most directly; constants behind conversions."""
     far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
     near = [cell for cell in cells if far[cell] == min(far.values())]
-    sources = {source(cell.place, calculation) for cell in near if cell.place}
+    sources = {calculation.source(cell.place) for cell in near if cell.place}
     return [cell for cell in cells if cell.place in sources] or near
-
-
-def source(place: Position, calculation: Calculation) -> Position:
-    """The cell that a formula brings into another unit, if it reads only that."""
-    for _ in range(8):
-        formula = calculation.formulas.get(place)
-        if formula is None or len(formula.areas) != 1 or formula.areas[0].cells > 1:
-            break
-        place = formula.areas[0].corner
-    return place
 
 
 # ---- cells by label, name and value
@@ -580,33 +560,43 @@ def _shortest(value: float, near: float) -> float:
 
 
 def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
-    """Inputs that no cell holds: the report's if the rows agree, else from the rows.
-
-    If they do not agree with mass, diameter and resistance as these should be, they may with what
-    the cells `feeding` the rows hold.
-    """
-    report = report_inputs()
+    """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed."""
     unknown = [role for role, own in setting.inputs.items() if own.how == "report"]
     typed = _typed(setting.table.calculation) if unknown else set()
-    of_report = [
-        dict(zip(unknown, values, strict=True))
-        for values in product(*(report[role] for role in unknown))
-    ]
-    for fed, rules, tried in product(
-        ((), *_fed(setting, feeding)), (BRAKES[:2], BRAKES), of_report
-    ):
-        agreed = _tried(setting, tried, "report", rules, typed, fed)
-        if agreed is not None:
-            return agreed
+    for tried, how, rules, fed in _hypotheses(setting, unknown, typed, feeding):
+        case, intended = setting.case, setting.intended
+        for role, value in tried.items():
+            case, intended = case.with_input(role, value), intended.with_input(role, value)
+        for cell in fed:
+            case = case.holding(cell.role, cell.si)
+        agreed = replace(setting.with_case(case), intended=intended)
+        if agreed.agreement(rules) >= 0.5:
+            hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
+            inputs = dict(setting.inputs)
+            for role, value in tried.items():
+                known = "assumed" if role in hidden else "formulas" if value in typed else how
+                inputs[role] = replace(inputs[role], si=value, how=known)
+            return replace(agreed, inputs=inputs, derived={cell.role: cell for cell in fed})
+    assumed = {role: replace(setting.inputs[role], how="assumed") for role in unknown}
+    return replace(setting, inputs={**setting.inputs, **assumed})
+
+
+def _hypotheses(
+    setting: Setting, unknown: Sequence[str], typed: set[float], feeding: Mapping[str, Input]
+) -> Iterator[tuple[dict[str, float], str, Sequence[Rule], Sequence[Input]]]:
+    """What the unknown inputs may be, how that is known, by which rules, and with which cells fed.
+
+    The report's values first; with mass, diameter and resistance as they should be, then as the
+    cells `feeding` the rows hold them; then what the rows themselves say.
+    """
+    values = product(*(report_inputs()[role] for role in unknown))
+    of_report = [dict(zip(unknown, each, strict=True)) for each in values]
+    rules = (BRAKES[:2], BRAKES)
+    for fed, brakes, tried in product(((), *_fed(setting, feeding)), rules, of_report):
+        yield tried, "report", brakes, fed
     solved = _solved(setting)  # with the report's particle, if no cell holds it
     tried = {role: _nearby(value, typed) for role, value in solved.items() if role in unknown}
-    agreed = _tried(setting, tried, "rows", BRAKES[:2], typed)
-    return agreed or replace(setting, inputs=_assumed(setting.inputs, unknown))
-
-
-def _assumed(inputs: Mapping[str, Input], roles: Iterable[str]) -> dict[str, Input]:
-    """The inputs, some of them the report's although the rows do not tell."""
-    return {**inputs, **{role: replace(inputs[role], how="assumed") for role in roles}}
+    yield tried, "rows", BRAKES[:2], ()
 
 
 def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
@@ -627,28 +617,6 @@ def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input
         wrong.append([replace(cell, role=role, si=scaled(number, by), factor=by) for by in factors])
     if wrong:
         yield from islice(product(*wrong), 2 * _MAX_CHOICES)
-
-
-def _tried(
-    setting: Setting, tried: Mapping[str, float], how: str, rules: Sequence[Rule],
-    typed: set[float], fed: Sequence[Input] = (),
-) -> Setting | None:  # fmt: skip
-    """The setting with some inputs, and with some cells feeding its rows, if the rows agree."""
-    case, intended = setting.case, setting.intended
-    for role, value in tried.items():
-        case, intended = case.with_input(role, value), intended.with_input(role, value)
-    for cell in fed:
-        case = case.holding(cell.role, cell.si)
-    setting = replace(setting.with_case(case), intended=intended)
-    if setting.agreement(rules) < 0.5:
-        return None
-    inputs = dict(setting.inputs)
-    for role, value in tried.items():
-        known = "formulas" if value in typed else how
-        inputs[role] = replace(inputs[role], si=value, how=known)
-    hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
-    inputs = _assumed(inputs, (role for role in hidden if role in tried))
-    return replace(setting, inputs=inputs, derived={cell.role: cell for cell in fed})
 
 
 def _nearby(value: float, typed: Iterable[float]) -> float:

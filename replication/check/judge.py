@@ -6,13 +6,13 @@ report's is one difference, named by that rule. Then every cell by itself (`cell
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from statistics import median
 
 from replication.check.cells import each_cell, order, types
-from replication.check.findings import Difference, Findings
+from replication.check.findings import Difference, Verdict
 from replication.check.inputs import NEAR, Input, Setting, report_inputs
 from replication.check.scheme import (
     BEYOND,
@@ -24,7 +24,7 @@ from replication.check.scheme import (
     Case,
     Rules,
     march,
-)
+)  # fmt: skip
 from replication.check.table import address
 from replication.check.words import (
     power_of_ten,
@@ -34,34 +34,13 @@ from replication.check.words import (
     title,
     titles,
     unit_text,
-)
+)  # fmt: skip
 from spreadsheets.foreign import Position
-
-
-@dataclass
-class Verdict:
-    """What was found out about one table; depths in m.
-
-    `right_depth` is that of the report's scheme with the table's inputs, None if it does not end.
-    `differing` counts the cells that differ from that run, causes and consequences alike.
-    """
-
-    setting: Setting
-    rules: Rules
-    differences: list[Difference]
-    final_depth: float | None
-    right_depth: float | None
-    differing: int
-
-    @property
-    def ends(self) -> bool:
-        """Whether the rows go down to the stop."""
-        return not any(d.kind == "not calculated" for d in self.differences)
 
 
 def judge(setting: Setting) -> Verdict:
     """Every difference between a table and the report's sheet, but for its printed numbers."""
-    f = Findings(setting)
+    f = Verdict(setting)
     _units(f)
     if setting.digits is None:
         _calibrate(f)
@@ -75,13 +54,14 @@ def judge(setting: Setting) -> Verdict:
     else:
         _as_rounded(f, setting.digits)
     _stop(f)
-    return _verdict(f)
+    _effects(f)
+    return f
 
 
 # ---- units and inputs: what the workbook says of them, what its formulas make of them
 
 
-def _units(f: Findings) -> None:
+def _units(f: Verdict) -> None:
     """Units in heads that contradict the rest."""
     for role, slip in f.setting.slips.items():
         line, right = f.table.lines[role], unit_text(role, f.setting.powers[role])
@@ -90,7 +70,7 @@ def _units(f: Findings) -> None:
         f.add("unit", [place], right, f"{text}, a factor of 1e{abs(slip)}", line.unit)
 
 
-def _other_inputs(f: Findings) -> None:
+def _other_inputs(f: Verdict) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
     report = report_inputs()
     off = {
@@ -126,7 +106,7 @@ def _scaled_input(case: Case, role: str, value: float, by: float) -> Case:
     return case.with_input(role, value)
 
 
-def _calibrate(f: Findings) -> None:
+def _calibrate(f: Verdict) -> None:
     """An input that the rows take in another unit than its label says."""
     if f.setting.agreement(BRAKES) >= 0.5:
         return
@@ -148,7 +128,7 @@ def _calibrate(f: Findings) -> None:
                 return
 
 
-def _derived(f: Findings) -> None:
+def _derived(f: Verdict) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
     known = {own.role: own for own in (*f.setting.unread, *f.setting.inputs.values())}
     rows = replace(f.case, own_mass=None, own_diameter=None) if f.spoils else None
@@ -169,7 +149,7 @@ def _derived(f: Findings) -> None:
             _derived_cell(f, cell, wanted, sources)
 
 
-def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
+def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
     role, place = cell.role, cell.place
     assert place is not None
     number = f.calculation.number(place) or 0.0
@@ -206,7 +186,7 @@ def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Inp
     f.setting = f.setting.with_case(f.case.holding(role, held))
 
 
-def _typed_inputs(f: Findings) -> None:
+def _typed_inputs(f: Verdict) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
     accused = f.accused
     typed = {role: f.literals(role) for role in f.table.lines}
@@ -230,7 +210,7 @@ def _typed_inputs(f: Findings) -> None:
                 f.add("typed constant", cells, where, text, formula)
 
 
-def _typed_in(f: Findings, own: Input, role: str, k: int, place: Position) -> bool:
+def _typed_in(f: Verdict, own: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, though a cell for it exists."""
     formula = f.calculation.formulas.get(place)
     if formula is not None:
@@ -248,7 +228,7 @@ _FACTORS = (
 )  # fmt: skip
 
 
-def _scheme(f: Findings) -> None:
+def _scheme(f: Verdict) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
     starts = KNOWN["start"]
     chosen = {"start": next((r for r in starts if f.setting.follows("start", r, 1)), starts[0])}
@@ -281,7 +261,7 @@ def _scheme(f: Findings) -> None:
     _named(f)
 
 
-def _named(f: Findings) -> None:
+def _named(f: Verdict) -> None:
     """A difference for each rule that is not the report's."""
     for part, rule in f.rules.others.items():
         own, role, (fills, first) = getattr(REPORT, part), _column(f, part), PARTS[part]
@@ -292,13 +272,13 @@ def _named(f: Findings) -> None:
         f.add("other scheme", cells, f.shown(role, wanted), f"{rule.name}: {rule.says}")
 
 
-def _column(f: Findings, part: str) -> str:
+def _column(f: Verdict, part: str) -> str:
     """The column that shows a part of the scheme."""
     candidates = (PARTS[part][0], "velocity_final", "velocity_initial")
     return next(role for role in candidates if role in f.table.lines)
 
 
-def _cause(f: Findings, part: str, role: str) -> tuple[str, str]:
+def _cause(f: Verdict, part: str, role: str) -> tuple[str, str]:
     """What else explains a column that follows no rule known here: a constant factor."""
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [found / wanted for found, wanted in filter(None, pairs) if wanted]
@@ -321,7 +301,7 @@ def _near(a: float, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
-def _increment(f: Findings, part: str, k: int) -> tuple[float, float] | None:
+def _increment(f: Verdict, part: str, k: int) -> tuple[float, float] | None:
     """What a row adds to the one before, and what it would add by the report's rule."""
     rows = f.setting.rows
     starts = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}
@@ -331,7 +311,7 @@ def _increment(f: Findings, part: str, k: int) -> tuple[float, float] | None:
     return found - start, wanted - start
 
 
-def _as_rounded(f: Findings, digits: int) -> None:
+def _as_rounded(f: Verdict, digits: int) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
     others = [replace(REPORT, **{part: rule}) for part in parts for rule in KNOWN[part][1:]]
@@ -343,11 +323,11 @@ def _as_rounded(f: Findings, digits: int) -> None:
         f.add("typed number", [place], expected, text)
 
 
-def _run(f: Findings, rules: Rules) -> dict[str, dict[int, float]]:
+def _run(f: Verdict, rules: Rules) -> dict[str, dict[int, float]]:
     return march(f.case, rules, steps=f.table.steps)
 
 
-def _misprints(f: Findings, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
+def _misprints(f: Verdict, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
     """Numbers that do not round as a scheme's do."""
     run = _run(f, rules)
     for role in set(run) & set(f.table.lines):
@@ -364,7 +344,7 @@ def _misprints(f: Findings, rules: Rules, digits: int) -> Iterator[tuple[Positio
 # ---- the stop, and all of it together
 
 
-def _stop(f: Findings) -> None:
+def _stop(f: Verdict) -> None:
     """Whether the rows end with the first velocity below the stop."""
     steps, stop, rows = f.table.steps, f.case.stop_velocity, f.setting.rows
     finals = {k: v for k in range(1, steps + 1) if (v := rows("velocity_final", k)) is not None}
@@ -397,24 +377,23 @@ def _stop(f: Findings) -> None:
         f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
 
 
-def _verdict(f: Findings) -> Verdict:
-    """All of it, with the final depths and the difference that explains them."""
-    steps, rows = f.table.steps, f.setting.rows
+def _effects(f: Verdict) -> None:
+    """What the final depth should be, and what each difference alone would make of it."""
     run = march(f.intended)
-    ends = run["velocity_final"].get(max(run["depth"]), math.inf) < f.intended.stop_velocity
-    pairs = [
-        (value, run[role].get(k))
-        for role in set(run) & set(rows.columns)
-        for k, value in rows.columns[role].items()
-        if k in run[role] or k > max(run["depth"])
-    ]
-    differing = sum(right is None or abs(own - right) > 1e-9 * abs(right) for own, right in pairs)
-    found = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
-    right = run["depth"][max(run["depth"])] if ends else None
-    return Verdict(f.setting, f.rules, found, rows("depth", steps), right, differing)
+    steps = max(run["depth"])
+    if run["velocity_final"].get(steps, math.inf) < f.intended.stop_velocity:
+        f.right_depth = run["depth"][steps]
+    for role, column in f.setting.rows.columns.items():
+        for k, own in column.items() if role in run else ():
+            right = run[role].get(k)
+            if right is None:
+                f.differing += k > steps
+            else:
+                f.differing += abs(own - right) > 1e-9 * abs(right)
+    f.differences = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
 
 
-def _with_effect(f: Findings, difference: Difference) -> Difference:
+def _with_effect(f: Verdict, difference: Difference) -> Difference:
     """The difference with the final depth that it alone would give."""
     fixed: dict[tuple[str, int], float] = {}
     rules, case = REPORT, f.intended

@@ -5,8 +5,7 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import Difference
-from replication.check.judge import Verdict
+from replication.check.findings import Difference, Verdict
 from replication.check.table import address, area_of
 from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check, Held

@@ -318,16 +318,14 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
     found: list[Table] = []
     for depth, speed in _pairs([*known, *given]):
         used = [line for table in found for line in table.lines.values()]
-        if any(line.overlaps(depth) or line.overlaps(speed) for line in used):
-            continue
-        if any(_copied(table.lines["depth"], depth) for table in found):
-            continue
-        table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
-        # Other quantities grow like this, too: it takes a third one, or names for both.
-        if table and (
-            len(table.lines) > 2 or all(role in table.lines[role].roles for role in table.lines)
-        ):
-            found.append(table)
+        if not any(line.overlaps(depth) or line.overlaps(speed) for line in used):
+            table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
+            # Other quantities grow like this, too: it takes a third one, or names for both.
+            if table and (
+                len(table.lines) > 2
+                or all(role in line.roles for role, line in table.lines.items())
+            ):
+                found.append(table)
     if given:
         found = [table for table in found if all(line in table.lines.values() for line in given)]
         if not found:
@@ -384,23 +382,11 @@ def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float =
     return sum(abs(ratio / middle - 1) < close for ratio in ratios) / len(ratios)
 
 
-def _copied(own: Line, depth: Line) -> bool:
-    """Whether a depth is that of a table once more, in another unit or for a chart."""
-    rows = range(depth.first, depth.last + 1)
-    typed = not any(depth.formula(at) for at in rows[:-1])
-    return (
-        (own.sheet, own.across) == (depth.sheet, depth.across)
-        and (typed or depth.reads(own, 0))
-        and _constant(((depth.at(at), own.at(at) or None) for at in rows if depth.at(at)), 1e-6)
-        == 1
-    )
-
-
 def _viewed(table: Table, others: Sequence[Table]) -> bool:
     """Whether a table only shows what another one holds."""
     shown = {place for other in others if other is not table for place in other.places}
-    formulas = [table.lines["depth"].formula(table.zero + k) for k in range(1, table.steps + 1)]
-    return all(f is not None and any(area.corner in shown for area in f.areas) for f in formulas)
+    depths = (table.place("depth", k) for k in range(1, table.steps + 1))
+    return all(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
 
 
 def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:

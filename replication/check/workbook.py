@@ -9,9 +9,9 @@ from pathlib import Path
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension
-from replication.check.findings import NO_FAULT, Difference, rank
+from replication.check.findings import NO_FAULT, Difference, Verdict, rank
 from replication.check.inputs import find, numbers_beside, report_inputs
-from replication.check.judge import Verdict, judge
+from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
 from replication.check.words import COLUMNS, INPUTS, count, result_of
 from replication.text import with_unit
