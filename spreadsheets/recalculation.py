@@ -119,7 +119,7 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
     work = 0
     for place, formula in formulas.items():
         # An engine may look at ranges against ranges, at worst.
-        sizes = (_filled(area, book).cells for area in formula.areas)
+        sizes = (_filled(area, book).cells for area in formula.areas if area.cells > 1)
         cost = math.prod(sizes) + len(formula.pieces)
         if work + cost > MAX_WORK:
             refused[place] = _TOO_MUCH

@@ -135,7 +135,7 @@ def parse(text: str, place: Position, book: Book) -> Formula:
     """Read a formula at its place in a book. Never fails: what cannot be read is an obstacle."""
     reader = _Reader(place, book)
     depth = deepest = 0
-    for character in text:
+    for character in text if len(text) > MAX_DEPTH else "":
         depth += (character in "([{") - (character in ")]}")
         deepest = max(deepest, depth)
     if len(text) > MAX_FORMULA:

@@ -5,7 +5,7 @@ So a wrong one is found where it stands, and what follows from it is not accused
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -224,8 +224,11 @@ def order(f: Verdict) -> None:
         column = f.setting.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas]  # fmt: skip
-        differ = rows and min((_differing(f, role, rows, case) for case in cases), key=len)
-        if differ:
+        others = [
+            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
+            for case in cases
+        ]
+        if differ := min(others, key=len):
             found = column[differ[0]]
             wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - found))
             cells = [f.table.place(role, k) for k in differ]
@@ -238,13 +241,8 @@ def order(f: Verdict) -> None:
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 
-def _differing(f: Verdict, role: str, rows: Sequence[int], case: Case) -> list[int]:
-    """The rows whose value no order gives."""
-    column = f.setting.rows.columns[role]
-    return [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
-
-
 def _ordered(f: Verdict, role: str, k: int, case: Case) -> set[float]:
+    """What a cell may hold, by the order of the operations."""
     rows = f.setting.rows
     x, v = rows("depth", k), rows("velocity_initial", k)
     if role == "deceleration":

@@ -80,7 +80,6 @@ class Comparison:
     Places are those of the second workbook, if it has them.
     """
 
-    paths: tuple[Path, Path]
     calculations: tuple[Calculation, Calculation]
     differences: list[Difference]
 
@@ -101,7 +100,7 @@ def diff(
     if not values_only:
         found.group(pairs, found.formulas, "formula")
     found.group(pairs, found.values, "value")
-    return Comparison((a, b), (before, after), sorted(found.differences, key=lambda d: d.rank))
+    return Comparison((before, after), sorted(found.differences, key=lambda d: d.rank))
 
 
 class _Diff:

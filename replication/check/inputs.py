@@ -594,9 +594,12 @@ def _hypotheses(
     rules = (BRAKES[:2], BRAKES)
     for fed, brakes, tried in product(((), *_fed(setting, feeding)), rules, of_report):
         yield tried, "report", brakes, fed
-    solved = _solved(setting)  # with the report's particle, if no cell holds it
-    tried = {role: _nearby(value, typed) for role, value in solved.items() if role in unknown}
-    yield tried, "rows", BRAKES[:2], ()
+    solved = {}
+    for role, value in _solved(setting).items():  # with the report's particle, if no cell holds it
+        if role in unknown:  # a number that some formula has, or the shortest decimal
+            near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
+            solved[role] = next(near, _shortest(value, 1e-8))
+    yield solved, "rows", BRAKES[:2], ()
 
 
 def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
@@ -617,12 +620,6 @@ def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input
         wrong.append([replace(cell, role=role, si=scaled(number, by), factor=by) for by in factors])
     if wrong:
         yield from islice(product(*wrong), 2 * _MAX_CHOICES)
-
-
-def _nearby(value: float, typed: Iterable[float]) -> float:
-    """A number that some formula has, or the shortest decimal."""
-    near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
-    return next(near, _shortest(value, 1e-8))
 
 
 def _solved(setting: Setting) -> dict[str, float]:

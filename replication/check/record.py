@@ -15,7 +15,7 @@ from spreadsheets.foreign import Position
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
     record = {
-        "file": str(check.path),
+        "file": str(check.calculation.book.path),
         "verdict": _verdict(check),
         "clean": check.first is None,
         "summary": check.summary,
@@ -37,7 +37,7 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     if last := len(comparison.last_digits):
         verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     return {
-        "file": " and ".join(map(str, comparison.paths)),
+        "file": " and ".join(str(c.book.path) for c in comparison.calculations),
         "verdict": f"{verdict}." if found else "Equal: every cell holds the same.",
         "clean": not found,
         "summary": dict(Counter(d.kind for d in found)),

@@ -118,12 +118,15 @@ class Line:
         """The formula in a row, or column, of the sheet."""
         return self.calculation.formulas.get(self.place(at))
 
+    def reads_cell(self, at: int, other: int, of: "Line | None" = None) -> bool:
+        """Whether a formula of it reads another cell, of it or of another line."""
+        formula = self.formula(at)
+        return formula is not None and formula.reads((of or self).place(other))
+
     def reads(self, other: "Line", back: int) -> bool:
         """Whether most cells are formulas that read another line's cell, so many rows back."""
         rows = range(self.first + 1, self.last + 1)[:: 1 + len(self.values) // _SAMPLE]
-        formulas = ((at, self.formula(at)) for at in rows)
-        reads = sum(f is not None and f.reads(other.place(at - back)) for at, f in formulas)
-        return reads >= 0.5 * len(rows)
+        return sum(self.reads_cell(at, at - back, other) for at in rows) >= 0.5 * len(rows)
 
     @cached_property
     def falls(self) -> bool:
@@ -199,36 +202,38 @@ def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[li
 
 def lines(calculation: Calculation) -> Iterator[Line]:
     """Every line of a workbook, down the columns and along the rows, with its head and unit."""
-    for sheet, across in product(calculation.book.sheets, (False, True)):
-        blank = _left_out(sheet, across, calculation)
+    for (sheet, cells), across in product(calculation.book.sheets.items(), (False, True)):
+        # Each cell by its line and its place along it.
+        places = {(p if across else p[::-1]): (sheet, *p) for p in cells}
+        values = {p: calculation.values.get(place) for p, place in places.items()}
+        used = sorted({at for (_, at), value in values.items() if value is not None})
+        blank = _left_out(Line(calculation, sheet, across), used, places)
         numbers: dict[int, dict[int, float | None]] = {}
-        for place, value in calculation.values.items():
-            is_number = isinstance(value, float) and math.isfinite(value)
+        for (number, at), value in values.items():
+            held = value if isinstance(value, float) and math.isfinite(value) else None
             # An error is part of a line that has gone wrong.
-            if place[0] == sheet and (is_number or calculation.error(place)):
-                number, at = (place[1], place[2]) if across else (place[2], place[1])
+            if held is not None or calculation.error(places[number, at]):
                 at -= sum(before < at for before in blank)
-                numbers.setdefault(number, {})[at] = float(value) if is_number else None
-        filled = Counter(at for cells in numbers.values() for at in cells)
-        for number, cells in sorted(numbers.items()):
+                numbers.setdefault(number, {})[at] = held
+        filled = Counter(at for line in numbers.values() for at in line)
+        for number, own in sorted(numbers.items()):
             line = Line(calculation, sheet, across, blank, number)
-            for first, last in _runs(sorted(cells), filled, line):
-                values = tuple(cells.get(at) for at in range(first, last + 1))
-                if sum(value is not None for value in values) >= LEAST:
-                    yield replace(line, first=first, values=values).headed()
+            for first, last in _runs(sorted(own), filled, line):
+                run = tuple(own.get(at) for at in range(first, last + 1))
+                if sum(value is not None for value in run) >= LEAST:
+                    yield replace(line, first=first, values=run).headed()
 
 
-def _left_out(sheet: str, across: bool, calculation: Calculation) -> tuple[int, ...]:
+def _left_out(
+    line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
+) -> tuple[int, ...]:
     """Blank rows (or columns) of a sheet in the midst of formulas that step over them."""
-    used = sorted({p[2] if across else p[1] for p in calculation.values if p[0] == sheet})
-    blank = {here: before for before, here in pairwise(used) if 1 < here - before <= _GAP + 1}
+    gaps = {here: before for before, here in pairwise(used) if 1 < here - before <= _GAP + 1}
     stepped: set[int] = set()
-    for place, formula in calculation.formulas.items():
-        number, here = (place[1], place[2]) if across else (place[2], place[1])
-        if place[0] == sheet and here in blank:
-            line, before = Line(calculation, sheet, across, (), number), blank[here]
-            above = line.formula(before)
-            if formula.reads(line.place(before)) and above and above.reads(line.place(before - 1)):
+    for number, here in places:
+        if (before := gaps.get(here)) is not None:
+            own = replace(line, number=number)
+            if own.reads_cell(here, before) and own.reads_cell(before, before - 1):
                 stepped.update(range(before + 1, here))
     return tuple(sorted(stepped))
 

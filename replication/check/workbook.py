@@ -37,7 +37,6 @@ class Held:
 class Check:
     """What `coldspray check` has found out about a workbook."""
 
-    path: Path
     calculation: Calculation
     verdicts: tuple[Verdict, ...]
     differences: tuple[Difference, ...]
@@ -95,7 +94,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         for d in reversed(differences)
     }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(path, calculation, tuple(verdicts), ordered, tuple(held))
+    return Check(calculation, tuple(verdicts), ordered, tuple(held))
 
 
 # ---- what the user says, and what is said where nothing is found

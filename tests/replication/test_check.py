@@ -13,7 +13,7 @@ from foreign import layouts, writers
 from foreign.drawn import drawn
 from foreign.layouts import BRAKE, DEPTH, END, START, Foreign, moved
 from foreign.writers import require_libreoffice
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from reference.ledger import load
@@ -526,6 +526,7 @@ BASES = {f.name: f for f in (
     edits=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), min_size=1, max_size=6),
     heads=st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=2),
 )
+@example(name="random-3", edits=[(0, None), (19, 2465027.0)], heads=[])  # a step of zero
 @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     tmp_path_factory: pytest.TempPathFactory,
