@@ -6,7 +6,7 @@ a cell holds stands there as the value stored.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -78,21 +78,23 @@ class Calculation:
         """
         too_much = {place for place, why in self.uncomputed.items() if why == _TOO_MUCH}
         order: dict[Position, int] = {}
+        started: set[Position] = set()
+
+        def waiting(place: Position) -> Iterator[Position]:
+            areas = () if place in too_much else self.areas(place)
+            read = (p for area in areas for p in _filled(area, self.book).places())
+            return (p for p in read if p in self.formulas and p not in started)
+
         for place in self.formulas:
-            stack = [(place, False)]
-            started: set[Position] = set()
+            stack = [] if place in started else [(place, waiting(place))]
             while stack:
-                here, done = stack.pop()
-                if here in order:
-                    continue
-                if done:
+                here, before = stack[-1]
+                started.add(here)
+                if (first := next(before, None)) is None:
                     order[here] = len(order)
-                elif here not in started:
-                    started.add(here)
-                    areas = () if here in too_much else self.areas(here)
-                    read = [p for area in areas for p in _filled(area, self.book).places()]
-                    stack.append((here, True))
-                    stack.extend((p, False) for p in read[::-1] if p in self.formulas)
+                    stack.pop()
+                else:
+                    stack.append((first, waiting(first)))
         return order
 
 

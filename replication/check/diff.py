@@ -6,7 +6,7 @@ inserted row is one, and each formula is compared with where its references have
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
@@ -145,7 +145,7 @@ class _Diff:
         """Match the rows and columns of two sheets, then what was moved elsewhere."""
         old, new = _skeletons(self.before, name), _skeletons(self.after, other)
         columns = _matched(_profiles(old), _profiles(new))
-        rows = _matched(_lines(old, columns.keys()), _lines(new, columns.values()))
+        rows = _matched(_lines(old, 0, columns.keys()), _lines(new, 0, set(columns.values())))
         left, free = dict(old), dict(new)
 
         def put(cell: Cell, there: Cell) -> None:
@@ -154,7 +154,9 @@ class _Diff:
 
         for row, column in old:
             there = (rows.get(row, 0), columns.get(column, 0))
-            if there in new and _alike(old[row, column], new[there]):
+            kinds = old[row, column][0], new.get(there, "")[:1]
+            # It may be the same cell, changed; but texts stay texts.
+            if there in new and (kinds[0] == kinds[1] or "'" not in kinds):
                 put((row, column), there)
         by_form: dict[frozenset[tuple[int, int, str]], list[Cell]] = {}
         for block in _blocks(free)[:_MAX_BLOCKS]:
@@ -169,7 +171,8 @@ class _Diff:
                 was, now = _span(block), _span(new_block)
                 cells = [(other, *cell) for cell in new_block]
                 self.add("moved", cells, was, now, f"{was} now stands at {now}")
-        self.shifts(name, other, rows, columns)
+        self.shifts(name, other, rows, "rows")
+        self.shifts(name, other, columns, "columns")
         for block in _blocks(left):
             cells = [(name, *cell) for cell in block]
             self.add("removed", cells, _span(block), None, _cells_are(len(block), "gone"))
@@ -177,17 +180,16 @@ class _Diff:
             cells = [(other, *cell) for cell in block]
             self.add("added", cells, None, _span(block), _cells_are(len(block), "new"))
 
-    def shifts(
-        self, name: str, other: str, rows: Mapping[int, int], columns: Mapping[int, int]
-    ) -> None:
-        """Rows and columns that stand further down or right, each run of them once."""
-        for what, places in (("rows", rows), ("columns", columns)):
-            for first, last, by in _shifted(places):
-                show: Callable[[int], str] = str if what == "rows" else get_column_letter
-                was, now = (f"{show(first + d)} to {show(last + d)}" for d in (0, by))
-                place = (other, first + by, 1) if what == "rows" else (other, 1, first + by)
-                text = f"{what} {was} of {name!r} are now {now}"
-                self.add("moved", [place], was, now, text)
+    def shifts(self, name: str, other: str, lines: Mapping[int, int], what: str) -> None:
+        """Rows or columns that stand further down or right, each run of them once."""
+        show: Callable[[int], str] = str if what == "rows" else get_column_letter
+        for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1] - pair[0]):
+            if by:
+                run = [old for old, _ in pairs]
+                was, now = (f"{show(run[0] + d)} to {show(run[-1] + d)}" for d in (0, by))
+                at = run[0] + by
+                place = (other, at, 1) if what == "rows" else (other, 1, at)
+                self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
 
     # ---- what the cells hold
 
@@ -278,28 +280,22 @@ def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
     return found
 
 
-def _alike(a: str, b: str) -> bool:
-    """Whether two cells may be the same one, changed: texts stay texts."""
-    return a[0] == b[0] or "'" not in (a[0], b[0])
+def _lines(
+    cells: Mapping[Cell, str], axis: int, kept: Container[int]
+) -> dict[int, tuple[str, ...]]:
+    """Each row (axis 0) or column (axis 1) as what stands in some columns."""
+    found: dict[int, list[str]] = {}
+    for cell in sorted(cells):
+        line = found.setdefault(cell[axis], [])
+        if cell[1] in kept:
+            line.append(cells[cell])
+    return {i: tuple(line) for i, line in sorted(found.items())}
 
 
 def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
     """Each column as what stands in it, repetitions left out."""
-    found: dict[int, list[str]] = {}
-    for cell in sorted(cells):
-        found.setdefault(cell[1], []).append(cells[cell])
-    return {i: tuple(what for what, _ in groupby(line)) for i, line in sorted(found.items())}
-
-
-def _lines(cells: Mapping[Cell, str], columns: Iterable[int]) -> dict[int, tuple[str, ...]]:
-    """Each row as what stands in some columns."""
-    kept = set(columns)
-    found: dict[int, list[str]] = {}
-    for row, column in sorted(cells):
-        line = found.setdefault(row, [])
-        if column in kept:
-            line.append(cells[row, column])
-    return {i: tuple(line) for i, line in sorted(found.items())}
+    columns = _lines(cells, 1, {column for _, column in cells})
+    return {i: tuple(what for what, _ in groupby(line)) for i, line in columns.items()}
 
 
 def _matched(
@@ -337,14 +333,6 @@ def _similar(
                 yield i, j
                 after = j + 1
                 break
-
-
-def _shifted(places: Mapping[int, int]) -> Iterator[tuple[int, int, int]]:
-    """First, last and distance of each run that stands elsewhere."""
-    for by, pairs in groupby(sorted(places.items()), key=lambda pair: pair[1] - pair[0]):
-        run = [old for old, _ in pairs]
-        if by:
-            yield run[0], run[-1], by
 
 
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
