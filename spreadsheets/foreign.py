@@ -14,9 +14,11 @@ import signal
 import subprocess
 import zipfile
 import zlib
+from collections import deque
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 from posixpath import join, normpath
 from tempfile import TemporaryDirectory
@@ -24,7 +26,7 @@ from typing import Any, NamedTuple, cast
 from xml.etree import ElementTree as ET
 
 from openpyxl.formula.translate import Translator, TranslatorError
-from openpyxl.utils.cell import column_index_from_string, get_column_letter
+from openpyxl.utils.cell import column_index_from_string, get_column_letter, range_boundaries
 
 Position = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""
@@ -71,7 +73,7 @@ class Cell(NamedTuple):
     array: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Book:
     """The worksheets in their order, cell by (row, column); the names; what else there is."""
 
@@ -83,6 +85,24 @@ class Book:
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
         return self.sheets[sheet].get((row, column), _BLANK)
+
+    @cached_property
+    def called(self) -> dict[str, str]:
+        """The sheets' names in capitals -> the names: formulas write them either way."""
+        return {name.upper(): name for name in self.sheets}
+
+    @cached_property
+    def meanings(self) -> dict[str, str]:
+        """The defined names in capitals -> what they stand for."""
+        return {name.upper(): meaning for name, meaning in self.names.items()}
+
+    @cached_property
+    def size(self) -> dict[str, tuple[int, int]]:
+        """The last row and the last column that each sheet uses."""
+        return {
+            name: (max((r for r, _ in cells), default=0), max((c for _, c in cells), default=0))
+            for name, cells in self.sheets.items()
+        }
 
     def cells(self) -> Iterator[tuple[Position, Cell]]:
         """Every cell that is not blank."""
@@ -119,18 +139,23 @@ def read(path: Path) -> Book:
 
 
 def _is_xlsx(path: Path) -> bool:
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
-    except (zipfile.BadZipFile, zlib.error, ValueError):
-        return False
+    with suppress(zipfile.BadZipFile, zlib.error, ValueError), zipfile.ZipFile(path) as archive:
+        return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
+    return False
 
 
 def _read(path: Path, shown: Path | None = None) -> Book:
     shown = shown or path
+    with _opened(path, shown) as reader:
+        return reader.book()
+
+
+@contextmanager
+def _opened(path: Path, shown: Path) -> "Iterator[_Reader]":
+    """A file's reader; whatever goes wrong is told of the file that is shown."""
     try:
         with zipfile.ZipFile(path) as archive:
-            return _Reader(archive, shown).book()
+            yield _Reader(archive, shown)
     except WorkbookError as error:
         raise WorkbookError(f"{shown}: {error}") from error
     except (ET.ParseError, KeyError, IndexError, ValueError, EOFError, RecursionError) as error:
@@ -148,7 +173,9 @@ def _converted(path: Path, folder: Path) -> Path:
             "save it as .xlsx"
         )
     if zipfile.is_zipfile(path):
-        _check_unpacked(path)
+        with _opened(path, path) as reader:  # so that LibreOffice unpacks what may be unpacked
+            for part in reader.parts:
+                deque(reader.chunks(part), maxlen=0)
     source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
     command = [
         soffice, "--headless", "--norestore",
@@ -162,49 +189,30 @@ def _converted(path: Path, folder: Path) -> Path:
     raise WorkbookError(f"{path}: LibreOffice cannot open it")
 
 
-def _check_unpacked(path: Path) -> None:
-    left = MAX_UNPACKED
-    try:
-        with zipfile.ZipFile(path) as archive:
-            for name in archive.namelist():
-                with archive.open(name) as stream:
-                    while chunk := stream.read(2**20):
-                        left -= len(chunk)
-                        if left < 0:
-                            raise WorkbookError(f"{path}: {_TOO_MUCH}")
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
-        raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
-
-
 def _run(command: list[str], path: Path) -> None:
     """Run LibreOffice within bounds of time, memory and disk, and leave none of its processes."""
-    quiet = subprocess.DEVNULL
+
+    def limited() -> None:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
+
+    posix, quiet = os.name == "posix", subprocess.DEVNULL
     with subprocess.Popen(
-        command,
-        stdout=quiet,
-        stderr=quiet,
-        start_new_session=True,
-        preexec_fn=_limited if os.name == "posix" else None,
-    ) as process:
+        command, stdout=quiet, stderr=quiet, start_new_session=True,
+        preexec_fn=limited if posix else None,
+    ) as process:  # fmt: skip
         try:
             process.wait(CONVERT_LIMIT_S)
         except subprocess.TimeoutExpired as error:
-            raise WorkbookError(
-                f"{path}: LibreOffice did not open it within {CONVERT_LIMIT_S} s"
-            ) from error
+            reason = f"LibreOffice did not open it within {CONVERT_LIMIT_S} s"
+            raise WorkbookError(f"{path}: {reason}") from error
         finally:
-            if hasattr(os, "killpg"):
+            if posix:
                 with suppress(ProcessLookupError):
                     os.killpg(process.pid, signal.SIGKILL)
             process.kill()
-
-
-def _limited() -> None:
-    """Bound the memory and the file size of a process that is about to start."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
 class _Reader:
@@ -252,8 +260,8 @@ class _Reader:
             if kind == "table" and part in self.parts:
                 tree = self.tree(part)
                 heads = [c.attrib["name"] for c in tree.iterfind("{*}tableColumns/{*}tableColumn")]
-                corner = _corners(tree.attrib["ref"])[0]
-                found[tree.attrib["displayName"].lower()] = _Table(sheet, corner[1], heads)
+                column = range_boundaries(tree.attrib["ref"])[0] or 1
+                found[tree.attrib["displayName"].lower()] = _Table(sheet, column, heads)
         return found
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
@@ -276,8 +284,14 @@ class _Reader:
         return cast(ET.Element, self.parse(part, _Tree(), MAX_PART))
 
     def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
-        """Feed a part to a target, counting what comes out of the archive, not what it says."""
+        """Feed a part to a target."""
         parser = ET.XMLParser(target=target)
+        for chunk in self.chunks(part, limit):
+            parser.feed(chunk)
+        return parser.close()
+
+    def chunks(self, part: str, limit: int = MAX_UNPACKED) -> Iterator[bytes]:
+        """What a part unpacks to, counting what comes out of the archive, not what it says."""
         taken = 0
         with self.archive.open(self.parts[part]) as stream:
             while chunk := stream.read(2**16):
@@ -285,8 +299,7 @@ class _Reader:
                 taken += len(chunk)
                 if self.left < 0 or taken > limit:
                     raise WorkbookError(_TOO_MUCH)
-                parser.feed(chunk)
-        return parser.close()
+                yield chunk
 
     def count(self, formula: bool) -> None:
         self.cells += 1
@@ -341,7 +354,7 @@ class _Sheet(_Refusing):
     def __init__(self, reader: _Reader, texts: list[str]) -> None:
         self.reader, self.texts = reader, texts
         self.cells: dict[tuple[int, int], Cell] = {}
-        self.masters: dict[str, tuple[str, tuple[int, int]]] = {}
+        self.masters: dict[str, tuple[str, str]] = {}
         self.arrays: list[tuple[str, str]] = []
         self.row = self.column = 0
         self.kind = "n"
@@ -355,11 +368,9 @@ class _Sheet(_Refusing):
         if name == "row":
             self.row, self.column = int(attributes.get("r", self.row + 1)), 0
         elif name == "c":
-            address = attributes.get("r")
-            if address:
+            self.column += 1
+            if address := attributes.get("r"):
                 self.row, self.column = _corner(address)
-            else:
-                self.column += 1
             if not (0 < self.row <= 1_048_576 and 0 < self.column <= 16_384):
                 raise WorkbookError(f"is damaged: no cell can be at {address!r}")
             self.kind = attributes.get("t", "n")
@@ -373,26 +384,21 @@ class _Sheet(_Refusing):
             self.pieces.setdefault(self.tag, []).append(text)
 
     def end(self, tag: str) -> None:
-        name = tag.rpartition("}")[2]
         self.tag = ""
-        if name == "c" and self.inside:
+        if tag.rpartition("}")[2] == "c" and self.inside:
             self.inside = False
-            self.take()
+            formula, (value, error) = self.filled(), self.value()
+            if formula is not None or value is not None:
+                self.reader.count(formula is not None)
+                array = self.formula is not None and self.formula.get("t") in ("array", "dataTable")
+                self.cells[self.row, self.column] = Cell(formula, value, error, array)
 
-    def take(self) -> None:
-        formula = self.taken_formula()
-        value, error = self.value()
-        if formula is None and value is None:
-            return
-        self.reader.count(formula is not None)
-        array = self.formula is not None and self.formula.get("t") in ("array", "dataTable")
-        self.cells[self.row, self.column] = Cell(formula, value, error, array)
-
-    def taken_formula(self) -> str | None:
+    def filled(self) -> str | None:
+        """The cell's formula; a shared one, filled into the cell."""
         if self.formula is None:
             return None
         text = "".join(self.pieces.get("f", ()))[: MAX_FORMULA + 1]
-        kind, here = self.formula.get("t"), (self.row, self.column)
+        kind, here = self.formula.get("t"), f"{get_column_letter(self.column)}{self.row}"
         if kind == "shared":
             index = self.formula.get("si", "")
             if text:
@@ -400,29 +406,25 @@ class _Sheet(_Refusing):
             elif index in self.masters:
                 master, origin = self.masters[index]
                 try:
-                    filler = Translator(f"={master}", _address(origin))
-                    return str(filler.translate_formula(_address(here)))
+                    return str(Translator(f"={master}", origin).translate_formula(here))
                 except TranslatorError as error:
-                    raise WorkbookError(f"is damaged: {error} at {_address(here)}") from error
+                    raise WorkbookError(f"is damaged: {error} at {here}") from error
         if kind == "array" and text:
-            self.arrays.append((self.formula.get("ref", _address(here)), f"={text}"))
+            self.arrays.append((self.formula.get("ref", here), f"={text}"))
         return f"={text}" if text else None
 
     def value(self) -> tuple[Value | None, bool]:
-        text = "".join(self.pieces.get("v", ()))
-        if self.kind == "inlineStr":
-            return "".join(self.pieces.get("t", ()))[:MAX_TEXT] or None, False
-        if not text:
-            return None, False
-        match self.kind:
+        """The cell's value, and whether it is an error."""
+        text = "".join(self.pieces.get("t" if self.kind == "inlineStr" else "v", ()))
+        match self.kind if text else "":
+            case "":
+                return None, False
             case "s":
                 return self.texts[int(text)] or None, False
             case "b":
                 return text.strip() not in ("0", "false"), False
-            case "e":
-                return text[:MAX_TEXT], True
-            case "str" | "d":
-                return text[:MAX_TEXT], False
+            case "e" | "str" | "d" | "inlineStr":
+                return text[:MAX_TEXT], self.kind == "e"
         number = float(text)
         # A writer that stores nan or inf stores what no engine reads: the same as nothing.
         return (number, False) if math.isfinite(number) else (None, False)
@@ -430,7 +432,7 @@ class _Sheet(_Refusing):
     def close(self) -> dict[tuple[int, int], Cell]:
         """The cells, with the text of an array formula in each cell that it fills."""
         for ref, text in self.arrays:
-            (top, left), (bottom, right) = _corners(ref)
+            left, top, right, bottom = (end or 1 for end in range_boundaries(ref))
             for place, cell in self.cells.items():
                 if top <= place[0] <= bottom and left <= place[1] <= right:
                     self.cells[place] = cell._replace(formula=text, array=True)
@@ -490,12 +492,3 @@ def _corner(address: str) -> tuple[int, int]:
     if match is None:
         raise WorkbookError(f"is damaged: {address[:20]!r} is no cell")
     return int(match[2]), column_index_from_string(match[1])
-
-
-def _corners(area: str) -> tuple[tuple[int, int], tuple[int, int]]:
-    first, _, last = area.partition(":")
-    return _corner(first), _corner(last or first)
-
-
-def _address(place: tuple[int, int]) -> str:
-    return f"{get_column_letter(place[1])}{place[0]}"

@@ -5,16 +5,17 @@ engines give. It never sees the file, only formulas that were read and found har
 a cell holds stands there as the value stored.
 """
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 from spreadsheets.foreign import Book, Position, Value
 from spreadsheets.references import Area, Formula, parse
 
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
+_TOO_MUCH = "the formulas before it read too many cells already"
 
 
 @dataclass(frozen=True)
@@ -42,14 +43,28 @@ class Calculation:
             return None if value == "#N/A" else value
         return None
 
+    def areas(self, place: Position | None) -> tuple[Area, ...]:
+        """What a cell's formula refers to; nothing for a number, or a formula of numbers alone."""
+        formula = self.formulas.get(place) if place else None
+        return formula.areas if formula else ()
+
+    def source(self, place: Position) -> Position:
+        """The cell that a formula brings into another unit, if it reads only that; else itself."""
+        for _ in range(8):
+            areas = self.areas(place)
+            if len(areas) != 1 or areas[0].cells > 1:
+                break
+            place = areas[0].corner
+        return place
+
     @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a name, with it."""
-        sheets = {name.upper(): name for name in self.book.sheets}
+        unnamed = Book(self.book.path, self.book.sheets, {})
         here = (next(iter(self.book.sheets)), 1, 1)
         found = {}
         for name, meaning in self.book.names.items():
-            areas = parse(f"={meaning}", here, sheets, {}).areas
+            areas = parse(f"={meaning}", here, unnamed).areas
             if len(areas) == 1 and areas[0].cells == 1:
                 found[areas[0].corner] = name.rpartition("!")[2]
         return found
@@ -58,62 +73,37 @@ class Calculation:
     def order(self) -> dict[Position, int]:
         """The rank of each formula in order of calculation: precedents before what reads them.
 
-        Cells that read each other in a circle come in no particular order.
+        Cells that read each other in a circle come in no particular order; what a formula reads
+        that reads too much to be computed is not followed.
         """
+        too_much = {place for place, why in self.uncomputed.items() if why == _TOO_MUCH}
         order: dict[Position, int] = {}
+        started: set[Position] = set()
+
+        def waiting(place: Position) -> Iterator[Position]:
+            areas = () if place in too_much else self.areas(place)
+            read = (p for area in areas for p in _filled(area, self.book).places())
+            return (p for p in read if p in self.formulas and p not in started)
+
         for place in self.formulas:
-            stack = [(place, False)]
-            started: set[Position] = set()
+            stack = [] if place in started else [(place, waiting(place))]
             while stack:
-                here, done = stack.pop()
-                if here in order:
-                    continue
-                if done:
+                here, before = stack[-1]
+                started.add(here)
+                if (first := next(before, None)) is None:
                     order[here] = len(order)
-                elif here not in started:
-                    started.add(here)
-                    stack.append((here, True))
-                    stack.extend((before, False) for before in self.precedents(here)[::-1])
+                    stack.pop()
+                else:
+                    stack.append((first, waiting(first)))
         return order
-
-    def precedents(self, place: Position) -> list[Position]:
-        """The formula cells that a formula reads, as far as it names them."""
-        formula = self.formulas.get(place)
-        return [] if formula is None else [p for a in formula.areas for p in self.within(a)]
-
-    def within(self, area: Area) -> list[Position]:
-        """The formula cells of an area."""
-        if area.cells <= 64:
-            return [place for place in area.places() if place in self.formulas]
-        return [
-            (area.sheet, row, column)
-            for column, rows in self._by_column.get(area.sheet, {}).items()
-            if area.left <= column <= area.right
-            for row in rows
-            if area.top <= row <= area.bottom
-        ]
-
-    @cached_property
-    def _by_column(self) -> dict[str, dict[int, list[int]]]:
-        found: dict[str, dict[int, list[int]]] = {}
-        for sheet, row, column in self.formulas:
-            found.setdefault(sheet, {}).setdefault(column, []).append(row)
-        return found
 
 
 def calculate(book: Book) -> Calculation:
     """Compute a book's formulas, all but those that are refused."""
-    sheets = {name.upper(): name for name in book.sheets}
-    names = {name.upper(): meaning for name, meaning in book.names.items()}
-    formulas = {
-        place: parse(cell.formula, place, sheets, names)
-        for place, cell in book.cells()
-        if cell.formula
-    }
-    refused = _refused(book, formulas)
-    computed = _computed(book, formulas, refused)
+    formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
+    reasons = _refused(book, formulas)
+    computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
-    reasons = dict(refused)
     for place, value in computed.items():
         stored = book[place]
         wrong = isinstance(value, str) and value.startswith("#")
@@ -126,71 +116,57 @@ def calculate(book: Book) -> Calculation:
 
 
 def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, str]:
+    """Formulas that no engine may compute, with the reason."""
     refused = {}
-    used = {
-        name: (max((r for r, _ in cells), default=0), max((c for _, c in cells), default=0))
-        for name, cells in book.sheets.items()
-    }
     work = 0
     for place, formula in formulas.items():
+        # An engine may look at ranges against ranges, at worst.
+        sizes = (_filled(area, book).cells for area in formula.areas if area.cells > 1)
+        cost = math.prod(sizes) + len(formula.pieces)
+        if work + cost > MAX_WORK:
+            refused[place] = _TOO_MUCH
+            continue
+        work += cost
         if book[place].array:
             refused[place] = "it is an array formula"
         elif formula.obstacle:
             refused[place] = formula.obstacle
-        else:
-            cost = _cost(formula, used)
-            work += cost
-            if work > MAX_WORK:
-                refused[place] = "the formulas before it read too many cells already"
-                work -= cost
     return refused
 
 
-def _cost(formula: Formula, used: Mapping[str, tuple[int, int]]) -> int:
-    """How many cells an engine may have to look at, ranges against ranges at worst."""
-    cost = 1
-    for area in formula.areas:
-        if area.cells > 1:
-            rows, columns = used[area.sheet]
-            height = max(min(area.bottom, rows) - area.top + 1, 1)
-            cost *= height * max(min(area.right, columns) - area.left + 1, 1)
-    return cost + len(formula.pieces)
+def _filled(area: Area, book: Book) -> Area:
+    """The part of an area that may hold something."""
+    rows, columns = book.size[area.sheet]
+    bottom, right = min(area.bottom, rows), min(area.right, columns)
+    return area._replace(bottom=max(bottom, area.top), right=max(right, area.left))
 
 
-def _computed(
-    book: Book, formulas: Mapping[Position, Formula], refused: Mapping[Position, str]
-) -> dict[Position, Value]:
+def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
+    """What each formula gives."""
     import ironcalc
 
-    if len(formulas) == len(refused):
+    if not formulas:
         return {}
     model = ironcalc.create("workbook")
     number = {name: index for index, name in enumerate(book.sheets)}
     called = {name: f"S{index}" for name, index in number.items()}
-    for index in range(len(number)):
+    for index, name in enumerate(called.values()):
         if index:
             model.new_sheet()
-        model.rename_sheet(index, f"S{index}")
+        model.rename_sheet(index, name)
     for (sheet, row, column), cell in book.cells():
-        formula = formulas.get((sheet, row, column))
-        if formula is not None and (sheet, row, column) not in refused:
-            text = formula.for_engine(called)
-            model.update_cell_with_formula(number[sheet], row, column, text)
+        formula, at = formulas.get((sheet, row, column)), (number[sheet], row, column)
+        if formula is not None:
+            model.update_cell_with_formula(*at, formula.for_engine(called))
+        elif isinstance(cell.value, bool):
+            model.update_cell_with_bool(*at, cell.value)
+        elif isinstance(cell.value, float):
+            model.update_cell_with_number(*at, cell.value)
         elif cell.value is not None:
-            _put(model, number[sheet], row, column, cell.value)
+            model.update_cell_with_text(*at, cell.value)
     model.evaluate()
     return {
-        place: value
-        for place in formulas
-        if place not in refused
-        and (value := model.get_cell_value(number[place[0]], place[1], place[2])) is not None
+        (sheet, row, column): value
+        for sheet, row, column in formulas
+        if (value := model.get_cell_value(number[sheet], row, column)) is not None
     }
-
-
-def _put(model: Any, sheet: int, row: int, column: int, value: Value) -> None:
-    if isinstance(value, bool):
-        model.update_cell_with_bool(sheet, row, column, value)
-    elif isinstance(value, float):
-        model.update_cell_with_number(sheet, row, column, value)
-    else:
-        model.update_cell_with_text(sheet, row, column, value)

@@ -6,6 +6,7 @@ distances, as in R1C1 notation (the fingerprints of ExceLint). Names are what th
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -13,7 +14,7 @@ from typing import NamedTuple
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
 from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
-from spreadsheets.foreign import MAX_FORMULA, Position
+from spreadsheets.foreign import MAX_FORMULA, Book, Position
 
 MAX_DEPTH = 64
 """Levels of nesting in Excel. One engine ends the process at some thousands."""
@@ -130,33 +131,22 @@ class Formula:
         return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
 
 
-def parse(
-    text: str, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
-) -> Formula:
-    """Read a formula at its place.
-
-    `sheets` maps the sheets' names in capitals to the names, `names` the defined names in capitals
-    to what they stand for. Never fails: what cannot be read is an obstacle.
-    """
-    obstacle = _unreadable(text)
-    if obstacle:
-        return Formula(place, (Piece("text", text),), obstacle)
-    reader = _Pieces(place, sheets, names)
-    try:
-        pieces = tuple(reader.read(text))
-    except (TokenizerError, IndexError, ValueError):
-        return Formula(place, (Piece("text", text),), "it cannot be read")
-    return Formula(place, pieces, reader.obstacle)
-
-
-def _unreadable(text: str) -> str | None:
-    if len(text) > MAX_FORMULA:
-        return f"it has more than {MAX_FORMULA:,} characters"
+def parse(text: str, place: Position, book: Book) -> Formula:
+    """Read a formula at its place in a book. Never fails: what cannot be read is an obstacle."""
+    reader = _Reader(place, book)
     depth = deepest = 0
     for character in text if len(text) > MAX_DEPTH else "":
         depth += (character in "([{") - (character in ")]}")
         deepest = max(deepest, depth)
-    return f"it is nested more than {MAX_DEPTH} levels deep" if deepest > MAX_DEPTH else None
+    if len(text) > MAX_FORMULA:
+        reader.obstacle = f"it has more than {MAX_FORMULA:,} characters"
+    elif deepest > MAX_DEPTH:
+        reader.obstacle = f"it is nested more than {MAX_DEPTH} levels deep"
+    else:
+        with suppress(TokenizerError, IndexError, ValueError):
+            return Formula(place, tuple(reader.read(text)), reader.obstacle)
+        reader.obstacle = "it cannot be read"
+    return Formula(place, (Piece("text", text),), reader.obstacle)
 
 
 _COLUMN, _ROW = r"(\$?[A-Za-z]{1,3})", r"(\$?[1-9][0-9]{0,6})"
@@ -174,49 +164,41 @@ def _tokens(text: str) -> tuple[Token, ...]:
     return tuple(Tokenizer(text).items)
 
 
-class _Pieces:
-    """Turns tokens into pieces; `obstacle` collects the first reason not to compute."""
+class _Reader:
+    """Turns tokens into pieces; `obstacle` is the first reason not to compute."""
 
-    def __init__(
-        self, place: Position, sheets: Mapping[str, str], names: Mapping[str, str]
-    ) -> None:
-        self.place, self.sheets, self.names = place, sheets, names
+    def __init__(self, place: Position, book: Book) -> None:
+        self.place, self.book = place, book
         self.obstacle: str | None = None
         self.expansions = 0
 
     def read(self, text: str) -> Iterator[Piece]:
         for token in _tokens(text):
-            yield from self.pieces(token)
+            value, kind = token.value, token.type
+            if kind == Token.OPERAND and token.subtype == Token.RANGE:
+                yield from self.operand(value)
+            elif kind == Token.OPERAND and token.subtype == Token.NUMBER:
+                yield Piece("number", value)
+            elif kind == Token.FUNC and token.subtype == Token.OPEN:
+                name = value.rstrip("(").upper().removeprefix("_XLFN.").removeprefix("_XLWS.")
+                if name not in FUNCTIONS:
+                    self.stop(f"it uses {name[:40]}")
+                yield Piece("function", f"{name}(")
+            elif kind != Token.WSPACE:
+                if kind == Token.ARRAY:
+                    self.stop("it holds an array")
+                yield Piece("sign", value)
 
     def stop(self, reason: str) -> None:
         self.obstacle = self.obstacle or reason
-
-    def pieces(self, token: Token) -> Iterator[Piece]:
-        value, kind = token.value, token.type
-        if kind == Token.WSPACE:
-            return
-        if kind == Token.OPERAND and token.subtype == Token.RANGE:
-            yield from self.operand(value)
-        elif kind == Token.OPERAND and token.subtype == Token.NUMBER:
-            yield Piece("number", value)
-        elif kind == Token.FUNC and token.subtype == Token.OPEN:
-            name = value.rstrip("(").upper().removeprefix("_XLFN.").removeprefix("_XLWS.")
-            if name not in FUNCTIONS:
-                self.stop(f"it uses {name[:40]}")
-            yield Piece("function", f"{name}(")
-        else:
-            if kind == Token.ARRAY:
-                self.stop("it holds an array")
-            yield Piece("sign", value)
 
     def operand(self, value: str) -> Iterator[Piece]:
         match = next((m for pattern in _REFERENCES if (m := pattern.fullmatch(value))), None)
         if match is not None and (area := self.area(match)) is not None:
             yield area
             return
-        meaning = self.names.get(
-            f"'{self.place[0]}'!{value}".upper(), self.names.get(value.upper())
-        )
+        names = self.book.meanings
+        meaning = names.get(f"'{self.place[0]}'!{value}".upper(), names.get(value.upper()))
         if meaning is None or self.expansions > _MAX_EXPANSIONS:
             outside = "[" in value or "|" in value
             self.stop(
@@ -230,7 +212,9 @@ class _Pieces:
 
     def area(self, match: re.Match[str]) -> Piece | None:
         named, left, top, right, bottom = match.groups()
-        sheet = self.place[0] if named is None else self.sheets.get(_unquoted(named).upper())
+        if named and named.startswith("'"):
+            named = named[1:-1].replace("''", "'")
+        sheet = self.place[0] if named is None else self.book.called.get(named.upper())
         if right is None:  # a lone cell is its own other end
             right, bottom = left, top
         ends = (
@@ -249,10 +233,6 @@ def _end(text: str, whole: str) -> tuple[int, bool]:
     number = (text or whole).lstrip("$")
     fixed = (text or whole).startswith("$")
     return int(number) if number.isdigit() else column_index_from_string(number), fixed
-
-
-def _unquoted(sheet: str) -> str:
-    return sheet[1:-1].replace("''", "'") if sheet.startswith("'") else sheet
 
 
 def _written(piece: Piece, sheet: str) -> str:

@@ -1,32 +1,60 @@
-"""Each cell of a table, by what the cells before it give and by what its column is."""
+"""Each cell of a table, by what the cells before it give and by what its column is.
+
+So a wrong one is found where it stands, and what follows from it is not accused.
+"""
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 
-from replication.check.findings import Findings, joined
-from replication.check.inputs import NEAR, Input, follows
-from replication.check.lines import Line, address
-from replication.check.scheme import BRAKES, REPORT, Case, orders
-from replication.check.table import Table
+from replication.check.findings import Verdict, joined
+from replication.check.inputs import NEAR, Input
+from replication.check.scheme import BEYOND, REPORT, Case, orders
+from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 from spreadsheets.references import Formula
 
 
-def irregular(
-    line: Line, table: Table, calculation: Calculation
-) -> Iterator[tuple[Position, tuple[str, str]]]:
+def each_cell(f: Verdict) -> None:
+    """Every cell that is not what those before it give, and every cell unlike its column."""
+    odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
+    accused, before = f.accused, len(f.differences)
+    for role, column in f.setting.rows.columns.items():
+        for k in range(f.table.steps + 1):
+            place, expected = f.table.place(role, k), _expected(f, role, k)
+            if place in odd:
+                kind, text = odd.pop(place)
+                if error := f.calculation.error(place):
+                    kind, text = "odd formula", f"{text}; it gives {error}"
+                elif reason := f.calculation.uncomputed.get(place):
+                    kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
+            elif place not in accused and _fails(f, role, k, expected):
+                kind, text = _lone(f, role, k, expected)
+            else:
+                continue
+            shown, found = f.shown(role, expected), column.get(k)
+            if found and expected and math.isclose(found, expected, rel_tol=1e-9):
+                text += "; it gives the right value here"
+            f.add(kind, [place], shown, text)
+    for place, (kind, text) in odd.items():
+        f.add(kind, [place], None, text)
+    f.differences[before:] = joined(f.differences[before:], f.table.across)
+
+
+def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
     """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
 
     Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
     """
     rows = [table.zero + k for k in range(2, table.steps + 1)]
     places = [line.place(at) for at in rows if line.follows(at)]
+    calculation = line.calculation
     formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
     if len(formulas) < max(3, 0.5 * len(places)):
         return
@@ -84,17 +112,13 @@ def _short(text: str) -> str:
 
 def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
     """Whether a formula has an input's value as a number, and does not read its cell."""
-    if not formula.literals or own.place is None or own.role == "beta":
-        return False
     value = calculation.number(own.place)
-    if value is None:
+    if not formula.literals or value is None or own.role == "beta":
         return False
     if own.role == "stop_velocity":
         texts = [piece.text for piece in formula.pieces]
-        typed = any(
-            sign in ("<", "<=", ">", ">=") and texts[i + 1] == f"{value:g}"
-            for i, sign in enumerate(texts[:-1])
-        )
+        pairs = pairwise(texts)
+        typed = any(sign in ("<", "<=", ">", ">=") and to == f"{value:g}" for sign, to in pairs)
     else:
         values = {own.si, value} | ({value / 2, own.si / 2} if own.role == "step" else set())
         typed = any(
@@ -103,17 +127,8 @@ def types(formula: Formula, own: Input, calculation: Calculation) -> bool:
             if math.isfinite(wanted) and not _plain(wanted)
             for number in formula.literals
         )
-    return typed and not any(
-        own.place == area.corner or _converts(area.corner, own.place, calculation)
-        for area in formula.areas
-        if area.cells == 1
-    )
-
-
-def _converts(place: Position, source: Position, calculation: Calculation) -> bool:
-    """Whether a cell only brings an input into another unit."""
-    formula = calculation.formulas.get(place)
-    return formula is not None and [area.corner for area in formula.areas] == [source]
+    read = (calculation.source(area.corner) for area in formula.areas if area.cells == 1)
+    return typed and all(cell != own.place for cell in read)
 
 
 def _plain(value: float) -> bool:
@@ -123,34 +138,7 @@ def _plain(value: float) -> bool:
     return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
 
 
-def each_cell(f: Findings) -> None:
-    """Every cell that is not what those before it give, and every cell unlike its column."""
-    lines = (*f.table.lines.values(), *f.table.helpers)
-    odd = {p: why for line in lines for p, why in irregular(line, f.table, f.calculation)}
-    accused, before = f.accused, len(f.differences)
-    for role, column in f.setting.rows.columns.items():
-        for k in range(f.table.steps + 1):
-            place, expected = f.table.place(role, k), _expected(f, role, k)
-            if place in odd:
-                kind, text = odd.pop(place)
-                if error := f.calculation.error(place):
-                    kind, text = "odd formula", f"{text}; it gives {error}"
-                elif reason := f.calculation.uncomputed.get(place):
-                    kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-            elif place not in accused and _fails(f, role, k, expected):
-                kind, text = _lone(f, role, k, expected)
-            else:
-                continue
-            shown, found = f.shown(role, expected), column.get(k)
-            if found and expected and math.isclose(found, expected, rel_tol=1e-9):
-                text += "; it gives the right value here"
-            f.add(kind, [place], shown, text)
-    for place, (kind, text) in odd.items():
-        f.add(kind, [place], None, text)
-    f.differences[before:] = joined(f.differences[before:], f.table.across)
-
-
-def _expected(f: Findings, role: str, k: int) -> float | None:
+def _expected(f: Verdict, role: str, k: int) -> float | None:
     """What a cell should hold by the rules that its table follows."""
     rows = f.setting.rows
     if role == "time":
@@ -162,20 +150,16 @@ def _expected(f: Findings, role: str, k: int) -> float | None:
         if role == "velocity_initial" and "velocity_final" in rows.columns:
             return rows("velocity_final", k - 1)
         return f.slowed(k if role == "velocity_final" else k - 1)
-    return f.rules.value(role, f.case, rows, k)
+    return f.rules.value(role, rows, k)
 
 
-def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
+def _fails(f: Verdict, role: str, k: int, expected: float | None) -> bool:
     """Whether a cell is not what it should hold."""
-    column = f.setting.rows.columns[role]
+    column, place = f.setting.rows.columns[role], f.table.place(role, k)
     found = column.get(k)
     if found is None:
-        if _text(f, f.table.place(role, k)):
-            return True
         inside = bool(column) and min(column) < k < max(column)
-        return _breaks(f, f.table.place(role, k)) or (
-            inside and not f.calculation.error(f.table.place(role, k))
-        )
+        return _text(f, place) or _breaks(f, place) or (inside and not f.calculation.error(place))
     if expected is None:
         return False
     size = abs(expected)
@@ -184,7 +168,7 @@ def _fails(f: Findings, role: str, k: int, expected: float | None) -> bool:
     return abs(found - expected) > NEAR * size
 
 
-def _text(f: Findings, place: Position) -> bool:
+def _text(f: Verdict, place: Position) -> bool:
     """Whether a text is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
@@ -192,16 +176,15 @@ def _text(f: Findings, place: Position) -> bool:
     return typed and isinstance(value, str) and bool(value.strip())
 
 
-def _breaks(f: Findings, place: Position) -> bool:
+def _breaks(f: Verdict, place: Position) -> bool:
     """Whether a cell gives an error that comes from no other cell of the table."""
-    formula = f.calculation.formulas.get(place)
-    if formula is None or not f.calculation.error(place):
-        return False
-    read = (cell for area in formula.areas if area.cells == 1 for cell in [area.corner])
-    return not any(cell != place and (f.calculation.error(cell) or _text(f, cell)) for cell in read)
+    areas = (area for area in f.calculation.areas(place) if area.cells == 1)
+    others = (area.corner for area in areas if area.corner != place)
+    broken = any(f.calculation.error(cell) or _text(f, cell) for cell in others)
+    return f.calculation.error(place) is not None and not broken
 
 
-def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
+def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, str]:
     """The kind of a cell that alone is not what the cells before it give."""
     place = f.table.place(role, k)
     found = f.setting.rows.columns[role].get(k)
@@ -219,27 +202,33 @@ def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, 
         return "other scheme", "the times are those at the beginning of the rows"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
-    beyond = next(rule for rule in BRAKES if rule.name == "area beyond the radius")
-    if role == "deceleration" and follows(f.setting, "brake", beyond, k):
-        return "other scheme", f"{beyond.name}: {beyond.says}"
+    if role == "deceleration" and f.setting.follows("brake", BEYOND, k):
+        return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
     power = power_of_ten(found / expected) if expected else None
-    if power:
-        return "unit", f"{what}: a factor of 1e{abs(power)}"
-    return alone, what
+    return ("unit", f"{what}: a factor of 1e{abs(power)}") if power else (alone, what)
 
 
-def order(f: Findings) -> None:
+def order(f: Verdict) -> None:
     """Columns whose last digits no order of the report's operations gives."""
     factors = {own.factor for own in (*f.setting.inputs.values(), *f.setting.derived.values())}
     if any(f.setting.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
         return  # converting units costs last digits, too
+    # The mass as its cell has it; without a cell, as any order of its product gives it.
+    masses = [f.case.mass]
+    for way in (0.0, math.inf) if "mass" not in f.setting.derived else ():
+        mass = f.case.mass
+        masses += [mass := math.nextafter(mass, way) for _ in range(4)]
+    cases = [replace(f.case, own_mass=mass) for mass in masses]
     accused = f.accused
     for role in ("depth", "deceleration", "velocity_final"):
         column = f.setting.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas]  # fmt: skip
-        differ = rows and min((_differing(f, role, rows, m) for m in _masses(f)), key=len)
-        if differ:
+        others = [
+            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
+            for case in cases
+        ]
+        if differ := min(others, key=len):
             found = column[differ[0]]
             wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - found))
             cells = [f.table.place(role, k) for k in differ]
@@ -252,26 +241,11 @@ def order(f: Findings) -> None:
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 
-def _masses(f: Findings) -> Iterator[float]:
-    """The mass as its cell has it; without a cell, as any order of its product gives it."""
-    low = high = f.case.mass
-    yield low
-    if "mass" not in f.setting.derived:
-        for _ in range(4):
-            low, high = math.nextafter(low, 0.0), math.nextafter(high, math.inf)
-            yield from (low, high)
-
-
-def _differing(f: Findings, role: str, rows: Sequence[int], mass: float) -> list[int]:
-    """The rows whose value no order gives."""
-    case, column = replace(f.case, own_mass=mass), f.setting.rows.columns[role]
-    return [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
-
-
-def _ordered(f: Findings, role: str, k: int, case: Case) -> set[float]:
+def _ordered(f: Verdict, role: str, k: int, case: Case) -> set[float]:
+    """What a cell may hold, by the order of the operations."""
     rows = f.setting.rows
     x, v = rows("depth", k), rows("velocity_initial", k)
     if role == "deceleration":
         return set() if x is None or v is None else orders(case, x, v)
-    value = f.rules.value(role, case, rows, k)
+    value = f.rules.value(role, rows, k)
     return set() if value is None else {value}

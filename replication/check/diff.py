@@ -6,8 +6,8 @@ inserted row is one, and each formula is compared with where its references have
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
 from itertools import groupby, takewhile
@@ -16,11 +16,11 @@ from pathlib import Path
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.findings import Difference
-from replication.check.lines import area_of, runs
+from replication.check.table import area_of, runs
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, calculate
-from spreadsheets.references import Formula, Piece
+from spreadsheets.references import Piece
 
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
@@ -73,23 +73,20 @@ def _print_alike(a: float, b: float, digits: int) -> bool:
     return texts[0] == texts[1] or (rounded and near)
 
 
-@dataclass
+@dataclass(frozen=True)
 class Comparison:
-    """What `coldspray diff` has found; places are those of the second workbook, if it has them."""
+    """What `coldspray diff` has found, in order of calculation.
 
-    paths: tuple[Path, Path]
+    Places are those of the second workbook, if it has them.
+    """
+
     calculations: tuple[Calculation, Calculation]
-    differences: list[Difference] = field(default_factory=list)
+    differences: list[Difference]
 
     @property
     def last_digits(self) -> list[Difference]:
         """The differences that only the last digits show."""
         return [d for d in self.differences if d.explanation.startswith(_LAST)]
-
-    @property
-    def first(self) -> Difference | None:
-        """The first difference in order of calculation."""
-        return min(self.differences, key=lambda d: d.rank, default=None)
 
 
 def diff(
@@ -97,112 +94,102 @@ def diff(
 ) -> Comparison:
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
     before, after = calculate(read(a)), calculate(read(b))
-    found = _Diff(before, after, values_only, allowed or Tolerance())
-    found.run()
-    return Comparison((a, b), (before, after), sorted(found.differences, key=lambda d: d.rank))
+    found = _Diff(before, after, allowed or Tolerance())
+    found.layout()
+    pairs = sorted(found.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+    if not values_only:
+        found.group(pairs, found.formulas, "formula")
+    found.group(pairs, found.values, "value")
+    return Comparison((before, after), sorted(found.differences, key=lambda d: d.rank))
 
 
 class _Diff:
-    def __init__(
-        self, before: Calculation, after: Calculation, values_only: bool, tolerance: Tolerance
-    ) -> None:
-        self.before, self.after = before, after
-        self.values_only, self.tolerance = values_only, tolerance
+    """Collects differences; `where` is where each cell of the first workbook is in the second."""
+
+    def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
+        self.before, self.after, self.tolerance = before, after, tolerance
         self.where: dict[Position, Position] = {}
         self.differences: list[Difference] = []
 
-    def run(self) -> None:
-        sheets = _same_sheets(self.before, self.after)
-        for name in self.before.book.sheets:
-            if name not in sheets:
-                self.add((name, 1, 1), "removed", name, None, "the sheet is gone")
-            elif sheets[name] != name:
-                self.add((sheets[name], 1, 1), "moved", name, sheets[name], "the sheet is renamed")
-        for name in self.after.book.sheets:
-            if name not in sheets.values():
-                self.add((name, 1, 1), "added", None, name, "the sheet is new")
-        for name, other in sheets.items():
-            self.align(name, other)
-        pairs = sorted(self.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
-        self.group(pairs, self.formulas, "formula")
-        self.group(pairs, self.values, "value")
-
     def add(
-        self, place: Position, kind: str, expected: object, found: object, text: str,
-        cells: Sequence[Position] = (),
-    ) -> None:  # fmt: skip
-        was, now = (
-            v if isinstance(v, float | str) or v is None else str(v) for v in (expected, found)
-        )
-        cells = tuple(cells) or (place,)
-        rank = self.rank(place, kind)
+        self, kind: str, cells: Sequence[Position], was: object, now: object, text: str
+    ) -> None:
+        """Add a difference at the first of some cells; layout first, last digits last."""
+        place, sheets = cells[0], list(self.after.book.sheets)
+        rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
+        if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
+            rank = (1, self.after.order.get(place, -1), kind == "value")
         if text.startswith(_LAST):
             rank = (2, *rank)
-        self.differences.append(Difference(place, kind, was, now, text, cells, rank))
-
-    def rank(self, place: Position, kind: str) -> tuple[float, ...]:
-        """Layout first, then typed cells, then formulas in order of calculation."""
-        if kind not in ("formula", "value"):
-            sheets = list(self.after.book.sheets)
-            return (0, sheets.index(place[0]) if place[0] in sheets else 0)
-        return (1, self.after.order.get(place, -1), kind == "value")
+        old, new = (v if isinstance(v, float | str) or v is None else str(v) for v in (was, now))
+        self.differences.append(Difference(place, kind, old, new, text, tuple(cells), rank))
 
     # ---- where each cell has gone
 
+    def layout(self) -> None:
+        """Match the sheets, then the rows and columns of each."""
+        sheets = _same_sheets(self.before, self.after)
+        for name in self.before.book.sheets:
+            if name not in sheets:
+                self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
+            elif sheets[name] != name:
+                place = (sheets[name], 1, 1)
+                self.add("moved", [place], name, sheets[name], "the sheet is renamed")
+        for name in self.after.book.sheets:
+            if name not in sheets.values():
+                self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
+        for name, other in sheets.items():
+            self.align(name, other)
+
     def align(self, name: str, other: str) -> None:
         """Match the rows and columns of two sheets, then what was moved elsewhere."""
-        old = _skeletons(self.before, name)
-        new = _skeletons(self.after, other)
+        old, new = _skeletons(self.before, name), _skeletons(self.after, other)
         columns = _matched(_profiles(old), _profiles(new))
-        rows = _matched(_lines(old, columns.keys()), _lines(new, columns.values()))
-        for (row, column), what in old.items():
-            there = rows.get(row), columns.get(column)
-            if there[0] and there[1] and _alike(what, new.get((there[0], there[1]))):
-                self.where[name, row, column] = (other, there[0], there[1])
-        taken = {(p[1], p[2]) for p in self.where.values() if p[0] == other}
-        left = {c: w for c, w in old.items() if (name, *c) not in self.where}
-        free = {c: w for c, w in new.items() if c not in taken}
-        self.moved(name, other, left, free)
-        self.shifts(name, other, rows, columns)
-        for block in _blocks(left):
-            cells = [(name, *c) for c in block]
-            self.add(cells[0], "removed", _span(cells), None, _of(cells, "gone"), cells)
-        for block in _blocks(free):
-            cells = [(other, *c) for c in block]
-            self.add(cells[0], "added", None, _span(cells), _of(cells, "new"), cells)
+        rows = _matched(_lines(old, 0, columns.keys()), _lines(new, 0, set(columns.values())))
+        left, free = dict(old), dict(new)
 
-    def moved(self, name: str, other: str, left: dict[Cell, str], free: dict[Cell, str]) -> None:
-        """Blocks that stand elsewhere: the same cells at the same distances."""
+        def put(cell: Cell, there: Cell) -> None:
+            self.where[name, *cell] = (other, *there)
+            del left[cell], free[there]
+
+        for row, column in old:
+            there = (rows.get(row, 0), columns.get(column, 0))
+            kinds = old[row, column][0], new.get(there, "")[:1]
+            # It may be the same cell, changed; but texts stay texts.
+            if there in new and (kinds[0] == kinds[1] or "'" not in kinds):
+                put((row, column), there)
         by_form: dict[frozenset[tuple[int, int, str]], list[Cell]] = {}
         for block in _blocks(free)[:_MAX_BLOCKS]:
             by_form.setdefault(_form(block, free), block)
         for block in _blocks(left)[:_MAX_BLOCKS]:
-            there = by_form.pop(_form(block, left), None)
-            if there is None:
-                continue
-            old_corner, new_corner = _corner(block), _corner(there)
-            down, right = new_corner[0] - old_corner[0], new_corner[1] - old_corner[1]
-            for row, column in block:
-                self.where[name, row, column] = (other, row + down, column + right)
-                del left[row, column]
-                del free[row + down, column + right]
-            old = _span([(name, *c) for c in block])
-            cells = [(other, *c) for c in sorted(there)]
-            self.add(
-                cells[0], "moved", old, _span(cells), f"{old} now stands at {_span(cells)}", cells
-            )
+            # It stands elsewhere if the same cells are there at the same distances.
+            new_block = by_form.pop(_form(block, left), None)
+            if new_block is not None:
+                (row, column), (new_row, new_column) = _corner(block), _corner(new_block)
+                for r, c in block:
+                    put((r, c), (r - row + new_row, c - column + new_column))
+                was, now = _span(block), _span(new_block)
+                cells = [(other, *cell) for cell in new_block]
+                self.add("moved", cells, was, now, f"{was} now stands at {now}")
+        self.shifts(name, other, rows, "rows")
+        self.shifts(name, other, columns, "columns")
+        for block in _blocks(left):
+            cells = [(name, *cell) for cell in block]
+            self.add("removed", cells, _span(block), None, _cells_are(len(block), "gone"))
+        for block in _blocks(free):
+            cells = [(other, *cell) for cell in block]
+            self.add("added", cells, None, _span(block), _cells_are(len(block), "new"))
 
-    def shifts(
-        self, name: str, other: str, rows: Mapping[int, int], columns: Mapping[int, int]
-    ) -> None:
-        """Rows and columns that stand further down or right, each run of them once."""
-        for what, places in (("rows", rows), ("columns", columns)):
-            for first, last, by in _shifted(places):
-                show: Callable[[int], str] = str if what == "rows" else get_column_letter
-                was = f"{show(first)} to {show(last)}"
-                now = f"{show(first + by)} to {show(last + by)}"
-                place = (other, first + by, 1) if what == "rows" else (other, 1, first + by)
-                self.add(place, "moved", was, now, f"{what} {was} of {name!r} are now {now}")
+    def shifts(self, name: str, other: str, lines: Mapping[int, int], what: str) -> None:
+        """Rows or columns that stand further down or right, each run of them once."""
+        show: Callable[[int], str] = str if what == "rows" else get_column_letter
+        for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1] - pair[0]):
+            if by:
+                run = [old for old, _ in pairs]
+                was, now = (f"{show(run[0] + d)} to {show(run[-1] + d)}" for d in (0, by))
+                at = run[0] + by
+                place = (other, at, 1) if what == "rows" else (other, 1, at)
+                self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
 
     # ---- what the cells hold
 
@@ -218,31 +205,26 @@ class _Diff:
             was, now, text = found[run[0]]
             after = count(len(run) - 1, "cell")
             more = f", also in {after} after it" if len(run) > 1 else ""
-            self.add(run[0], kind, was, now, text + more, run)
+            self.add(kind, run, was, now, text + more)
 
     def formulas(self, old: Position, new: Position) -> tuple[object, object, str] | None:
-        if self.values_only:
-            return None
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
-            return None if self.same(a, b) else (*texts, "the formulas differ")
+            pairs = zip(a.pieces, b.pieces, strict=False)
+            same = len(a.pieces) == len(b.pieces) and all(self.same(p, q) for p, q in pairs)
+            return None if same else (*texts, "the formulas differ")
         if b:
             return self.before.values.get(old), texts[1], "a formula stands in place of a value"
         if a:
             return texts[0], self.after.values.get(new), "a value stands in place of a formula"
         return None
 
-    def same(self, a: Formula, b: Formula) -> bool:
-        """Whether a formula reads the same cells in the same way, wherever they are now."""
-        if len(a.pieces) != len(b.pieces):
-            return False
-        return all(self.same_piece(p, q) for p, q in zip(a.pieces, b.pieces, strict=True))
-
-    def same_piece(self, p: Piece, q: Piece) -> bool:
+    def same(self, p: Piece, q: Piece) -> bool:
+        """Whether two pieces are the same, and read the same cells, wherever they are now."""
         if p.area is None or q.area is None:
-            same = p.text.upper() == q.text.upper() if p.kind == "function" else p.text == q.text
-            return p.kind == q.kind and same
+            texts = [each.text.upper() if each.kind == "function" else each.text for each in (p, q)]
+            return p.kind == q.kind and texts[0] == texts[1]
         return all(
             self.where.get(old, None if old in self.before.values else new) == new
             for old, new in zip(p.area.ends, q.area.ends, strict=True)
@@ -258,9 +240,9 @@ class _Diff:
         return None if a == b else (a, b, "the contents differ")
 
 
-def _of(cells: Sequence[Position], what: str) -> str:
+def _cells_are(number: int, what: str) -> str:
     """What some cells are: "1 cell is gone", "2 cells are new"."""
-    return f"{count(len(cells), 'cell')} {'is' if len(cells) == 1 else 'are'} {what}"
+    return f"{count(number, 'cell')} {'is' if number == 1 else 'are'} {what}"
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:
@@ -298,28 +280,22 @@ def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
     return found
 
 
-def _alike(a: str, b: str | None) -> bool:
-    """Whether two cells may be the same one, changed: neither is gone, and texts stay texts."""
-    return b is not None and (a[0] == b[0] or "'" not in (a[0], b[0]))
+def _lines(
+    cells: Mapping[Cell, str], axis: int, kept: Container[int]
+) -> dict[int, tuple[str, ...]]:
+    """Each row (axis 0) or column (axis 1) as what stands in some columns."""
+    found: dict[int, list[str]] = {}
+    for cell in sorted(cells):
+        line = found.setdefault(cell[axis], [])
+        if cell[1] in kept:
+            line.append(cells[cell])
+    return {i: tuple(line) for i, line in sorted(found.items())}
 
 
 def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
     """Each column as what stands in it, repetitions left out."""
-    found: dict[int, list[str]] = {}
-    for cell in sorted(cells):
-        found.setdefault(cell[1], []).append(cells[cell])
-    return {i: tuple(what for what, _ in groupby(line)) for i, line in sorted(found.items())}
-
-
-def _lines(cells: Mapping[Cell, str], columns: Iterable[int]) -> dict[int, tuple[str, ...]]:
-    """Each row as what stands in some columns."""
-    kept = set(columns)
-    found: dict[int, list[str]] = {}
-    for row, column in sorted(cells):
-        line = found.setdefault(row, [])
-        if column in kept:
-            line.append(cells[row, column])
-    return {i: tuple(line) for i, line in sorted(found.items())}
+    columns = _lines(cells, 1, {column for _, column in cells})
+    return {i: tuple(what for what, _ in groupby(line)) for i, line in columns.items()}
 
 
 def _matched(
@@ -359,14 +335,6 @@ def _similar(
                 break
 
 
-def _shifted(places: Mapping[int, int]) -> Iterator[tuple[int, int, int]]:
-    """First, last and distance of each run that stands elsewhere."""
-    for by, pairs in groupby(sorted(places.items()), key=lambda pair: pair[1] - pair[0]):
-        run = [old for old, _ in pairs]
-        if by:
-            yield run[0], run[-1], by
-
-
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
     """Cells that touch each other, block by block."""
     left, found = set(cells), []
@@ -395,7 +363,6 @@ def _corner(block: Sequence[Cell]) -> Cell:
     return min(row for row, _ in block), min(column for _, column in block)
 
 
-def _span(cells: Sequence[Position]) -> str:
-    rows, columns = [c[1] for c in cells], [c[2] for c in cells]
-    sheet = cells[0][0]
-    return area_of((sheet, min(rows), min(columns)), (sheet, max(rows), max(columns)))
+def _span(block: Sequence[Cell]) -> str:
+    last = max(row for row, _ in block), max(column for _, column in block)
+    return area_of(("", *_corner(block)), ("", *last))

@@ -2,16 +2,15 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from replication.check.inputs import Setting
-from replication.check.lines import runs
 from replication.check.scheme import REPORT, Case
+from replication.check.table import runs
 from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation
 
 KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "operation order",
@@ -19,6 +18,8 @@ KINDS = (
 )  # fmt: skip
 NO_FAULT = frozenset({"other input", "not calculated"})
 """Kinds that are said, and leave a workbook clean."""
+
+Text = float | str | None
 
 
 @dataclass(frozen=True)
@@ -31,18 +32,15 @@ class Difference:
 
     place: Position
     kind: str
-    expected: float | str | None
-    found: float | str | None
+    expected: Text
+    found: Text
     explanation: str
     cells: tuple[Position, ...]
     rank: tuple[float, ...]
     effect: float | None = None
 
 
-Text = float | str | None
-
-
-def rank(place: Position, setting: Setting, calculation: Calculation) -> tuple[float, ...]:
+def rank(place: Position, setting: Setting) -> tuple[float, ...]:
     """When a cell is calculated: inputs first, then row by row, then what rests on the table."""
     table = setting.table
     if place in table.places:
@@ -51,25 +49,37 @@ def rank(place: Position, setting: Setting, calculation: Calculation) -> tuple[f
     for line in table.helpers:
         if line.covers(place):
             return (1, (line.index(place) or 0) - table.zero, 2.5)
-    order = calculation.order.get(place, -1)
+    order = table.calculation.order.get(place, -1)
     return (0 if place in setting.read or order < 0 else 2, order)
 
 
-class Findings:
-    """Collects differences; `setting` becomes what the workbook really does, as that is learnt."""
+class Verdict:
+    """What is found out about one table.
 
-    def __init__(
-        self,
-        setting: Setting,
-        calculation: Calculation,
-        report: Mapping[str, tuple[float, ...]],
-    ) -> None:
-        self.setting, self.calculation, self.report = setting, calculation, report
-        self.table = setting.table
+    `setting` becomes what the workbook really does, as that is learnt. `right_depth` [m] is that of
+    the report's scheme with the table's inputs, None if it does not end. `differing` counts the
+    cells that differ from that run, causes and consequences alike.
+    """
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting, self.table = setting, setting.table
+        self.calculation = setting.table.calculation
         self.rules = REPORT
         self.differences: list[Difference] = []
         self.spoils: dict[Position, Callable[[Case], Case]] = {}
         """What a wrong input's cell makes of the case that is intended."""
+        self.right_depth: float | None = None
+        self.differing = 0
+
+    @property
+    def final_depth(self) -> float | None:
+        """The depth in the last row [m]."""
+        return self.setting.rows("depth", self.table.steps)
+
+    @property
+    def ends(self) -> bool:
+        """Whether the rows go down to the stop."""
+        return not any(d.kind == "not calculated" for d in self.differences)
 
     @property
     def case(self) -> Case:
@@ -98,12 +108,15 @@ class Findings:
 
         What is `found` is what that cell holds, unless something else is given.
         """
-        found = self.held(cells[0]) if found is None else found
-        order = rank(cells[0], self.setting, self.calculation)
+        held = self.calculation.values.get(cells[0])
+        if found is None and isinstance(held, float | str):
+            found = held
         if isinstance(expected, float) and not math.isfinite(expected):
             expected = None
-        difference = Difference(cells[0], kind, expected, found, text, tuple(cells), order)
-        self.differences.append(difference)
+        order = rank(cells[0], self.setting)
+        self.differences.append(
+            Difference(cells[0], kind, expected, found, text, tuple(cells), order)
+        )
 
     def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
         """The cells of a column from a row on."""
@@ -114,8 +127,8 @@ class Findings:
         """The velocity at the end of a row, by the rules and from the row's other cells."""
         rows = self.setting.rows
         if "deceleration" in rows.columns:
-            return self.rules.end.value(self.case, rows, k)
-        a, v = self.rules.brake.value(self.case, rows, k), rows("velocity_initial", k)
+            return self.rules.end(rows, k)
+        a, v = self.rules.brake(rows, k), rows("velocity_initial", k)
         return None if a is None or v is None else v - a * self.case.step
 
     def shown(self, role: str, value: float | None) -> float | None:
@@ -124,11 +137,6 @@ class Findings:
             return None
         sign = -1.0 if role == "deceleration" and self.setting.negative else 1.0
         return sign * scaled(value, Fraction(10) ** -self.setting.powers[role])
-
-    def held(self, place: Position) -> Text:
-        """What a cell holds."""
-        value = self.calculation.values.get(place)
-        return value if isinstance(value, float | str) else None
 
     def literals(self, role: str) -> set[float]:
         """The numbers typed into a column's formulas."""

@@ -5,18 +5,18 @@ They are told apart by label, name, unit and value. What no cell holds is taken 
 own numbers, or solved back from the rows, and is said to be so.
 """
 
-import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial
+from functools import cache
+from itertools import islice, product
 from statistics import median
 
+from reference.ledger import load
 from reference.units import to_si
-from replication.check.lines import address
-from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact, holding, with_input
-from replication.check.table import Table
+from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact
+from replication.check.table import Table, address
 from replication.check.words import (
     INPUTS,
     input_roles,
@@ -24,8 +24,9 @@ from replication.check.words import (
     power_of_ten,
     scaled,
     title,
+    titles,
     unit_in,
-)
+)  # fmt: skip
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -36,9 +37,29 @@ _ROUNDED = 12
 """Numbers without formulas and with at most so many digits are taken as rounded."""
 _MAX_CANDIDATES = 4_000
 _MAX_CHOICES = 64
+_FOLLOWS = {
+    "diameter": {"radius"}, "mass": {"particle_density"}, "resistance": {"beta", "flow_stress"},
+}  # fmt: skip
+"""What follows from other inputs, and what need not be known where it is."""
 
-Report = Mapping[str, tuple[float, ...]]
-"""The values that the report has for each input, in SI."""
+
+@cache
+def report_inputs() -> dict[str, tuple[float, ...]]:
+    """The report's inputs in SI, for both betas and steps; its target density as inferred."""
+    ledger = load()
+    names = {
+        "velocity": ("a1-initial-velocity",), "radius": ("a1-radius",),
+        "diameter": ("a1-diameter",), "particle_density": ("a1-density",), "mass": ("a1-mass",),
+        "beta": ("depth-beta-5-beta", "depth-beta-3-beta"), "flow_stress": ("flow-stress",),
+        "step": ("a-step", "coarse-step"), "stop_velocity": ("a-stop-velocity",),
+    }  # fmt: skip
+    values = {}
+    for role, claims in names.items():
+        printed = [(claim.printed, claim.si) for claim in map(ledger.claims.__getitem__, claims)]
+        values[role] = tuple(float(number.value * si) for number, si in printed if number)
+    values["resistance"] = tuple(beta * values["flow_stress"][0] for beta in values["beta"])
+    values["target_density"] = (float(ledger.inferred["target-density"].nominal),)
+    return values
 
 
 @dataclass(frozen=True)
@@ -63,22 +84,21 @@ class Input:
 class Setting:
     """A table with its inputs, and the powers of ten between its columns and SI units.
 
-    `case` is what the rows follow, `intended` what they should: the two differ where a cell for
-    mass, diameter or resistance does not hold what its own inputs give.
-    `slips` are units of heads that contradict the rest: role -> the power of ten that is wrong.
-    `negative`: decelerations are negative in the workbook. `digits`: how many digits the numbers
-    have, if they are typed and rounded. `read` are all cells outside the table
-    that it reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs
-    that it does not read.
+    `rows` are those of the table with the case that they follow, `intended` is the case that they
+    should: the two differ where a cell for mass, diameter or resistance does not hold what its own
+    inputs give. `slips` are units of heads that contradict the rest: role -> the power of ten that
+    is wrong. `negative`: decelerations are negative in the workbook. `digits`: how many digits the
+    numbers have, if they are typed and rounded. `read` are all cells outside the table that it
+    reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs that it
+    does not read.
     """
 
     table: Table
     inputs: Mapping[str, Input]
-    case: Case
+    rows: Rows
     intended: Case
     powers: Mapping[str, int]
     slips: Mapping[str, int]
-    rows: Rows
     negative: bool
     digits: int | None = None
     read: frozenset[Position] = frozenset()
@@ -86,51 +106,72 @@ class Setting:
     unread: tuple[Input, ...] = ()
 
     @property
-    def near(self) -> float:
-        """The relative distance below which a cell follows a rule."""
-        return NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+    def case(self) -> Case:
+        """The case that the rows follow."""
+        return self.rows.case
 
     def with_case(self, case: Case) -> "Setting":
         """The same table whose rows follow another case."""
-        return replace(self, case=case, rows=Rows(self.rows.columns, case))
+        return replace(self, rows=Rows(self.rows.columns, case))
 
-    def revised(self, change: Callable[[Case], Case]) -> "Setting":
-        """The same table with a change in what its rows follow and in what they should."""
-        return replace(self.with_case(change(self.case)), intended=change(self.intended))
+    def filled(self, part: str, k: int) -> float | None:
+        """What a row has in the column of a part; or what the velocities say."""
+        role, rows = PARTS[part][0], self.rows
+        if role != "deceleration" or role in rows.columns:
+            return rows(role, k)
+        v, final = rows("velocity_initial", k), rows("velocity_final", k)
+        return None if v is None or final is None else (v - final) / self.case.step
+
+    def follows(self, part: str, rule: Rule, k: int) -> bool | None:
+        """Whether a row follows a rule; None where cells are missing."""
+        wanted, found = rule(self.rows, k), self.filled(part, k)
+        if wanted is None or found is None:
+            return None
+        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+        speed = abs(self.rows("velocity_initial", k) or 0.0)
+        size = speed if part == "end" else abs(wanted)
+        # Where no column holds the deceleration, the velocities' own rounding is in it.
+        rounded = part == "brake" and "deceleration" not in self.rows.columns
+        return abs(found - wanted) <= near * (size + rounded * 1e-2 * speed / self.case.step)
+
+    def share(self, part: str, rule: Rule) -> float:
+        """Which share of its rows follows a rule."""
+        each = [self.follows(part, rule, k) for k in range(PARTS[part][1], self.table.steps + 1)]
+        judged = [good for good in each if good is not None]
+        return sum(judged) / len(judged) if judged else 0.0
+
+    def agreement(self, rules: Sequence[Rule] = BRAKES[:2]) -> float:
+        """Which share of the rows brakes as its depth and velocity say, by the best of rules."""
+        return max(self.share("brake", rule) for rule in rules)
 
 
-def find(
-    table: Table,
-    calculation: Calculation,
-    candidates: Sequence[Input],
-    mapped: Mapping[str, Position],
-    report: Report,
-) -> Setting:
+def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Setting:
     """The setting of a table.
 
     `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
     ValueError, saying what to give, when two cells could be the same input and the rows do not
     decide.
     """
-    inside = table.places
-    from_table = _read((place for place in inside if place in calculation.formulas), calculation)
+    calculation, inside = table.calculation, table.places
+    formulas = calculation.formulas
+    from_table = _read((place for place in inside if place in formulas), calculation)
     read = {place: far for place, far in from_table.items() if place not in inside}
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     nearest = {
         role: _nearest(cells, read, calculation)
-        for role, cells in _by_role(reads, _hinted(report, table), bool(read)).items()
+        for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
     }
+    found = [cell for cells in nearest.values() for cell in cells]
+    typed = {cell for cell in found if not calculation.areas(cell.place)}
     choices = {
-        role: typed or cells
+        role: [cell for cell in cells if cell in typed] or cells
         for role, cells in nearest.items()
-        if (typed := [cell for cell in cells if _reads_nothing(cell, calculation)])
-        or role not in _FOLLOWS
+        if role not in _FOLLOWS or typed & set(cells)
     }
     for role, place in mapped.items():
-        choices[role] = [_mapped(role, place, candidates, calculation, report)]
-    others = (cell for cell in candidates if read and cell.place not in read and cell.label)
-    typed = [cell for cell in others if cell.place not in calculation.formulas]
-    unread = _by_role(typed, report, read=True)
+        choices[role] = [_mapped(role, place, candidates, calculation)]
+    labelled = [cell for cell in candidates if read and cell.place not in read and cell.label]
+    unread = _by_role([c for c in labelled if c.place not in formulas], report_inputs(), True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
@@ -142,21 +183,20 @@ def find(
             choices.setdefault("resistance", labelled)
     feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
     for role, of in (("mass", "radius particle_density"), ("resistance", "beta flow_stress")):
-        own = _reading([choices.get(name, []) for name in of.split()], reads, calculation)
+        sources = {choices[name][0].place if name in choices else None for name in of.split()}
+        own = None if None in sources else _reading(sources, reads, calculation)
         if role not in feeding and own is not None:
             feeding[role] = replace(own, role=role)
-    setting = _settled(table, choices, feeding, calculation, report)
+    setting = _settled(table, choices, feeding)
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     pi = next(rounded, math.pi)
-    setting = setting.revised(lambda case: replace(case, pi=pi))
+    intended = replace(setting.intended, pi=pi)
+    setting = replace(setting.with_case(replace(setting.case, pi=pi)), intended=intended)
     taken = {own.place for own in setting.inputs.values()}
-    left = [cell for cell in reads if cell.place not in taken]
-    again = {
-        role: _nearest(cells, read, calculation) for role, cells in _by_role(left, report).items()
-    }
+    again = _by_role([cell for cell in reads if cell.place not in taken], report_inputs())
+    left = {role: _nearest(cells, read, calculation)[0] for role, cells in again.items()}
     held = {role: own for role, own in setting.inputs.items() if own.place}
-    derived = {role: cells[0] for role, cells in again.items()} | held | dict(setting.derived)
-    derived = {role: own for role, own in derived.items() if role in _FOLLOWS}
+    derived = {r: c for r, c in {**left, **held, **setting.derived}.items() if r in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(setting, read=frozenset(read), derived=derived, unread=single)
 
@@ -168,29 +208,19 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
     distance = 0
     while edge:
         distance += 1
-        formulas = (formula for place in edge if (formula := calculation.formulas.get(place)))
-        areas = (area for formula in formulas for area in formula.areas if area.cells <= 64)
+        areas = (area for place in edge for area in calculation.areas(place) if area.cells <= 64)
         edge = list({p for area in areas for p in area.places() if p not in found})
         found.update(dict.fromkeys(edge, distance))
     return found
 
 
-def _reads_nothing(cell: Input, calculation: Calculation) -> bool:
-    """Whether a cell holds a number, or a formula of numbers alone."""
-    formula = calculation.formulas.get(cell.place) if cell.place else None
-    return formula is None or not formula.areas
-
-
 def _reading(
-    sources: Sequence[Sequence[Input]], reads: Sequence[Input], calculation: Calculation
+    sources: set[Position | None], reads: Sequence[Input], calculation: Calculation
 ) -> Input | None:
-    """The cell without a known label whose formula reads these inputs and nothing else."""
-    wanted = {cells[0].place for cells in sources if cells}
-    if len(wanted) < len(sources):
-        return None
+    """The cell without a known label whose formula reads these cells and nothing else."""
     for cell in reads:
-        formula = calculation.formulas.get(cell.place) if cell.place and not cell.roles else None
-        if formula and {_source(area.corner, calculation) for area in formula.areas} == wanted:
+        areas = () if cell.roles else calculation.areas(cell.place)
+        if areas and {calculation.source(area.corner) for area in areas} == sources:
             return cell
     return None
 
@@ -201,18 +231,8 @@ def _nearest(
     """Of the cells for one role those that are read most directly; constants behind conversions."""
     far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
     near = [cell for cell in cells if far[cell] == min(far.values())]
-    sources = {_source(cell.place, calculation) for cell in near if cell.place}
+    sources = {calculation.source(cell.place) for cell in near if cell.place}
     return [cell for cell in cells if cell.place in sources] or near
-
-
-def _source(place: Position, calculation: Calculation) -> Position:
-    """The cell that a formula brings into another unit, if it reads only that."""
-    for _ in range(8):
-        formula = calculation.formulas.get(place)
-        if formula is None or len(formula.areas) != 1 or formula.areas[0].cells > 1:
-            break
-        place = formula.areas[0].corner
-    return place
 
 
 # ---- cells by label, name and value
@@ -220,18 +240,16 @@ def _source(place: Position, calculation: Calculation) -> Position:
 
 def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterator[Input]:
     """Every number beside the tables, with its label or name; and names that are numbers."""
-    inside = [line for table in tables for line in (*table.lines.values(), *table.helpers)]
-    names = calculation.named
+    inside = [line for table in tables for line in table.every_line]
     numbers = (place for place, value in calculation.values.items() if isinstance(value, float))
     beside = (place for place in numbers if not any(line.covers(place) for line in inside))
-    for place in itertools.islice(beside, _MAX_CANDIDATES):
+    for place in islice(beside, _MAX_CANDIDATES):
         label, unit = _label(place, calculation)
         roles, how = input_roles(label, unit) if label else frozenset(), "label"
-        if not roles and place in names:
-            label, how = names[place], "name"
+        if not roles and place in calculation.named:
+            label, how = calculation.named[place], "name"
             roles = input_roles(label, unit)
-        value = calculation.number(place)
-        assert value is not None
+        value = calculation.number(place) or 0.0
         yield Input("", value, place, how, label, unit, roles=roles)
     for name, meaning in calculation.book.names.items():
         try:
@@ -246,33 +264,32 @@ def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
     """The label of a number, at its left, above or at its right, and its unit."""
     sheet, row, column = place
 
-    def text(r: int, c: int) -> str:
-        value = calculation.values.get((sheet, r, c)) if r > 0 and c > 0 else None
+    def text(down: int, right: int) -> str:
+        value = calculation.values.get((sheet, row + down, column + right))
         return value.strip() if isinstance(value, str) else ""
 
-    beside = (text(row, column + 1), text(row - 1, column), text(row + 1, column))
+    beside = (text(0, 1), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
         if any(left) and isinstance(calculation.values.get((sheet, row, column - i)), float):
             break  # what stands beyond another number is that number's label
-        left.append(text(row, column - i))
-    above = [text(row - i, column) for i in range(1, 3)]
-    right = [text(row, column + i) for i in range(1, 3)]
-    for cells in (left, above, right):
+        left.append(text(0, -i))
+    for cells in (left, [text(-1, 0), text(-2, 0)], [text(0, 1), text(0, 2)]):
         words = [cell for cell in cells if cell and not is_unit(cell)]
-        known = (cell for cell in words if input_roles(cell, unit))
         if words:  # "β | resistance over flow stress | 3": the nearest that says something
-            label = next(known, words[0])
+            label = next((cell for cell in words if input_roles(cell, unit)), words[0])
             return label, unit or unit_in(label)
     return "", unit
 
 
-def _by_role(cells: Sequence[Input], report: Report, read: bool = False) -> dict[str, list[Input]]:
-    """Cells by role: first those whose label has one meaning, then by value for roles left over.
+Report = Mapping[str, tuple[float, ...]]
 
-    `read`: the table reads them all.
-    """
+
+def _by_role(
+    cells: Sequence[Input], report: Report, all_read: bool = False
+) -> dict[str, list[Input]]:
+    """Cells by role: first those whose label has one meaning, then by value for roles left over."""
     found: dict[str, list[Input]] = {}
     for cell in cells:
         if len(cell.roles) == 1:
@@ -280,8 +297,8 @@ def _by_role(cells: Sequence[Input], report: Report, read: bool = False) -> dict
             found.setdefault(role, []).append(_as_role(cell, role, report))
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
-        any_label = read or not cell.label or cell.unit is not None
-        roles = cell.roles or (_like_the_report(cell, report) if any_label else ())
+        by_value = all_read or not cell.label or cell.unit is not None
+        roles = cell.roles or (_like_the_report(cell, report) if by_value else ())
         left = [role for role in roles if role not in found]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, role, report))
@@ -290,12 +307,13 @@ def _by_role(cells: Sequence[Input], report: Report, read: bool = False) -> dict
     return found
 
 
-def _hinted(report: Report, table: Table) -> Report:
+def _hinted(table: Table) -> Report:
     """The report's values, and those that the table itself shows of velocity and step."""
+    report = report_inputs()
     speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
-    first = tuple(itertools.islice((speed for speed in speeds if speed), 1))
-    times = [table.number("time", k) for k in (2, 3)]
-    step = tuple(b - a for a, b in [times] if a is not None and b is not None)
+    first = tuple(islice((speed for speed in speeds if speed), 1))
+    before, after = table.number("time", 2), table.number("time", 3)
+    step = (after - before,) if before is not None and after and after > before else ()
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
@@ -312,52 +330,38 @@ def _distance(cell: Input, role: str, report: Report) -> float:
     return min((abs(math.log10(si / value)) for value in report.get(role, ())), default=9.0)
 
 
-def _as_role(cell: Input, role: str, report: Report) -> Input:
+def _as_role(cell: Input, role: str, report: Report | None = None) -> Input:
     """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
 
     If it has the digits of the report's, any power of ten will do.
     """
+    report = report or report_inputs()
     factor = Fraction(1)
-    if INPUTS[role] != "1":
-        if cell.unit:
-            factor = to_si(cell.unit)
-        elif role in report and cell.si > 0:
-            ratios = sorted(
-                (value / cell.si for value in report[role]), key=lambda r: abs(_round(r))
-            )
-            same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
-            factor = Fraction(10) ** (3 * round(_round(ratios[0]) / 3) if same is None else same)
+    if INPUTS[role] != "1" and cell.unit:
+        factor = to_si(cell.unit)
+    elif INPUTS[role] != "1" and role in report and cell.si > 0:
+        ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
+        same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
+        factor = Fraction(10) ** (_thousands(ratios[0]) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
 
 
 def _mapped(
-    role: str,
-    place: Position,
-    candidates: Sequence[Input],
-    calculation: Calculation,
-    report: Report,
+    role: str, place: Position, candidates: Sequence[Input], calculation: Calculation
 ) -> Input:
+    """The cell that the user named."""
     value = calculation.number(place)
     if value is None:
         raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
     known = next((cell for cell in candidates if cell.place == place), None)
-    return replace(_as_role(known or Input("", value, place, ""), role, report), how="--map")
+    return replace(_as_role(known or Input("", value, place, ""), role), how="--map")
 
 
 # ---- the setting that the rows agree with
 
 
-_FOLLOWS = {
-    "diameter": {"radius"}, "mass": {"particle_density"}, "resistance": {"beta", "flow_stress"},
-}  # fmt: skip
-
-
 def _settled(
-    table: Table,
-    choices: Mapping[str, list[Input]],
-    feeding: Mapping[str, Input],
-    calculation: Calculation,
-    report: Report,
+    table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input]
 ) -> Setting:
     """One cell for each role: where there are several, those that the rows agree with."""
     for role, enough in _FOLLOWS.items():  # what follows from others can be done without
@@ -370,10 +374,10 @@ def _settled(
     }
     chosen = {role: cells[0] for role, cells in choices.items()}
     tried: list[tuple[float, Setting]] = []
-    for picked in itertools.islice(itertools.product(*several.values()), _MAX_CHOICES):
+    for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        setting = _setting(table, inputs, feeding, calculation, report)
-        tried.append((agreement(setting), setting))
+        setting = _solved_back(_setting(table, inputs), feeding)
+        tried.append((setting.agreement(), setting))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
         role, cells = next(iter(several.items()))
@@ -382,15 +386,9 @@ def _settled(
     return tried[0][1]
 
 
-def _setting(
-    table: Table,
-    chosen: Mapping[str, Input],
-    feeding: Mapping[str, Input],
-    calculation: Calculation,
-    report: Report,
-) -> Setting:
-    """The setting with these cells as inputs; what is missing solved back from the rows."""
-    powers, slips = _powers(table, chosen, report)
+def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
+    """The setting with these cells as inputs, and the report's where there are none."""
+    powers, slips = _powers(table, chosen)
     columns = {
         role: {
             k: scaled(value, Fraction(10) ** powers[role])
@@ -403,50 +401,42 @@ def _setting(
     negative = bool(brakes) and median(brakes.values()) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
-    inputs = _completed(chosen, columns, calculation, report)
+    inputs = _completed(table, chosen, columns)
+    for own in inputs.values():
+        if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
+            where = "its rows" if own.place is None else address(own.place, True)
+            raise ValueError(
+                f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
+                f"zero; if another cell is meant, give --map {own.role}=CELL"
+            )
     names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
              "stop_velocity")  # fmt: skip
-    for own in inputs.values():
-        _check(own)
     case = Case(**{name: inputs[name].si for name in names if name in inputs})
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
-    digits = _digits(table, calculation)
     rows = Rows(columns, case)
-    setting = Setting(table, inputs, case, case, powers, slips, rows, negative, digits)
-    return _solved_back(setting, feeding, calculation, report)
+    return Setting(table, inputs, rows, case, powers, slips, negative, _digits(table))
 
 
-def _check(own: Input) -> None:
-    """Raise ValueError for an input that no motion has."""
-    if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
-        where = "its rows" if own.place is None else address(own.place, True)
-        raise ValueError(
-            f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
-            f"zero; if another cell is meant, give --map {own.role}=CELL"
-        )
-
-
-def _digits(table: Table, calculation: Calculation) -> int | None:
+def _digits(table: Table) -> int | None:
     """How many digits the table's numbers have, if they are typed and rounded; else None."""
     roles = [role for role in ("depth", "deceleration") if role in table.lines]
-    places = [table.place(role, k) for role in roles for k in range(1, table.steps + 1)]
-    if any(place in calculation.formulas for place in places):
+    cells = [(role, k) for role in roles for k in range(1, table.steps + 1)]
+    if any(table.place(role, k) in table.calculation.formulas for role, k in cells):
         return None
-    numbers = [number for place in places if (number := calculation.number(place))]
+    numbers = (number for role, k in cells if (number := table.number(role, k)))
     texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
     most = max((len(text.strip("0")) for text in texts), default=17)
     return most if most <= _ROUNDED else None
 
 
-def _powers(
-    table: Table, inputs: Mapping[str, Input], report: Report
-) -> tuple[dict[str, int], dict[str, int]]:
+def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], dict[str, int]]:
     """The power of ten of each column, and by how much the units of some heads contradict it.
 
     The rows tie the units together: dx = v dt and dv = a dt. Of the powers that satisfy both, those
     that contradict the fewest units named, then those nearest to the report's numbers.
     """
+    report = report_inputs()
     speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
     rows = range(table.zero + 2, table.zero + table.steps + 1)
 
@@ -462,7 +452,9 @@ def _powers(
     # What the step would be, and what a column would be, if all cells were in SI units.
     step, move = usual("time"), usual("depth", speed)
     brake = usual(speed, "deceleration", speed == "velocity_initial")
-    named = {role: _power(line.unit) for role, line in table.lines.items()}
+    units = {role: line.unit for role, line in table.lines.items()}
+    named = {role: power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
+             for role, unit in units.items()}  # fmt: skip
     start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
     impact = inputs["velocity"].si if "velocity" in inputs else 0.0
     impact = impact if impact > 0 else report["velocity"][0]
@@ -471,35 +463,26 @@ def _powers(
     if step and named.get("time") is not None:
         steps.append(step * 10.0 ** (named["time"] or 0))
     if step or move:
-        steps.append(
-            (step or move) * 1000.0 ** round(_round(report["step"][0] / (step or move)) / 3)
-        )
-    best: tuple[tuple[int, int], dict[str, int]] | None = None
-    for power in speeds:
-        for dt in [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]:
-            v = 10.0 ** (power or 0)
-            wanted = {
-                "time": dt / step if step else 0.0,
-                "depth": dt * v / move if move else 0.0,
-                "deceleration": v / dt * brake,
-            }
-            powers = {
-                role: _whole(wanted[role], named[role]) if role in wanted else power or 0
-                for role in table.lines
-            }
-            against = sum(named[role] not in (None, power) for role, power in powers.items())
-            far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
-            if best is None or (against, far) < best[0]:
-                best = (against, far), powers
-    assert best is not None
-    slips = {role: (named[role] or 0) - power for role, power in best[1].items()
-             if named[role] not in (None, power)}  # fmt: skip
-    return best[1], slips
-
-
-def _power(unit: str | None) -> int | None:
-    """The power of ten that a unit is of the SI unit."""
-    return None if unit in (None, "1") else power_of_ten(float(to_si(unit or "1")))
+        steps.append((step or move) * 10.0 ** _thousands(report["step"][0] / (step or move)))
+    steps = [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]
+    options = []
+    for power, dt in product(speeds, steps):
+        v = 10.0 ** (power or 0)
+        wanted = {
+            "time": dt / step if step else 0.0,
+            "depth": dt * v / move if move else 0.0,
+            "deceleration": v / dt * brake,
+        }
+        powers = {
+            role: _whole(wanted[role], named[role]) if role in wanted else power or 0
+            for role in table.lines
+        }
+        against = sum(named[role] not in (None, power) for role, power in powers.items())
+        far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
+        options.append(((against, far), powers))
+    powers = min(options, key=lambda option: option[0])[1]
+    off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
+    return powers, {role: power for role, power in off.items() if power}
 
 
 def _round(ratio: float) -> int:
@@ -507,30 +490,32 @@ def _round(ratio: float) -> int:
     return max(-30, min(30, round(math.log10(ratio)))) if 0 < ratio < math.inf else 0
 
 
+def _thousands(ratio: float) -> int:
+    """The nearest power of ten that is one of a thousand."""
+    return 3 * round(_round(ratio) / 3)
+
+
 def _whole(factor: float, named: int | None) -> int:
     """A factor as a power of ten: the one that a unit names, if it is that, else of a thousand."""
     if not 0 < factor < math.inf:
         return named or 0
-    return named if _round(factor) == named else 3 * round(_round(factor) / 3)
+    return named if _round(factor) == named else _thousands(factor)
 
 
 def _completed(
-    chosen: Mapping[str, Input],
-    columns: Mapping[str, Mapping[int, float]],
-    calculation: Calculation,
-    report: Report,
+    table: Table, chosen: Mapping[str, Input], columns: Mapping[str, Mapping[int, float]]
 ) -> dict[str, Input]:
     """The inputs, with those that follow from others or from the columns."""
-    inputs = dict(chosen)
+    inputs, report = dict(chosen), report_inputs()
 
     def add(role: str, si: float, how: str, *of: str) -> None:
-        inputs.setdefault(role, Input(role, si, None, how, " and ".join(map(title, of))))
+        inputs.setdefault(role, Input(role, si, None, how, titles(of)))
 
     if "diameter" in inputs:
         add("radius", inputs["diameter"].si / 2, "follows", "diameter")
     if {"beta", "flow_stress"} <= set(inputs):
-        product = inputs["beta"].si * inputs["flow_stress"].si
-        add("resistance", product, "follows", "beta", "flow_stress")
+        resistance = inputs["beta"].si * inputs["flow_stress"].si
+        add("resistance", resistance, "follows", "beta", "flow_stress")
     speeds = columns.get("velocity_initial") or columns["velocity_final"]
     add("velocity", speeds[min(speeds)], "rows")
     add("radius", report["radius"][0], "report")
@@ -540,8 +525,8 @@ def _completed(
         density = inputs["mass"].si / volume if volume else 0.0
         add("particle_density", density, "follows", "mass", "radius")
     if "step" not in inputs:
-        step = _step(columns, report)
-        add("step", step, "formulas" if step in _typed(calculation) else "rows")
+        step = _step(columns)
+        add("step", step, "formulas" if step in _typed(table.calculation) else "rows")
     for role in ("particle_density", "target_density", "resistance"):
         add(role, report[role][0], "report")
     return inputs
@@ -552,18 +537,16 @@ def _typed(calculation: Calculation) -> set[float]:
     return {number for formula in calculation.formulas.values() for number in formula.literals}
 
 
-def _step(columns: Mapping[str, Mapping[int, float]], report: Report) -> float:
+def _step(columns: Mapping[str, Mapping[int, float]]) -> float:
     """The step that the rows have taken, as the shortest decimal that they agree with."""
-    times = columns.get("time", {})
+    times, x = columns.get("time", {}), columns["depth"]
     steps = [t - times[k - 1] for k, t in times.items() if k - 1 in times]
     if not steps:
         speeds = columns.get("velocity_initial") or columns["velocity_final"]
-        x = columns["depth"]
-        steps = [
-            (x[k] - x[k - 1]) / v for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)
-        ]
+        rows = [(k, v) for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)]
+        steps = [(x[k] - x[k - 1]) / v for k, v in rows]
     step = abs(median(steps)) if steps else 0.0
-    return _shortest(step, 1e-6) if 0 < step < math.inf else report["step"][0]
+    return _shortest(step, 1e-6) if 0 < step < math.inf else report_inputs()["step"][0]
 
 
 def _shortest(value: float, near: float) -> float:
@@ -576,84 +559,57 @@ def _shortest(value: float, near: float) -> float:
     return next((d for d in decimals if math.isclose(d, value, rel_tol=near)), value)
 
 
-def agreement(
-    setting: Setting, near: float | None = None, rules: Sequence[Rule] = BRAKES[:2]
-) -> float:
-    """Which share of the rows brakes as its depth and velocity say, by the best of some rules."""
-    return max(share(setting, "brake", rule, near) for rule in rules)
-
-
-def share(setting: Setting, part: str, rule: Rule, near: float | None = None) -> float:
-    """Which share of its rows follows a rule."""
-    rows = range(PARTS[part][1], setting.table.steps + 1)
-    each = [follows(setting, part, rule, k, near) for k in rows]
-    judged = [good for good in each if good is not None]
-    return sum(judged) / len(judged) if judged else 0.0
-
-
-def follows(
-    setting: Setting, part: str, rule: Rule, k: int, near: float | None = None
-) -> bool | None:
-    """Whether a row follows a rule; None where cells are missing."""
-    rows, case = setting.rows, setting.case
-    near = setting.near if near is None else near
-    wanted, found = rule.value(case, rows, k), filled(part, rows, case, k)
-    if wanted is None or found is None:
-        return None
-    speed = abs(rows("velocity_initial", k) or 0.0)
-    size = speed if part == "end" else abs(wanted)
-    # Where no column holds the deceleration, the velocities' own rounding is in it.
-    rounded = part == "brake" and "deceleration" not in rows.columns
-    return abs(found - wanted) <= near * (size + rounded * 1e-2 * speed / case.step)
-
-
-def filled(part: str, rows: Rows, case: Case, k: int) -> float | None:
-    """What a row has in the column of a part; the deceleration from the velocities if need be."""
-    role = PARTS[part][0]
-    if role != "deceleration" or role in rows.columns:
-        return rows(role, k)
-    v, final = rows("velocity_initial", k), rows("velocity_final", k)
-    return None if v is None or final is None else (v - final) / case.step
-
-
-def _solved_back(
-    setting: Setting, feeding: Mapping[str, Input], calculation: Calculation, report: Report
-) -> Setting:
-    """Inputs that no cell holds: the report's if the rows agree, else from the rows.
-
-    If they do not agree with mass, diameter and resistance as these should be, they may with what
-    the cells `feeding` the rows hold.
-    """
+def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
+    """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed."""
     unknown = [role for role, own in setting.inputs.items() if own.how == "report"]
-    typed = _typed(calculation) if unknown else set()
-    for fed in ((), *_fed(setting, feeding, calculation)):
-        for rules in (BRAKES[:2], BRAKES):
-            for values in itertools.product(*(report[role] for role in unknown)):
-                tried = dict(zip(unknown, values, strict=True))
-                agreed = _tried(setting, tried, "report", rules, typed, fed)
-                if agreed is not None:
-                    return agreed
-    solved = solve(setting.rows, setting.case)  # with the report's particle, if no cell holds it
-    tried = {role: _nearby(value, typed) for role, value in solved.items() if role in unknown}
-    agreed = _tried(setting, tried, "rows", BRAKES[:2], typed)
-    return agreed or replace(setting, inputs=_assumed(setting.inputs, unknown))
+    typed = _typed(setting.table.calculation) if unknown else set()
+    for tried, how, rules, fed in _hypotheses(setting, unknown, typed, feeding):
+        case, intended = setting.case, setting.intended
+        for role, value in tried.items():
+            case, intended = case.with_input(role, value), intended.with_input(role, value)
+        for cell in fed:
+            case = case.holding(cell.role, cell.si)
+        agreed = replace(setting.with_case(case), intended=intended)
+        if agreed.agreement(rules) >= 0.5:
+            hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
+            inputs = dict(setting.inputs)
+            for role, value in tried.items():
+                known = "assumed" if role in hidden else "formulas" if value in typed else how
+                inputs[role] = replace(inputs[role], si=value, how=known)
+            return replace(agreed, inputs=inputs, derived={cell.role: cell for cell in fed})
+    assumed = {role: replace(setting.inputs[role], how="assumed") for role in unknown}
+    return replace(setting, inputs={**setting.inputs, **assumed})
 
 
-def _assumed(inputs: Mapping[str, Input], roles: Iterable[str]) -> dict[str, Input]:
-    """The inputs, some of them the report's although the rows do not tell."""
-    return {**inputs, **{role: replace(inputs[role], how="assumed") for role in roles}}
+def _hypotheses(
+    setting: Setting, unknown: Sequence[str], typed: set[float], feeding: Mapping[str, Input]
+) -> Iterator[tuple[dict[str, float], str, Sequence[Rule], Sequence[Input]]]:
+    """What the unknown inputs may be, how that is known, by which rules, and with which cells fed.
+
+    The report's values first; with mass, diameter and resistance as they should be, then as the
+    cells `feeding` the rows hold them; then what the rows themselves say.
+    """
+    values = product(*(report_inputs()[role] for role in unknown))
+    of_report = [dict(zip(unknown, each, strict=True)) for each in values]
+    rules = (BRAKES[:2], BRAKES)
+    for fed, brakes, tried in product(((), *_fed(setting, feeding)), rules, of_report):
+        yield tried, "report", brakes, fed
+    solved = {}
+    for role, value in _solved(setting).items():  # with the report's particle, if no cell holds it
+        if role in unknown:  # a number that some formula has, or the shortest decimal
+            near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
+            solved[role] = next(near, _shortest(value, 1e-8))
+    yield solved, "rows", BRAKES[:2], ()
 
 
-def _fed(
-    setting: Setting, feeding: Mapping[str, Input], calculation: Calculation
-) -> Iterator[tuple[Input, ...]]:
+def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
     """Mass, diameter and resistance as their cells hold them, where that is not what it should be.
 
     A formula that is wrong does not tell its unit by its value: every power of a thousand may be.
     """
     wrong = []
     for role, cell in feeding.items():
-        number = calculation.number(cell.place) if cell.place else None
+        number = setting.table.calculation.number(cell.place)
         wanted = getattr(setting.intended, role)
         if number is None or (number == 0 and role != "resistance"):
             continue
@@ -663,44 +619,18 @@ def _fed(
         factors = dict.fromkeys((cell.factor, *thousands))
         wrong.append([replace(cell, role=role, si=scaled(number, by), factor=by) for by in factors])
     if wrong:
-        yield from itertools.islice(itertools.product(*wrong), 2 * _MAX_CHOICES)
+        yield from islice(product(*wrong), 2 * _MAX_CHOICES)
 
 
-def _tried(
-    setting: Setting, tried: Mapping[str, float], how: str, rules: Sequence[Rule],
-    typed: set[float], fed: Sequence[Input] = (),
-) -> Setting | None:  # fmt: skip
-    """The setting with some inputs, and with some cells feeding its rows, if the rows agree."""
-    for role, value in tried.items():
-        setting = setting.revised(partial(with_input, role=role, value=value))
-    for cell in fed:
-        setting = setting.with_case(holding(setting.case, cell.role, cell.si))
-    if agreement(setting, rules=rules) < 0.5:
-        return None
-    inputs = dict(setting.inputs)
-    for role, value in tried.items():
-        known = "formulas" if value in typed else how
-        inputs[role] = replace(inputs[role], si=value, how=known)
-    hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
-    inputs = _assumed(inputs, (role for role in hidden if role in tried))
-    return replace(setting, inputs=inputs, derived={cell.role: cell for cell in fed})
-
-
-def _nearby(value: float, typed: Iterable[float]) -> float:
-    """A number that some formula has, or the shortest decimal."""
-    near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
-    return next(near, _shortest(value, 1e-8))
-
-
-def solve(rows: Rows, case: Case) -> dict[str, float]:
+def _solved(setting: Setting) -> dict[str, float]:
     """Target density and resistance for which the rows brake as they do, drag at the beginning.
 
     a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
     Each pair of rows gives both; the medians withstand some wrong rows. Nothing if there are none.
     """
-    points = []
+    case, rows, points = setting.case, setting.rows, []
     for k in range(1, max(rows.columns["depth"]) + 1):
-        a, x, v = filled("brake", rows, case, k), rows("depth", k), rows("velocity_initial", k)
+        a, x, v = setting.filled("brake", k), rows("depth", k), rows("velocity_initial", k)
         if a is not None and x and v is not None and (area := contact(case, x)):
             points.append((v * v, a * case.mass / (math.pi * area)))
     pairs = zip(points, points[len(points) // 2 :], strict=False)

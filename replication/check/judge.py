@@ -1,77 +1,357 @@
-"""What is wrong with one table, cell by cell: each difference with its kind, place and cause.
+"""What is wrong with one table: each difference with its kind, place and cause.
 
-Every cell is compared with what the cells before it give, so a wrong one is found where it stands
-and what follows from it is not accused. A column in which most cells follow another rule than the
-report's is one difference, named by that rule.
+Units and inputs first, then the scheme: a column in which most cells follow another rule than the
+report's is one difference, named by that rule. Then every cell by itself (`cells`), and the stop.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+from statistics import median
 
-from replication.check.cells import each_cell, order
-from replication.check.findings import Difference, Findings
-from replication.check.givens import calibrate, derived, other_inputs, typed_inputs, units
-from replication.check.inputs import Setting
-from replication.check.recognize import as_rounded, choose
-from replication.check.scheme import REPORT, Rules, march
-from spreadsheets.recalculation import Calculation
-
-_LIMIT = 20_000
-"""Rows that a run computed for comparison may have."""
-
-
-@dataclass
-class Verdict:
-    """What was found out about one table; depths in m.
-
-    `right_depth` is that of the report's scheme with the table's inputs, None if it does not end.
-    `differing` counts the cells that differ from that run, causes and consequences alike.
-    """
-
-    setting: Setting
-    rules: Rules
-    differences: list[Difference]
-    final_depth: float | None
-    right_depth: float | None
-    differing: int
-
-    @property
-    def ends(self) -> bool:
-        """Whether the rows go down to the stop."""
-        return not any(d.kind == "not calculated" for d in self.differences)
+from replication.check.cells import each_cell, order, types
+from replication.check.findings import Difference, Verdict
+from replication.check.inputs import NEAR, Input, Setting, report_inputs
+from replication.check.scheme import (
+    BEYOND,
+    BRAKES,
+    KNOWN,
+    MOST_ROWS,
+    PARTS,
+    REPORT,
+    Case,
+    Rules,
+    march,
+)  # fmt: skip
+from replication.check.table import address
+from replication.check.words import (
+    power_of_ten,
+    quantity,
+    scaled,
+    times_too,
+    title,
+    titles,
+    unit_text,
+)  # fmt: skip
+from spreadsheets.foreign import Position
 
 
-def judge(
-    setting: Setting, calculation: Calculation, report: Mapping[str, tuple[float, ...]]
-) -> Verdict:
-    """Every difference between a table and the report's sheet, but for its printed numbers.
-
-    `report` are the report's values of each input, in SI.
-    """
-    f = Findings(setting, calculation, report)
-    units(f)
+def judge(setting: Setting) -> Verdict:
+    """Every difference between a table and the report's sheet, but for its printed numbers."""
+    f = Verdict(setting)
+    _units(f)
     if setting.digits is None:
-        calibrate(f)
-        derived(f)
-    other_inputs(f)
+        _calibrate(f)
+        _derived(f)
+    _other_inputs(f)
     if setting.digits is None:
-        choose(f)
+        _scheme(f)
         each_cell(f)
-        typed_inputs(f)
+        _typed_inputs(f)
         order(f)
     else:
-        as_rounded(f, setting.digits)
+        _as_rounded(f, setting.digits)
     _stop(f)
-    return _verdict(f)
+    _effects(f)
+    return f
 
 
-def _stop(f: Findings) -> None:
+# ---- units and inputs: what the workbook says of them, what its formulas make of them
+
+
+def _units(f: Verdict) -> None:
+    """Units in heads that contradict the rest."""
+    for role, slip in f.setting.slips.items():
+        line, right = f.table.lines[role], unit_text(role, f.setting.powers[role])
+        place = line.unit_place or f.table.place(role, 1)
+        text = f"the head gives {title(role)} in {line.unit}, but the numbers are in {right}"
+        f.add("unit", [place], right, f"{text}, a factor of 1e{abs(slip)}", line.unit)
+
+
+def _other_inputs(f: Verdict) -> None:
+    """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
+    report = report_inputs()
+    off = {
+        role: own
+        for role, own in f.setting.inputs.items()
+        if role in report and role != "mass" and own.how not in ("report", "assumed", "follows")
+        if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
+    }
+    for role, own in off.items():
+        nearest = min(report[role], key=lambda value: abs(value - own.si))
+        text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
+        if role == "radius" and math.isclose(own.si, 2 * nearest, rel_tol=1e-9):
+            text += ", whose diameter this is"
+        if role == "target_density":
+            text += ", inferred, since the report prints none"
+        if own.how == "rows":
+            text += "; no cell holds it, it is solved back from the rows"
+        place = own.place or f.table.place("depth", 1)
+        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
+        kind = "unit" if power else "other input"
+        text += f": a factor of 1e{abs(power)}" if power else ""
+        found = own.si if own.place is None else None
+        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found)
+        if power:
+            f.spoils[place] = partial(_scaled_input, role=role, value=own.si, by=own.si / nearest)
+            f.intend(_scaled_input(f.intended, role, nearest, nearest / own.si))
+
+
+def _scaled_input(case: Case, role: str, value: float, by: float) -> Case:
+    """The case with an input of another `value`, which is the one that it has times `by`."""
+    if role in ("beta", "flow_stress"):
+        return case.with_input("resistance", case.resistance * by)
+    return case.with_input(role, value)
+
+
+def _calibrate(f: Verdict) -> None:
+    """An input that the rows take in another unit than its label says."""
+    if f.setting.agreement(BRAKES) >= 0.5:
+        return
+    for role, own in f.setting.inputs.items():
+        if own.place is None or role in ("beta", "stop_velocity", "mass"):
+            continue
+        for power in (sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)):
+            factor = Fraction(10) ** power
+            value = scaled(own.si, factor)
+            change = partial(_scaled_input, role=role, value=value, by=float(factor))
+            setting = f.setting.with_case(change(f.case))
+            if setting.agreement() >= 0.9:
+                f.setting, f.spoils[own.place] = setting, change
+                text = (
+                    f"the formulas take {title(role)} as {quantity(value, role)}, not "
+                    f"{quantity(own.si, role)}: a factor of 1e{abs(power)} is missing"
+                )
+                f.add("unit", [own.place], scaled(own.si, 1 / factor / own.factor), text)
+                return
+
+
+def _derived(f: Verdict) -> None:
+    """Mass, diameter and resistance as the workbook has them, against what they rest on."""
+    known = {own.role: own for own in (*f.setting.unread, *f.setting.inputs.values())}
+    rows = replace(f.case, own_mass=None, own_diameter=None) if f.spoils else None
+    resistance = f.intended.resistance
+    if "beta" in known and "flow_stress" in known:
+        resistance = known["beta"].si * known["flow_stress"].si
+    for role, wanted, of in (
+        ("diameter", 2 * f.intended.radius, ("radius",)),
+        ("mass", f.intended.mass, ("radius", "particle_density")),
+        ("resistance", resistance, ("beta", "flow_stress")),
+    ):
+        cell = f.setting.derived.get(role)
+        sources = [known[name] for name in of if name in known]
+        # With an input in a wrong unit the rows have what follows from it, which is no new fault.
+        if cell is not None and rows and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
+            continue
+        if cell is not None and (any(s.place for s in sources) or cell.si == 0):
+            _derived_cell(f, cell, wanted, sources)
+
+
+def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
+    role, place = cell.role, cell.place
+    assert place is not None
+    number = f.calculation.number(place) or 0.0
+    power = power_of_ten(wanted / number) if number and cell.unit is None else None
+    factor = cell.factor if power is None else Fraction(10) ** power
+    held = scaled(number, factor)
+    exact = math.isclose(held, wanted, rel_tol=NEAR)
+    # Whoever converts ksi types its factor with some ten digits.
+    typed = any(power_of_ten(float(source.factor)) is None for source in sources)
+    right = exact or (typed and math.isclose(held, wanted, rel_tol=1e-8))
+    rests = titles(source.role for source in sources)
+    accused = len(f.differences)
+    expected = scaled(wanted, 1 / factor)
+    if place in f.calculation.formulas:
+        if power := power_of_ten(held / wanted):
+            text = f"{title(role)} is {times_too(power)} for {rests}: a unit is not converted"
+            f.add("unit", [place], expected, text)
+        elif not right:
+            give = "gives" if len(sources) == 1 else "give"
+            text = f"{title(role)} is not what {rests} {give}"
+            if not held:
+                text = f"{title(role)} is 0; the report's is assumed"
+            f.add("odd formula", [place], expected, text)
+    elif f.setting.read and (not right or any(s in f.setting.unread for s in sources)):
+        text = f"{title(role)} is typed as a number, though it rests on {rests}: a change there changes nothing"  # noqa: E501
+        f.add("typed constant", [place], expected, text)
+    if exact and not (role == "mass" and factor == 1):
+        return
+    if len(f.differences) > accused and not exact:
+        f.spoils[place] = lambda case: case.holding(role, held)
+        f.intend(f.intended.holding(role, wanted))
+    else:
+        f.intend(f.intended.holding(role, held))
+    f.setting = f.setting.with_case(f.case.holding(role, held))
+
+
+def _typed_inputs(f: Verdict) -> None:
+    """Inputs whose value stands in formulas that do not read their cell."""
+    accused = f.accused
+    typed = {role: f.literals(role) for role in f.table.lines}
+    for own in (*f.setting.unread, *f.setting.inputs.values()):
+        if own.place is None:
+            continue
+        for role in f.table.lines:
+            if not typed[role] and own.role != "velocity":
+                continue
+            places = f.cells(role, 0)
+            cells = [
+                place
+                for k, place in enumerate(places)
+                if place not in accused and _typed_in(f, own, role, k, place)
+            ]
+            # A number in a few formulas of many is one of their own, such as the row's.
+            if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
+                formula = f.calculation.book[cells[0]].formula
+                where = address(own.place, with_sheet=own.place[0] != cells[0][0])
+                text = f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change there changes nothing here"  # noqa: E501
+                f.add("typed constant", cells, where, text, formula)
+
+
+def _typed_in(f: Verdict, own: Input, role: str, k: int, place: Position) -> bool:
+    """Whether a cell has an input's value as a number, though a cell for it exists."""
+    formula = f.calculation.formulas.get(place)
+    if formula is not None:
+        return types(formula, own, f.calculation)
+    # The impact velocity typed into the first row, while its own cell is read by nothing.
+    first = own.role == "velocity" and role.startswith("velocity") and k <= 1
+    return first and own in f.setting.unread and f.calculation.number(place) is not None
+
+
+# ---- which scheme the table follows, rule by rule, by what most of its rows do
+
+_FACTORS = (
+    (2.0, "2"), (0.5, "1/2"), (math.pi, "pi"), (1 / math.pi, "1/pi"), (4.0, "4"), (0.25, "1/4"),
+    (8.0, "8"), (0.125, "1/8"), (4 / 3, "4/3"), (0.75, "3/4"), (3.0, "3"), (1 / 3, "1/3"),
+)  # fmt: skip
+
+
+def _scheme(f: Verdict) -> None:
+    """The rules that most rows follow, and a difference for each that is not the report's."""
+    starts = KNOWN["start"]
+    chosen = {"start": next((r for r in starts if f.setting.follows("start", r, 1)), starts[0])}
+    unknown = []
+    for part in ("advance", "brake", "end"):
+        if part == "end" and "deceleration" not in f.table.lines:
+            continue  # the brake is known by it
+        own, *others = KNOWN[part]
+        shares = {own: f.setting.share(part, own)}
+        if shares[own] < 0.9:
+            shares |= {rule: f.setting.share(part, rule) for rule in others}
+        best = max(shares, key=lambda rule: shares[rule])
+        if shares[best] < 0.5:
+            unknown.append(part)
+        else:
+            chosen[part] = best
+    deepest = max(march(f.intended)["depth"].values())
+    if "brake" in chosen and deepest < f.intended.radius:
+        # What the area is beyond the radius does not matter to a sheet that should not get there.
+        rules = (BRAKES[0], chosen["brake"], BEYOND)
+        flat, brake, deeper = (f.setting.share("brake", rule) for rule in rules)
+        if deeper > flat and deeper >= brake:
+            chosen["brake"] = replace(BEYOND, says="")
+    f.rules = replace(REPORT, **chosen)
+    for part in unknown:
+        role, first = _column(f, part), PARTS[part][1]
+        wanted = getattr(REPORT, part)(f.setting.rows, first)
+        kind, text = _cause(f, part, role)
+        f.add(kind, f.cells(role, first), f.shown(role, wanted), text)
+    _named(f)
+
+
+def _named(f: Verdict) -> None:
+    """A difference for each rule that is not the report's."""
+    for part, rule in f.rules.others.items():
+        own, role, (fills, first) = getattr(REPORT, part), _column(f, part), PARTS[part]
+        rows = range(first, f.table.steps)
+        first = next((k for k in rows if not f.setting.follows(part, own, k)), first)
+        wanted = own(f.setting.rows, first) if role == fills else None
+        cells = f.cells(role, first, first if part == "start" else None)
+        f.add("other scheme", cells, f.shown(role, wanted), f"{rule.name}: {rule.says}")
+
+
+def _column(f: Verdict, part: str) -> str:
+    """The column that shows a part of the scheme."""
+    candidates = (PARTS[part][0], "velocity_final", "velocity_initial")
+    return next(role for role in candidates if role in f.table.lines)
+
+
+def _cause(f: Verdict, part: str, role: str) -> tuple[str, str]:
+    """What else explains a column that follows no rule known here: a constant factor."""
+    pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
+    ratios = [found / wanted for found, wanted in filter(None, pairs) if wanted]
+    ratio = median(ratios) if ratios else 0.0
+    if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
+        return "other scheme", "these cells follow no scheme that this program knows"
+    what, base, constant = (
+        ("force", math.pi, "pi") if part == "brake" else ("step", f.case.step, "the time step")
+    )
+    if power := power_of_ten(ratio):
+        return "unit", f"every {what} is {times_too(power)}: a unit is not converted"
+    for number in f.literals(role):
+        if _near(number / base, ratio):
+            return "typed constant", f"{constant} is typed as {number:g}"
+    named = next((name for value, name in _FACTORS if _near(value, ratio)), f"{ratio:.6g}")
+    return "other scheme", f"every {what} is {named} times that of the report's scheme"
+
+
+def _near(a: float, b: float) -> bool:
+    return math.isclose(a, b, rel_tol=1e-9)
+
+
+def _increment(f: Verdict, part: str, k: int) -> tuple[float, float] | None:
+    """What a row adds to the one before, and what it would add by the report's rule."""
+    rows = f.setting.rows
+    starts = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}
+    start, found, wanted = starts[part], f.setting.filled(part, k), getattr(REPORT, part)(rows, k)
+    if start is None or found is None or wanted is None:
+        return None
+    return found - start, wanted - start
+
+
+def _as_rounded(f: Verdict, digits: int) -> None:
+    """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
+    parts = ("brake", "start", "advance", "end")
+    others = [replace(REPORT, **{part: rule}) for part in parts for rule in KNOWN[part][1:]]
+    # Some rules need another brake to go with them: by themselves they give no rows.
+    able = [rules for rules in (REPORT, *others) if f.table.steps in _run(f, rules)["depth"]]
+    f.rules = min(able, key=lambda rules: len(list(_misprints(f, rules, digits))))
+    _named(f)
+    for place, expected, text in _misprints(f, f.rules, digits):
+        f.add("typed number", [place], expected, text)
+
+
+def _run(f: Verdict, rules: Rules) -> dict[str, dict[int, float]]:
+    return march(f.case, rules, steps=f.table.steps)
+
+
+def _misprints(f: Verdict, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
+    """Numbers that do not round as a scheme's do."""
+    run = _run(f, rules)
+    for role in set(run) & set(f.table.lines):
+        for k, value in run[role].items():
+            found, wanted = f.table.number(role, k), f.shown(role, value)
+            if found is None or wanted is None or (k == 0 and role == "velocity_final"):
+                continue
+            last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits) if wanted else 0.0
+            if abs(found - wanted) > last * (0.5 + 1e-9):
+                text = f"{title(role)} of row {k} is not what the scheme gives"
+                yield f.table.place(role, k), float(f"{wanted:.{digits}g}"), text
+
+
+# ---- the stop, and all of it together
+
+
+def _stop(f: Verdict) -> None:
     """Whether the rows end with the first velocity below the stop."""
-    steps, stop = f.table.steps, f.case.stop_velocity
-    finals = {k: v for k in range(1, steps + 1) if (v := _final(f, k)) is not None}
+    steps, stop, rows = f.table.steps, f.case.stop_velocity, f.setting.rows
+    finals = {k: v for k in range(1, steps + 1) if (v := rows("velocity_final", k)) is not None}
+    if steps not in finals and (last := f.slowed(steps)) is not None:
+        finals[steps] = last  # computed where the table ends before it shows it
     below = next((k for k, v in finals.items() if v < stop), None)
-    right = max(march(f.intended, limit=steps + 1)["depth"])
+    right = max(march(f.intended)["depth"])
     if not finals or below == steps or (below != steps and right == steps):
         return  # with as many rows as there should be, where they end follows from the rest
     last = finals[max(finals)]
@@ -81,12 +361,12 @@ def _stop(f: Findings) -> None:
         text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
         f.add("other scheme", cells, None, text)
         return
-    run = march(f.case, f.rules, limit=_LIMIT)["velocity_final"]
+    run = march(f.case, f.rules)["velocity_final"]
     whole = max(run, default=0)
-    if whole <= steps or (run[whole] >= stop and whole < _LIMIT):
+    if whole <= steps or (run[whole] >= stop and whole < MOST_ROWS):
         return  # the rules that the rows follow do not lead to the stop by themselves
     text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
-    of = f"{whole:,} steps" if whole < _LIMIT else f"more than {_LIMIT:,} steps"
+    of = f"{whole:,} steps" if whole < MOST_ROWS else f"more than {MOST_ROWS:,} steps"
     place = f.table.place(role, steps)
     # With other inputs than the report's the rows prepared for those run out, and an excerpt has
     # few; but who leaves off shortly before the report does stops at another velocity.
@@ -97,38 +377,32 @@ def _stop(f: Findings) -> None:
         f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
 
 
-def _final(f: Findings, k: int) -> float | None:
-    """The velocity at the end of a row, computed where the table ends before it shows it."""
-    final = f.setting.rows("velocity_final", k)
-    return f.slowed(k) if final is None and k == f.table.steps else final
+def _effects(f: Verdict) -> None:
+    """What the final depth should be, and what each difference alone would make of it."""
+    run = march(f.intended)
+    steps = max(run["depth"])
+    if run["velocity_final"].get(steps, math.inf) < f.intended.stop_velocity:
+        f.right_depth = run["depth"][steps]
+    for role, column in f.setting.rows.columns.items():
+        for k, own in column.items() if role in run else ():
+            right = run[role].get(k)
+            if right is None:
+                f.differing += k > steps
+            else:
+                f.differing += abs(own - right) > 1e-9 * abs(right)
+    f.differences = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
 
 
-def _verdict(f: Findings) -> Verdict:
-    """All of it, with the final depths and the difference that explains them."""
-    steps, rows = f.table.steps, f.setting.rows
-    run = march(f.intended, limit=_LIMIT)
-    ends = run["velocity_final"].get(max(run["depth"]), math.inf) < f.intended.stop_velocity
-    pairs = [
-        (value, run[role].get(k))
-        for role in set(run) & set(rows.columns)
-        for k, value in rows.columns[role].items()
-        if k in run[role] or k > max(run["depth"])
-    ]
-    differing = sum(right is None or abs(own - right) > 1e-9 * abs(right) for own, right in pairs)
-    found = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
-    right = run["depth"][max(run["depth"])] if ends else None
-    return Verdict(f.setting, f.rules, found, rows("depth", steps), right, differing)
-
-
-def _with_effect(f: Findings, difference: Difference) -> Difference:
+def _with_effect(f: Verdict, difference: Difference) -> Difference:
     """The difference with the final depth that it alone would give."""
     fixed: dict[tuple[str, int], float] = {}
     rules, case = REPORT, f.intended
     if not f.rules.brake.says:
         rules = replace(rules, brake=f.rules.brake)
     if difference.kind == "other scheme":
-        named = [part for part, rule in f.rules.others() if rule.says in difference.explanation]
-        rules = replace(rules, **{part: f.rules.part(part) for part in named})
+        others = f.rules.others.items()
+        named = {part: rule for part, rule in others if rule.says in difference.explanation}
+        rules = replace(rules, **named)
     elif difference.place in f.spoils:
         case = f.spoils[difference.place](case)
     elif difference.kind in ("typed number", "odd formula", "typed constant"):
@@ -139,5 +413,5 @@ def _with_effect(f: Findings, difference: Difference) -> Difference:
                 fixed[role, k] = value
     else:
         return difference
-    depths = march(case, rules, fixed, limit=f.table.steps, until=f.table.steps)["depth"]
+    depths = march(case, rules, fixed, steps=f.table.steps)["depth"]
     return replace(difference, effect=depths.get(f.table.steps))

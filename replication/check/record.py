@@ -1,25 +1,21 @@
 """What `check` and `diff` found, as one JSON document; text, page and JUnit file show that."""
 
 import math
-import unicodedata
 from collections import Counter
-from collections.abc import Mapping
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import KINDS, Difference
-from replication.check.judge import Verdict
-from replication.check.lines import address, area_of
-from replication.check.printed import Held
+from replication.check.findings import Difference, Verdict
+from replication.check.table import address, area_of
 from replication.check.words import INPUTS, count, unit_text
-from replication.check.workbook import Check
+from replication.check.workbook import Check, Held
 from spreadsheets.foreign import Position
 
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
     record = {
-        "file": str(check.path),
+        "file": str(check.calculation.book.path),
         "verdict": _verdict(check),
         "clean": check.first is None,
         "summary": check.summary,
@@ -41,11 +37,11 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     if last := len(comparison.last_digits):
         verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     return {
-        "file": " and ".join(map(str, comparison.paths)),
+        "file": " and ".join(str(c.book.path) for c in comparison.calculations),
         "verdict": f"{verdict}." if found else "Equal: every cell holds the same.",
         "clean": not found,
         "summary": dict(Counter(d.kind for d in found)),
-        "first": comparison.first and _difference(comparison.first),
+        "first": _difference(found[0]) if found else None,
         "differences": [_difference(d) for d in found],
         "taken": [],
         "final_depths": [],
@@ -79,12 +75,11 @@ def _difference(difference: Difference) -> dict[str, Any]:
 
 def _range(cells: tuple[Position, ...]) -> str:
     """Some cells as one range, if they are one."""
-    rows, columns = {cell[1] for cell in cells}, {cell[2] for cell in cells}
+    sheets, rows, columns = (set(each) for each in zip(*cells, strict=True))
     area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
-    if len(cells) != area or len({cell[0] for cell in cells}) > 1:
+    if len(cells) != area or len(sheets) > 1:
         return f"{address(cells[0])} and {count(len(cells) - 1, 'cell')} more"
-    sheet = cells[0][0]
-    return area_of((sheet, min(rows), min(columns)), (sheet, max(rows), max(columns)))
+    return area_of(("", min(rows), min(columns)), ("", max(rows), max(columns)))
 
 
 def _verdict(check: Check) -> str:
@@ -103,35 +98,34 @@ def _verdict(check: Check) -> str:
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
     for verdict in check.verdicts:
-        own, right = verdict.final_depth, verdict.right_depth
-        if verdict.ends and own is not None and right is not None and _apart(own, right):
-            return f"{sentence}; the final depth is {_um(own)}, and should be {_um(right)}."
+        if (depths := _apart(verdict)) is not None:
+            own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
+            return f"{sentence}; the final depth is {own}, and should be {right}."
     if all(v.right_depth and v.final_depth and v.ends for v in check.verdicts):
         return f"{sentence}; the final depth is right all the same."
     return f"{sentence}."
 
 
-def _um(depth: float) -> str:
-    return f"{depth * 1e6:.7g} um"
-
-
-def _apart(own: float, right: float) -> bool:
-    return abs(own - right) > 1e-9 * abs(right)
+def _apart(verdict: Verdict) -> tuple[float, float] | None:
+    """The final depth and what it should be, where these differ."""
+    own, right = verdict.final_depth, verdict.right_depth
+    if own is None or right is None or not verdict.ends or abs(own - right) <= 1e-9 * abs(right):
+        return None
+    return own, right
 
 
 def _depth(verdict: Verdict) -> dict[str, Any]:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
-    own, right = verdict.final_depth, verdict.right_depth
     explains = None
-    if verdict.ends and own is not None and right is not None and _apart(own, right):
-        effects = {d: d.effect for d in verdict.differences if d.effect is not None}
-        if effects:
-            nearest = min(effects, key=lambda d: abs(effects[d] - own))
-            if abs(effects[nearest] - own) < 0.05 * abs(own - right):
-                explains = address(nearest.place, True)
+    if (depths := _apart(verdict)) is not None:
+        own, right = depths
+        effects = {d: abs(d.effect - own) for d in verdict.differences if d.effect is not None}
+        nearest = min(effects, key=lambda d: effects[d], default=None)
+        if nearest and effects[nearest] < 0.05 * abs(own - right):
+            explains = address(nearest.place, True)
     return {
-        "found": own,
-        "expected": right,
+        "found": verdict.final_depth,
+        "expected": verdict.right_depth,
         "explained_by": explains,
         "differing": verdict.differing,
     }
@@ -180,40 +174,3 @@ def _claim(number: Held) -> dict[str, Any]:
         "found": number.found,
         "met": number.met,
     }
-
-
-def held(difference: Mapping[str, Any]) -> str:
-    """What a cell holds and what it should hold; of `diff`, what it was and what it is.
-
-    >>> held({"kind": "value", "expected": 500.0, "found": None})
-    'was 500.0, is blank'
-    """
-    expected, found = difference["expected"], difference["found"]
-    if difference["kind"] not in KINDS:
-        if difference["kind"] in ("added", "removed"):
-            return _shown(found if expected is None else expected)
-        return f"was {_shown(expected)}, is {_shown(found)}"
-    if expected is not None:
-        return f"holds {_shown(found)}, should hold {_shown(expected)}"
-    return "" if found is None else f"holds {_shown(found)}"
-
-
-def _shown(value: object) -> str:
-    return "blank" if value is None else safe(value, 120)
-
-
-def safe(text: object, limit: int = 90) -> str:
-    r"""Text from a file as it may be shown: one line, nothing that moves a terminal, not too long.
-
-    >>> safe("a\nb\x1b[31m"), safe("abcdef", 5)
-    ('a\\nb\\x1b[31m', 'ab...')
-    """
-    cut = str(text)[: limit + 1]
-    plain = "".join(
-        c if c == " " or unicodedata.category(c)[0] not in "CZ" else _escaped(c) for c in cut
-    )
-    return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
-
-
-def _escaped(character: str) -> str:
-    return character.encode("unicode_escape").decode("ascii")

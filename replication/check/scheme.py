@@ -1,7 +1,7 @@
 """The scheme's rules, the report's and others that people use, each for one cell from those before.
 
-A rule is a function of a case and of a `Rows` to the value that a cell should hold, in SI units. So
-a workbook is judged cell by cell by what its own cells before hold: only the cell where something
+A rule goes from `Rows` and the number of a row to what a cell should hold, in SI units. So a
+workbook is judged cell by cell by what its own cells before hold: only the cell where something
 goes wrong fails, not the hundred that follow from it.
 """
 
@@ -15,6 +15,9 @@ PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration
 
 ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
 """The order of calculation within a row."""
+
+MOST_ROWS = 20_000
+"""Rows that a run computed for comparison may have."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +51,25 @@ class Case:
         """D = 2R [m], or the workbook's own."""
         return 2 * self.radius if self.own_diameter is None else self.own_diameter
 
+    def holding(self, role: str, value: float) -> "Case":
+        """The case with mass, diameter or resistance as a cell holds it, all else as it is."""
+        own = {"diameter": "own_diameter", "mass": "own_mass", "resistance": "resistance"}
+        return replace(self, **{own[role]: value})
 
-@dataclass
+    def with_input(self, role: str, value: float) -> "Case":
+        """The case with another input, and with what follows from it."""
+        if role == "mass":
+            return replace(self, own_mass=value)
+        if role == "diameter":
+            return replace(self, own_diameter=value, radius=value / 2)
+        if role == "radius":
+            return replace(self, radius=value, own_mass=None, own_diameter=None)
+        if role == "particle_density":
+            return replace(self, particle_density=value, own_mass=None)
+        return replace(self, **{role: value})
+
+
+@dataclass(frozen=True)
 class Rows:
     """The cells of a run by role and row, in SI units; one velocity stands for the other.
 
@@ -85,13 +105,13 @@ class Rule:
     """One way to fill a column. `says` completes "here"; the report's own says nothing."""
 
     name: str
-    formula: Callable[[Case, Rows, int], float]
+    formula: Callable[[Rows, int], float]
     says: str = ""
 
-    def value(self, case: Case, rows: Rows, k: int) -> float | None:
+    def __call__(self, rows: Rows, k: int) -> float | None:
         """What the cell of a row should hold, None where a cell that the rule needs is missing."""
         try:
-            return self.formula(case, rows, k)
+            return self.formula(rows, k)
         except KeyError:
             return None
 
@@ -105,34 +125,27 @@ class Rules:
     brake: Rule
     end: Rule
 
-    def part(self, name: str) -> Rule:
-        """The rule of a part: start, advance, brake or end."""
-        rule = getattr(self, name)
-        assert isinstance(rule, Rule)
-        return rule
-
-    def others(self) -> list[tuple[str, Rule]]:
+    @property
+    def others(self) -> dict[str, Rule]:
         """The parts that are not the report's."""
-        return [(name, rule) for name, rule in vars(self).items() if rule.says]
+        return {part: rule for part, rule in vars(self).items() if rule.says}
 
     @property
     def name(self) -> str:
         """The scheme by name."""
-        names = dict.fromkeys(rule.name for _, rule in self.others())
+        names = dict.fromkeys(rule.name for rule in self.others.values())
         return " and ".join(names) or "the report's"
 
-    def value(self, role: str, case: Case, rows: Rows, k: int) -> float | None:
+    def value(self, role: str, rows: Rows, k: int) -> float | None:
         """What a cell should hold."""
         if role == "velocity_initial":
-            return case.velocity if k <= 1 else rows("velocity_final", k - 1)
+            return rows.case.velocity if k <= 1 else rows("velocity_final", k - 1)
         if k == 0:
             return 0.0
-        rule = {
-            "depth": self.start if k == 1 else self.advance,
-            "deceleration": self.brake,
-            "velocity_final": self.end,
-        }[role]
-        return rule.value(case, rows, k)
+        depth = self.start if k == 1 else self.advance
+        return {"depth": depth, "deceleration": self.brake, "velocity_final": self.end}[role](
+            rows, k
+        )
 
 
 def deceleration(
@@ -176,20 +189,24 @@ def orders(case: Case, x: float, v: float) -> set[float]:
 
 def _brake(name: str, formula: Callable[[Case, float, float], float], says: str = "") -> Rule:
     """A rule for the deceleration from the row's own depth and initial velocity."""
-    return Rule(name, lambda c, r, k: formula(c, r["depth", k], r["velocity_initial", k]), says)
+    return Rule(name, lambda r, k: formula(r.case, r["depth", k], r["velocity_initial", k]), says)
 
 
 def _centered(case: Case, x: float, v: float) -> float:
     return deceleration(case, x, v - deceleration(case, x, v) * (case.step / 2))
 
 
+BEYOND = _brake(
+    "area beyond the radius", lambda c, x, v: deceleration(c, x, v, area=c.diameter * x - x * x),
+    "the contact area shrinks again beyond the depth R, where the report keeps pi R²",
+)  # fmt: skip
 BRAKES = (
     _brake("velocity at the beginning", deceleration),
     _brake("centered", _centered,
            "the drag is taken at the velocity in the middle of the step, half a step ahead of the "
            "row's initial velocity"),
     Rule("explicit Euler",
-         lambda c, r, k: deceleration(c, r["depth", k - 1], r["velocity_initial", k]),
+         lambda r, k: deceleration(r.case, r["depth", k - 1], r["velocity_initial", k]),
          "the force is taken at the depth of the row before"),
     _brake("no drag", lambda c, x, v: deceleration(c, x, v, factor=0.0),
            "the force lacks the term with the target's density"),
@@ -205,17 +222,15 @@ BRAKES = (
     _brake("area of the whole sphere",
            lambda c, x, v: deceleration(c, x, v, area=c.radius * c.radius),
            "the contact area is that of the whole sphere, pi R², at every depth"),
-    _brake("area beyond the radius",
-           lambda c, x, v: deceleration(c, x, v, area=c.diameter * x - x * x),
-           "the contact area shrinks again beyond the depth R, where the report keeps pi R²"),
+    BEYOND,
     Rule("drag at the row before",
-         lambda c, r, k: deceleration(c, r["depth", k], r["velocity_initial", k - 1]),
+         lambda r, k: deceleration(r.case, r["depth", k], r["velocity_initial", k - 1]),
          "the drag is taken at the initial velocity of the row before"),
 )  # fmt: skip
 
 STARTS = (
-    Rule("half step", lambda c, r, k: r["velocity_initial", k] * (c.step / 2)),
-    Rule("no half step", lambda c, r, k: r["velocity_initial", k] * c.step,
+    Rule("half step", lambda r, k: r["velocity_initial", k] * (r.case.step / 2)),
+    Rule("no half step", lambda r, k: r["velocity_initial", k] * r.case.step,
          "the first depth is V times the whole step; the report takes half of it"),
     Rule("starts at zero", lambda *_: 0.0,
          "the first step leaves the depth at zero; the report takes V times half a step"),
@@ -224,7 +239,7 @@ STARTS = (
 
 def _advance(name: str, speed: Callable[[Rows, int], float], says: str = "") -> Rule:
     """A rule for the depth from that of the row before and a velocity."""
-    return Rule(name, lambda c, r, k: r["depth", k - 1] + speed(r, k) * c.step, says)
+    return Rule(name, lambda r, k: r["depth", k - 1] + speed(r, k) * r.case.step, says)
 
 
 def _mean(rows: Rows, k: int) -> float:
@@ -246,73 +261,51 @@ ADVANCES = (
 )  # fmt: skip
 
 
-def _by_energy(_: Case, rows: Rows, k: int) -> float:
+def _by_energy(rows: Rows, k: int) -> float:
     v, way = rows["velocity_initial", k], rows["depth", k] - rows["depth", k - 1]
     return math.sqrt(max(v * v - 2 * rows["deceleration", k] * way, 0.0))
 
 
 ENDINGS = (
-    Rule("whole step", lambda c, r, k: r["velocity_initial", k] - r["deceleration", k] * c.step),
+    Rule("whole step",
+         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * r.case.step),
     Rule("half a step",
-         lambda c, r, k: r["velocity_initial", k] - r["deceleration", k] * (c.step / 2),
+         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * (r.case.step / 2),
          "the velocity falls by the deceleration times half a step only"),
-    Rule("by energy", _by_energy,
-         "the velocity follows from v² - 2 a times the step in depth"),
+    Rule("by energy", _by_energy, "the velocity follows from v² - 2 a times the step in depth"),
 )  # fmt: skip
 
+KNOWN = {"start": STARTS, "advance": ADVANCES, "brake": BRAKES, "end": ENDINGS}
+"""The rules for each part, the report's own first."""
 
-REPORT = Rules(STARTS[0], ADVANCES[0], BRAKES[0], ENDINGS[0])
+REPORT = Rules(**{part: rules[0] for part, rules in KNOWN.items()})
 """The report's own scheme."""
 
 
 def march(
     case: Case,
-    rules: Rules | None = None,
+    rules: Rules = REPORT,
     fixed: Mapping[tuple[str, int], float] | None = None,
-    limit: int = 20_000,
-    until: int | None = None,
+    steps: int | None = None,
 ) -> dict[str, dict[int, float]]:
-    """All rows of a scheme, with some cells `fixed`, down to the stop velocity or `until` a row.
+    """So many steps of a scheme, or those down to the stop velocity, with some cells `fixed`.
 
     >>> rows = march(Case(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10))
     >>> len(rows["depth"]) - 1, f"{rows['depth'][131] * 1e6:.2f}"
     (131, '7.67')
     """
-    rules, fixed = rules or REPORT, fixed or {}
     columns: dict[str, dict[int, float]] = {role: {} for role in ORDER}
     rows = Rows(columns, case)
     columns["velocity_initial"][0] = case.velocity
     columns["depth"][0] = columns["deceleration"][0] = 0.0
-    for k in range(1, limit + 1):
-        waiting = list(ORDER)
+    for k in range(1, (steps or MOST_ROWS) + 1):
         for _ in ORDER:  # a rule that needs a later column of the row waits for it
-            for role in list(waiting):
-                value = fixed.get((role, k), rules.value(role, case, rows, k))
-                if value is not None:
-                    columns[role][k] = value
-                    waiting.remove(role)
-        final = columns["velocity_final"].get(k)
-        if final is None or not math.isfinite(final):
-            break
-        if k == until or (until is None and final < case.stop_velocity):
+            for role in ORDER:
+                if k not in columns[role]:
+                    value = (fixed or {}).get((role, k), rules.value(role, rows, k))
+                    if value is not None:
+                        columns[role][k] = value
+        final = columns["velocity_final"].get(k, math.nan)
+        if not math.isfinite(final) or (steps is None and final < case.stop_velocity):
             break
     return columns
-
-
-def holding(case: Case, role: str, value: float) -> Case:
-    """The case with mass, diameter or resistance as a cell holds it, all else as it is."""
-    own = {"diameter": "own_diameter", "mass": "own_mass", "resistance": "resistance"}
-    return replace(case, **{own[role]: value})
-
-
-def with_input(case: Case, role: str, value: float) -> Case:
-    """The case with another input, by its name among a workbook's inputs."""
-    if role == "mass":
-        return replace(case, own_mass=value)
-    if role == "diameter":
-        return replace(case, own_diameter=value, radius=value / 2)
-    if role == "radius":
-        return replace(case, radius=value, own_mass=None, own_diameter=None)
-    if role == "particle_density":
-        return replace(case, particle_density=value, own_mass=None)
-    return replace(case, **{role: value})

@@ -1,21 +1,30 @@
-"""Where the scheme stands in a workbook: its tables, found by their heads and by their values.
+"""Where the scheme stands in a workbook: lines of numbers, and the tables that they make.
 
-The values give themselves away: from row to row the depth grows by the velocity times a constant,
-and the velocity falls by the deceleration times that constant, whatever the units are.
+A line is a column, or a row that runs to the right. Tables are found by the heads of lines and by
+their values, which give themselves away: from row to row the depth grows by the velocity times a
+constant, and the velocity falls by the deceleration times that constant, whatever the units are.
 """
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from statistics import median
 
-from replication.check.lines import LEAST, Line, area_of, lines
-from replication.check.words import COLUMNS
+from replication.check.words import COLUMNS, column_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
+from spreadsheets.references import Formula
 
+LEAST = 4
+"""Fewer numbers are no line; the report itself prints five rows."""
+_GAP = 3
+"""Cells that a line may lack in its middle."""
+_ABOVE = 6
+"""How far above its first number a line's head may stand."""
 _MAX_LINES = 60
 _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
@@ -23,6 +32,232 @@ _CLOSE = 0.02
 """How nearly a ratio of neighbouring rows must repeat. The velocity falls by 1 % a row, mostly."""
 _SURE = 0.75
 """What two lines must score to be depth and velocity: their values fit, or both heads say so."""
+
+
+# ---- lines
+
+
+@dataclass(frozen=True)
+class Line:
+    """Numbers in one column (or row) of a sheet, from the row (or column) `first` on.
+
+    `values` are None where a cell has no number. `given` is the role that the user gave it. Rows
+    are counted without those of `left_out`, which are blank and over which the formulas step.
+    """
+
+    calculation: Calculation = field(repr=False, compare=False)
+    sheet: str
+    across: bool
+    left_out: tuple[int, ...] = ()
+    number: int = 1
+    first: int = 1
+    values: tuple[float | None, ...] = ()
+    head: str | None = None
+    unit: str | None = None
+    unit_place: Position | None = None
+    given: str | None = None
+
+    @property
+    def last(self) -> int:
+        """The row, or column, of the last cell."""
+        return self.first + len(self.values) - 1
+
+    @cached_property
+    def roles(self) -> frozenset[str]:
+        """What it is, by the user or by its head."""
+        if self.given == "velocity":
+            return frozenset({"velocity_initial", "velocity_final"})
+        if self.given:
+            return frozenset({self.given})
+        return column_roles(self.head) if self.head else frozenset()
+
+    @property
+    def is_speed(self) -> bool:
+        """Whether it is a velocity, by the user or by its head."""
+        return any(role.startswith("velocity") for role in self.roles)
+
+    def place(self, at: int) -> Position:
+        """The cell in a row, or column, of the sheet."""
+        for blank in self.left_out:
+            at += at >= blank
+        return (self.sheet, self.number, at) if self.across else (self.sheet, at, self.number)
+
+    def index(self, place: Position) -> int | None:
+        """The row, or column, of a cell, as `place` takes it; None for a cell of another line."""
+        sheet, row, column = place
+        number, at = (row, column) if self.across else (column, row)
+        if (sheet, number) != (self.sheet, self.number) or at in self.left_out:
+            return None
+        return at - sum(blank < at for blank in self.left_out)
+
+    def follows(self, at: int) -> bool:
+        """Whether a cell stands right after the one before, with no blank between."""
+        before, here = self.place(at - 1), self.place(at)
+        return here[1] - before[1] + here[2] - before[2] == 1
+
+    def covers(self, place: Position) -> bool:
+        """Whether a cell is one of these."""
+        at = self.index(place)
+        return at is not None and self.first <= at <= self.last
+
+    def overlaps(self, other: "Line") -> bool:
+        """Whether a cell is in both."""
+        same = (self.sheet, self.number, self.across) == (other.sheet, other.number, other.across)
+        return same and self.first <= other.last and other.first <= self.last
+
+    def at(self, at: int) -> float | None:
+        """The number in a row, or column, of the sheet."""
+        return self.values[at - self.first] if self.first <= at <= self.last else None
+
+    def change(self, at: int) -> float | None:
+        """By how much a number differs from the one before."""
+        here, before = self.at(at), self.at(at - 1)
+        return None if here is None or before is None else here - before
+
+    def formula(self, at: int) -> Formula | None:
+        """The formula in a row, or column, of the sheet."""
+        return self.calculation.formulas.get(self.place(at))
+
+    def reads_cell(self, at: int, other: int, of: "Line | None" = None) -> bool:
+        """Whether a formula of it reads another cell, of it or of another line."""
+        formula = self.formula(at)
+        return formula is not None and formula.reads((of or self).place(other))
+
+    def reads(self, other: "Line", back: int) -> bool:
+        """Whether most cells are formulas that read another line's cell, so many rows back."""
+        rows = range(self.first + 1, self.last + 1)[:: 1 + len(self.values) // _SAMPLE]
+        return sum(self.reads_cell(at, at - back, other) for at in rows) >= 0.5 * len(rows)
+
+    @cached_property
+    def falls(self) -> bool:
+        """Whether it looks like a velocity: positive at first, and rarely rising."""
+        pairs = self._pairs
+        falling = sum(b <= a for a, b in pairs)
+        return pairs[0][0] > 0 and falling >= 0.9 * len(pairs) and pairs[-1][1] < pairs[0][0]
+
+    @cached_property
+    def rises(self) -> bool:
+        """Whether it looks like a depth: not negative, rarely falling, and no mere count."""
+        pairs = self._pairs
+        rising = sum(b >= a for a, b in pairs)
+        grows = pairs[0][0] >= 0 and pairs[-1][1] > pairs[0][0]
+        return grows and rising >= 0.9 * len(pairs) and any(b - a != 1 for a, b in pairs)
+
+    @cached_property
+    def _pairs(self) -> list[tuple[float, float]]:
+        return list(pairwise(value for value in self.values if value is not None))
+
+    def headed(self) -> "Line":
+        """The line with the head above it (or at its left), and its unit."""
+        unit = place = None
+        for at in range(self.first - 1, max(self.first - 1 - _ABOVE, 0), -1):
+            text = self.calculation.values.get(self.place(at), "")
+            if not isinstance(text, str):
+                break  # a number above, after a gap, belongs to something else
+            own = is_unit(text) if text.strip() else None
+            if own and unit is None:
+                unit, place = own, self.place(at)
+            elif text.strip() and not own:
+                if unit is None and (unit := unit_in(text)):
+                    place = self.place(at)
+                return replace(self, head=text.strip(), unit=unit, unit_place=place)
+        return replace(self, unit=unit, unit_place=place)
+
+
+def address(place: Position, with_sheet: bool = False) -> str:
+    """A cell as people write it.
+
+    >>> address(("Sheet1", 9, 4)), address(("my sheet", 9, 4), with_sheet=True)
+    ('D9', "'my sheet'!D9")
+    """
+    from openpyxl.utils.cell import get_column_letter
+
+    sheet, row, column = place
+    cell = f"{get_column_letter(column)}{row}"
+    plain = re.fullmatch(r"[A-Za-z_]\w*", sheet)
+    quoted = sheet if plain else "'" + sheet.replace("'", "''") + "'"
+    return f"{quoted}!{cell}" if with_sheet else cell
+
+
+def area_of(first: Position, last: Position) -> str:
+    """The cells from one to another, as an address without the sheet."""
+    return address(first) if first == last else f"{address(first)}:{address(last)}"
+
+
+def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
+    """Neighbouring cells of a column (of a row, if `across`) with the same label, together."""
+    line, along = (1, 2) if across else (2, 1)
+    run: list[Position] = []
+    for place in sorted(labels, key=lambda place: (place[0], place[line], place[along])):
+        if run:
+            last = run[-1]
+            after = (last[0], last[line], int(last[along]) + 1)
+            if after != (place[0], place[line], place[along]) or labels[last] != labels[place]:
+                yield run
+                run = []
+        run.append(place)
+    if run:
+        yield run
+
+
+def lines(calculation: Calculation) -> Iterator[Line]:
+    """Every line of a workbook, down the columns and along the rows, with its head and unit."""
+    for (sheet, cells), across in product(calculation.book.sheets.items(), (False, True)):
+        # Each cell by its line and its place along it.
+        places = {(p if across else p[::-1]): (sheet, *p) for p in cells}
+        values = {p: calculation.values.get(place) for p, place in places.items()}
+        used = sorted({at for (_, at), value in values.items() if value is not None})
+        blank = _left_out(Line(calculation, sheet, across), used, places)
+        numbers: dict[int, dict[int, float | None]] = {}
+        for (number, at), value in values.items():
+            held = value if isinstance(value, float) and math.isfinite(value) else None
+            # An error is part of a line that has gone wrong.
+            if held is not None or calculation.error(places[number, at]):
+                at -= sum(before < at for before in blank)
+                numbers.setdefault(number, {})[at] = held
+        filled = Counter(at for line in numbers.values() for at in line)
+        for number, own in sorted(numbers.items()):
+            line = Line(calculation, sheet, across, blank, number)
+            for first, last in _runs(sorted(own), filled, line):
+                run = tuple(own.get(at) for at in range(first, last + 1))
+                if sum(value is not None for value in run) >= LEAST:
+                    yield replace(line, first=first, values=run).headed()
+
+
+def _left_out(
+    line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
+) -> tuple[int, ...]:
+    """Blank rows (or columns) of a sheet in the midst of formulas that step over them."""
+    gaps = {here: before for before, here in pairwise(used) if 1 < here - before <= _GAP + 1}
+    stepped: set[int] = set()
+    for number, here in places:
+        if (before := gaps.get(here)) is not None:
+            own = replace(line, number=number)
+            if own.reads_cell(here, before) and own.reads_cell(before, before - 1):
+                stepped.update(range(before + 1, here))
+    return tuple(sorted(stepped))
+
+
+def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[tuple[int, int]]:
+    """First and last of each run.
+
+    A few missing cells end it only where others are missing, too, and where the formula after them
+    is not the one before, filled on.
+    """
+    first = places[0]
+    for before, here in pairwise([*places, places[-1] + _GAP + 2]):
+        gap = range(before + 1, here)
+        ends = len(gap) > _GAP or any(filled[at] < 2 for at in gap)
+        if ends and 0 < len(gap) <= _GAP:
+            left, right = line.formula(before), line.formula(here)
+            ends = left is None or right is None or left.shape != right.shape
+        if ends:
+            if before - first + 1 >= LEAST:
+                yield first, before
+            first = here
+
+
+# ---- tables
 
 
 @dataclass(frozen=True)
@@ -39,6 +274,11 @@ class Table:
     helpers: tuple[Line, ...] = ()
 
     @property
+    def calculation(self) -> Calculation:
+        """The workbook that it stands in."""
+        return self.lines["depth"].calculation
+
+    @property
     def sheet(self) -> str:
         """The sheet that it stands on."""
         return self.lines["depth"].sheet
@@ -47,6 +287,11 @@ class Table:
     def across(self) -> bool:
         """Whether its steps run to the right."""
         return self.lines["depth"].across
+
+    @property
+    def every_line(self) -> tuple[Line, ...]:
+        """Its columns, and those beside them."""
+        return (*self.lines.values(), *self.helpers)
 
     def place(self, role: str, k: int) -> Position:
         """The cell of a role in row k."""
@@ -76,19 +321,16 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
     """
     known = [line for line in lines(calculation) if not any(map(line.overlaps, given))]
     found: list[Table] = []
-    for depth, speed in _pairs([*known, *given], calculation):
+    for depth, speed in _pairs([*known, *given]):
         used = [line for table in found for line in table.lines.values()]
-        if any(line.overlaps(depth) or line.overlaps(speed) for line in used):
-            continue
-        if any(_copied(table, depth, calculation) for table in found):
-            continue
-        left = [line for line in (*known, *given) if line not in used]
-        table = _table(depth, speed, left, calculation)
-        # Other quantities grow like this, too: it takes a third one, or names for both.
-        if table and (
-            len(table.lines) > 2 or all(role in table.lines[role].roles for role in table.lines)
-        ):
-            found.append(table)
+        if not any(line.overlaps(depth) or line.overlaps(speed) for line in used):
+            table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
+            # Other quantities grow like this, too: it takes a third one, or names for both.
+            if table and (
+                len(table.lines) > 2
+                or all(role in line.roles for role, line in table.lines.items())
+            ):
+                found.append(table)
     if given:
         found = [table for table in found if all(line in table.lines.values() for line in given)]
         if not found:
@@ -96,31 +338,26 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
                 "what --map names belongs to no table of depth and velocity: name both, with as "
                 "many rows"
             )
-    own = [table for table in found if not _viewed(table, found, calculation)]
+    own = [table for table in found if not _viewed(table, found)]
     sheets = list(calculation.book.sheets)
     return sorted(own, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
 
 
-def _pairs(known: Sequence[Line], calculation: Calculation) -> list[tuple[Line, Line]]:
+def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Depths with their velocities, the surest first."""
     longest = sorted(known, key=lambda line: (not line.roles, -len(line.values)))
     depths = [x for x in longest if "depth" in x.roles or (x.rises and not x.roles)]
-    speeds = [v for v in longest if _is_speed(v) or (v.falls and not v.roles)]
+    speeds = [v for v in longest if v.is_speed or (v.falls and not v.roles)]
     scored = [
-        (_score(x, v, calculation), len(x.values), -abs(x.number - v.number), x, v)
-        for x in depths[:_MAX_LINES]
-        for v in speeds[:_MAX_LINES]
+        (_score(x, v), len(x.values), -abs(x.number - v.number), x, v)
+        for x, v in product(depths[:_MAX_LINES], speeds[:_MAX_LINES])
         if (x.sheet, x.across) == (v.sheet, v.across)
     ]
     scored.sort(key=lambda entry: entry[:3], reverse=True)
     return [(x, v) for score, *_, x, v in scored if score >= _SURE]
 
 
-def _is_speed(line: Line) -> bool:
-    return any(role.startswith("velocity") for role in line.roles)
-
-
-def _score(depth: Line, speed: Line, calculation: Calculation) -> float:
+def _score(depth: Line, speed: Line) -> float:
     """1 for heads that say so, 1 for values that fit, a little for formulas; more for --map.
 
     Values that do not fit may be those of a sheet gone wrong: then each depth reads the one before.
@@ -128,59 +365,36 @@ def _score(depth: Line, speed: Line, calculation: Calculation) -> float:
     rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
     if len(rows) < LEAST:
         return 0.0
-    changes = ((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
-    fit = _constant([a / b for a, b in changes if a is not None and b])
-    grows = _reads(depth, depth, 1, calculation)
+    fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
+    grows = depth.reads(depth, 1)
     given = (depth.given is not None) + (speed.given is not None)
     # A velocity that ends higher than it began is the axis of a curve.
     held = [value for value in speed.values if value is not None]
     if not grows and not given and (fit < 0.5 or held[-1] > held[0]):
         return 0.0
-    named = ("depth" in depth.roles) + _is_speed(speed)
+    named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
-    reads = any(_reads(depth, speed, back, calculation) for back in (0, 1))
+    reads = depth.reads(speed, 0) or depth.reads(speed, 1)
     return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given
 
 
-def _reads(line: Line, other: Line, back: int, calculation: Calculation) -> bool:
-    """Whether most cells of a line are formulas that read another's cell, so many rows back."""
-    rows = range(line.first + 1, line.last + 1)[:: 1 + len(line.values) // _SAMPLE]
-    formulas = ((at, calculation.formulas.get(line.place(at))) for at in rows)
-    reads = sum(f is not None and f.reads(other.place(at - back)) for at, f in formulas)
-    return reads >= 0.5 * len(rows)
-
-
-def _constant(ratios: Sequence[float], close: float = _CLOSE) -> float:
-    """Which share of some ratios is the same number."""
+def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float = _CLOSE) -> float:
+    """In which share of some pairs the ratio is the same number."""
+    ratios = [a / b for a, b in pairs if a is not None and b]
     middle = median(ratios) if len(ratios) >= LEAST - 1 else 0.0
     if not middle or not math.isfinite(middle):
         return 0.0
     return sum(abs(ratio / middle - 1) < close for ratio in ratios) / len(ratios)
 
 
-def _copied(table: Table, depth: Line, calculation: Calculation) -> bool:
-    """Whether a depth is that of a table once more, in another unit or for a chart."""
-    own = table.lines["depth"]
-    if (own.sheet, own.across) != (depth.sheet, depth.across):
-        return False
-    pairs = ((own.at(at), depth.at(at)) for at in range(depth.first, depth.last + 1))
-    ratios = [b / a for a, b in pairs if a and b]
-    formulas = any(depth.place(at) in calculation.formulas for at in range(depth.first, depth.last))
-    reads = not formulas or _reads(depth, own, 0, calculation)
-    return reads and _constant(ratios, 1e-6) == 1.0
-
-
-def _viewed(table: Table, others: Sequence[Table], calculation: Calculation) -> bool:
+def _viewed(table: Table, others: Sequence[Table]) -> bool:
     """Whether a table only shows what another one holds."""
     shown = {place for other in others if other is not table for place in other.places}
-    places = [table.place("depth", k) for k in range(1, table.steps + 1)]
-    formulas = [calculation.formulas.get(place) for place in places]
-    return all(f is not None and any(area.corner in shown for area in f.areas) for f in formulas)
+    depths = (table.place("depth", k) for k in range(1, table.steps + 1))
+    return all(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
 
 
-def _table(
-    depth: Line, speed: Line, known: Sequence[Line], calculation: Calculation
-) -> Table | None:
+def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
     """The table around a depth and a velocity: its other columns and its rows."""
     first, last = max(depth.first, speed.first), min(depth.last, speed.last)
     if last - first + 1 < LEAST:
@@ -197,7 +411,7 @@ def _table(
     for role in ("velocity_final" if initial else "velocity_initial", "deceleration", "time"):
         left = [line for line in beside if line not in roles.values()]
         if left:
-            fits = {line: _fits(role, line, speed, initial, calculation) for line in left}
+            fits = {line: _fits(role, line, speed, initial) for line in left}
             best = max(left, key=lambda line: (fits[line], -abs(line.number - depth.number)))
             if fits[best] >= 0.9:
                 roles[role] = best
@@ -231,11 +445,10 @@ def _at_beginning(speed: Line, beside: Sequence[Line]) -> bool:
 def _braking(brake: Line, speed: Line, later: int, close: float = _CLOSE) -> float:
     """The share of rows in which a deceleration takes the velocity down by a constant times it."""
     rows = range(brake.first, brake.last + 1)
-    pairs = ((speed.change(at + later), brake.at(at)) for at in rows)
-    return _constant([change / a for change, a in pairs if change is not None and a], close)
+    return _constant(((speed.change(at + later), brake.at(at)) for at in rows), close)
 
 
-def _fits(role: str, line: Line, speed: Line, initial: bool, calculation: Calculation) -> float:
+def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
     """How well a line would do in a role: 1 for its head, 1 for its values; more for --map."""
     named = (role in line.roles) * (3.0 if line.given else 1.0)
     if line.roles and not any(own[:4] == role[:4] for own in line.roles):
@@ -247,8 +460,8 @@ def _fits(role: str, line: Line, speed: Line, initial: bool, calculation: Calcul
         both = [(a, b) for a, b in pairs if a is not None and b is not None]
         same = sum(math.isclose(a, b, rel_tol=1e-9) for a, b in both) / max(len(both), 1)
         before, after = (line, speed) if initial else (speed, line)
-        typed = after.place(after.last) not in calculation.formulas
-        if same < 0.5 and not (typed or line.given or _reads(after, before, 1, calculation)):
+        typed = after.formula(after.last) is None
+        if same < 0.5 and not (typed or line.given or after.reads(before, 1)):
             return 0.0  # a velocity that no other row takes on is one in the middle of its row
         return named + same * line.falls
     if role == "deceleration":
@@ -256,7 +469,7 @@ def _fits(role: str, line: Line, speed: Line, initial: bool, calculation: Calcul
         return named + fit * (not line.falls)
     steps = [b - a for a, b in pairwise(value for value in line.values if value is not None)]
     counts = all(step == 1 for step in steps)  # the rows, unless its head says time
-    return named + _constant(steps) * (not counts and min(steps) > 0)
+    return named + _constant((step, 1.0) for step in steps) * (not counts and min(steps) > 0)
 
 
 def _end(depth: Line, speed: Line, zero: int, last: int) -> int:

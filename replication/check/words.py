@@ -160,7 +160,7 @@ def column_roles(head: str) -> frozenset[str]:
     if role is None:
         role = next((r for r, p in _COLUMN_WORDS.items() if re.search(p, plain)), None)
     unit = unit_in(head)
-    if role is None or (unit and not _measures(role, unit)):
+    if role is None or (unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))):
         return frozenset()
     if role != "velocity":
         return frozenset({role})
@@ -168,10 +168,6 @@ def column_roles(head: str) -> frozenset[str]:
     if bool(initial) == bool(final):
         return frozenset({"velocity_initial", "velocity_final"})
     return frozenset({"velocity_initial" if initial else "velocity_final"})
-
-
-def _measures(role: str, unit: str) -> bool:
-    return same_dimension(unit, COLUMNS.get(role, "m/s"))
 
 
 _SPEED = r"velocit|speed|geschw|vitesse|\bvel\b"

@@ -1,18 +1,19 @@
 """A whole workbook against the report's sheet: every table in it, and what goes beyond tables."""
 
+import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from pathlib import Path
 
+from reference.ledger import Claim, load
 from reference.units import same_dimension
-from replication.check.findings import NO_FAULT, Difference, rank
-from replication.check.inputs import find, numbers_beside
-from replication.check.judge import Verdict, judge
-from replication.check.lines import LEAST, Line, address, headed, lines, runs
-from replication.check.printed import Held, held, report_inputs
-from replication.check.table import tables
-from replication.check.words import COLUMNS, INPUTS, count
+from replication.check.findings import NO_FAULT, Difference, Verdict, rank
+from replication.check.inputs import find, numbers_beside, report_inputs
+from replication.check.judge import judge
+from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
+from replication.check.words import COLUMNS, INPUTS, count, result_of
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Calculation, calculate
@@ -23,10 +24,19 @@ _STALE = 1e-14
 
 
 @dataclass(frozen=True)
+class Held:
+    """A number that the report prints and a cell holds. `found` is in the claim's unit."""
+
+    claim: Claim
+    place: Position
+    found: float
+    met: bool
+
+
+@dataclass(frozen=True)
 class Check:
     """What `coldspray check` has found out about a workbook."""
 
-    path: Path
     calculation: Calculation
     verdicts: tuple[Verdict, ...]
     differences: tuple[Difference, ...]
@@ -62,25 +72,20 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     """
     calculation = calculate(read(path))
     given, cells = _mapped(mapping or {}, calculation)
-    report = report_inputs()
     try:
         found = tables(calculation, given)
         if not found:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, found))
-        settings = [find(table, calculation, beside, cells, report) for table in found]
+        settings = [find(table, beside, cells) for table in found]
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
-    verdicts = [judge(setting, calculation, report) for setting in settings]
-    holds = [
-        number
-        for v in verdicts
-        for number in held(v.setting, calculation, len(verdicts) == 1, v.ends, report)
-    ]
+    verdicts = [judge(setting) for setting in settings]
+    held = [number for verdict in verdicts for number in _held(verdict, len(verdicts) == 1)]
     differences = [
         *(d for v in verdicts for d in v.differences),
         *_stale(calculation, verdicts),
-        *_unmet(holds, calculation, verdicts[0]),
+        *_unmet(held, verdicts[0]),
         *_uncalculated(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
@@ -89,7 +94,10 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         for d in reversed(differences)
     }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(path, calculation, tuple(verdicts), ordered, tuple(holds))
+    return Check(calculation, tuple(verdicts), ordered, tuple(held))
+
+
+# ---- what the user says, and what is said where nothing is found
 
 
 def _mapped(
@@ -102,33 +110,32 @@ def _mapped(
         area = _area(given, where, calculation)
         if given in INPUTS and area.cells == 1:
             cells[given] = area.corner
-        elif given in ("velocity", *COLUMNS) and 1 in (
-            area.bottom - area.top + 1,
-            area.right - area.left + 1,
+        elif given in ("velocity", *COLUMNS) and (
+            area.top == area.bottom or area.left == area.right
         ):
-            across = area.top == area.bottom
-            alike = (line for line in lines(calculation) if line.sheet == area.sheet)
-            blank = next((line.left_out for line in alike if line.across == across), ())
-            number, first = (area.top, area.left) if across else (area.left, area.top)
-            line = Line(area.sheet, number, 1, (), across, given=given, left_out=blank)
-            places = [place for place in area.places() if line.index(place) is not None]
-            values = tuple(calculation.number(place) for place in places)
-            if sum(value is not None for value in values) < LEAST:
-                raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
-            line = replace(line, first=line.index(places[0]) or first, values=values)
-            columns.append(_measuring(headed(line, calculation)))
+            columns.append(_named_line(given, where, area, calculation))
         else:
             wanted = "one cell" if given in INPUTS else "one column or one row"
             raise ValueError(f"--map {given}={where}: give {wanted}")
     return columns, cells
 
 
-def _measuring(line: Line) -> Line:
-    """The line. Raises ValueError if the unit in its head is that of something else."""
-    wanted = COLUMNS["velocity_initial" if line.given == "velocity" else str(line.given)]
+def _named_line(given: str, where: str, area: Area, calculation: Calculation) -> Line:
+    """The column or row that the user named."""
+    across = area.top == area.bottom
+    alike = (own for own in lines(calculation) if (own.sheet, own.across) == (area.sheet, across))
+    blank = next((own.left_out for own in alike), ())
+    number = area.top if across else area.left
+    line = Line(calculation, area.sheet, across, blank, number, given=given)
+    places = [place for place in area.places() if line.index(place) is not None]
+    values = tuple(calculation.number(place) for place in places)
+    if sum(value is not None for value in values) < LEAST:
+        raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
+    line = replace(line, first=line.index(places[0]) or 1, values=values).headed()
+    wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
     if line.unit and not same_dimension(line.unit, wanted):
         raise ValueError(
-            f"--map {line.given}: the head of these cells gives {line.unit}, a unit of something "
+            f"--map {given}: the head of these cells gives {line.unit}, a unit of something "
             f"else; it should be {wanted} or a multiple of it"
         )
     return line
@@ -137,12 +144,10 @@ def _measuring(line: Line) -> Line:
 def _area(given: str, where: str, calculation: Calculation) -> Area:
     """The range that --map gives."""
     book = calculation.book
-    sheets = {name.upper(): name for name in book.sheets}
     if given not in ("velocity", *COLUMNS, *INPUTS):
         known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
         raise ValueError(f"--map {given[:40]!r} is not a known name; choose one of {known}")
-    names = {name.upper(): meaning for name, meaning in book.names.items()}
-    read = (parse(f"={where}", (sheet, 1, 1), sheets, names).areas for sheet in book.sheets)
+    read = (parse(f"={where}", (sheet, 1, 1), book).areas for sheet in book.sheets)
     areas = list(dict.fromkeys(found[0] for found in read if len(found) == 1))
     if len(areas) > 1:  # no sheet is named: the one with numbers there is meant
         numbers = [place for place, value in calculation.values.items() if isinstance(value, float)]
@@ -153,44 +158,129 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
             f"--map {given}={address(areas[0].corner, True)}"
         )
     if not areas:
-        known = ", ".join(repr(name) for name in list(sheets.values())[:8])
+        known = ", ".join(repr(name) for name in list(book.sheets)[:8])
         raise ValueError(
             f"--map {given}={where[:60]!r}: give a range such as Sheet1!D8:D139; "
             f"the sheets are {known}"
         )
-    rows = max((r for r, _ in book.sheets[areas[0].sheet]), default=1)
+    rows, _ = book.size[areas[0].sheet]
     return areas[0]._replace(bottom=min(areas[0].bottom, max(rows, areas[0].top)))
 
 
 def _nothing(calculation: Calculation) -> str:
     """That no table is found, with what there is and what to do."""
+    nothing = "no table of depth and velocity is found"
     texts = (value for value in calculation.values.values() if isinstance(value, str))
     typed = sum(any(map(str.isdigit, text)) and not any(map(str.isalpha, text)) for text in texts)
     if typed > 100:
         return (
-            f"no table of depth and velocity is found; {typed:,} cells hold numbers as text, with "
-            "which nothing can be calculated: convert them to numbers"
+            f"{nothing}; {typed:,} cells hold numbers as text, with which nothing can be "
+            "calculated: convert them to numbers"
         )
-    wrong = [place for place in calculation.order if calculation.error(place)]
+    wrong = [place for place in calculation.formulas if calculation.error(place)]
     if wrong:
+        first = min(wrong, key=calculation.order.__getitem__)
         return (
-            f"no table of depth and velocity is found; {count(len(wrong), 'formula')} give errors, "
-            f"{address(wrong[0], True)} first: {calculation.error(wrong[0])}"
+            f"{nothing}; {count(len(wrong), 'formula')} give errors, "
+            f"{address(first, True)} first: {calculation.error(first)}"
         )
     numbers = Counter(p[0] for p, value in calculation.values.items() if isinstance(value, float))
     where = ", ".join(f"{n:,} on {sheet[:40]!r}" for sheet, n in numbers.most_common(3)) or "none"
     return (
-        f"no table of depth and velocity is found among its numbers ({where}): say where they are, "
+        f"{nothing} among its numbers ({where}): say where they are, "
         "such as --map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
     )
 
 
-def _rank(
-    place: Position, verdicts: Iterable[Verdict], calculation: Calculation
-) -> tuple[float, ...]:
-    """When a cell is calculated, by the table that it belongs to."""
-    ranks = [rank(place, verdict.setting, calculation) for verdict in verdicts]
-    return next((r for r in ranks if r[0] < 2), ranks[0])
+# ---- the report's printed numbers
+
+_HEADER = {
+    "radius": "a1-radius", "particle_density": "a1-density", "mass": "a1-mass",
+    "diameter": "a1-diameter", "velocity": "a1-initial-velocity", "resistance": "a1-resistance",
+}  # fmt: skip
+_CASES = ("beta-5", "beta-3")
+"""The cases by their claims, in the order of the report's inputs; Table A-1 is the first."""
+_ROWS = 5
+"""Rows that Table A-1 prints, the impact among them."""
+
+
+def _held(verdict: Verdict, alone: bool) -> Iterator[Held]:
+    """The printed numbers that a table of one of the report's cases holds, each judged.
+
+    `alone`: it is the only table, so labelled results are its own.
+    """
+    setting, table, report = verdict.setting, verdict.setting.table, report_inputs()
+    given = [(setting.inputs[role].si, report[role][0])
+             for role in ("velocity", "radius", "particle_density", "step")]  # fmt: skip
+    cases = [(setting.case.resistance, resistance) for resistance in report["resistance"]]
+    alike = [math.isclose(*pair, rel_tol=1e-9) for pair in cases]
+    if not any(alike) or not all(math.isclose(*pair, rel_tol=1e-9) for pair in given):
+        return
+    case = _CASES[alike.index(True)]
+    table_a1 = case == _CASES[0]
+    for role, name in _HEADER.items():
+        own = setting.derived.get(role) or setting.inputs.get(role)
+        value = table.calculation.number(own.place) if own else None
+        if own and own.place and value is not None and (table_a1 or role != "resistance"):
+            yield _judged(name, own.place, Fraction(value) * own.factor)
+    for k in range(_ROWS if table_a1 else 0):
+        for role, column in setting.rows.columns.items():
+            name = f"a1-{role.replace('_', '-')}-{k}"
+            if name in load().claims and k in column:
+                yield _judged(name, table.place(role, k), Fraction(column[k]))
+    yield from _results(verdict, case, alone)
+
+
+def _results(verdict: Verdict, case: str, alone: bool) -> Iterator[Held]:
+    """The final depth, in a cell labelled so or in the last row, and that over the radius."""
+    setting, table = verdict.setting, verdict.setting.table
+    cells = dict(_labelled(table)) if alone else {}
+    depth = setting.rows("depth", table.steps)
+    if verdict.ends and depth is not None and "depth" not in cells:
+        yield _judged(f"depth-{case}", table.place("depth", table.steps), Fraction(depth))
+    for kind, place in cells.items():
+        value = table.calculation.number(place) or 0.0
+        if not verdict.ends and place in table.calculation.formulas:
+            continue  # it is not the final depth that the formulas give so far
+        if kind == "depth" and depth and value:
+            power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
+            yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
+        elif kind == "ratio":
+            yield _judged(f"ratio-{case}", place, Fraction(value))
+
+
+def _labelled(table: Table) -> Iterator[tuple[str, Position]]:
+    """Cells beside or below a label that says final depth, or depth over radius."""
+    for (sheet, row, column), text in table.calculation.values.items():
+        kind = result_of(text) if isinstance(text, str) else None
+        if kind is not None:
+            for down, right in ((0, 1), (0, 2), (1, 0)):
+                place = (sheet, row + down, column + right)
+                inside = any(line.covers(place) for line in table.every_line)
+                if table.calculation.number(place) is not None and not inside:
+                    yield kind, place
+                    break
+
+
+def _judged(name: str, place: Position, value: Fraction) -> Held:
+    claim = load().claims[name]
+    return Held(claim, place, float(value / claim.si), claim.target().contains(value))
+
+
+def _unmet(held: Sequence[Held], verdict: Verdict) -> Iterator[Difference]:
+    """Printed numbers that the workbook holds, and holds otherwise."""
+    for number in held:
+        if not number.met:
+            claim = number.claim
+            yield Difference(
+                number.place, "printed number", claim.text, number.found,
+                f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
+                f"({claim.place}), which stands for values in {claim.interval()}",
+                (number.place,), (3, *rank(number.place, verdict.setting)),
+            )  # fmt: skip
+
+
+# ---- stored values
 
 
 def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Difference]:
@@ -200,7 +290,7 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
     so has a cell that reads it.
     """
     tables = [verdict.setting.table for verdict in verdicts]
-    lines = [line for table in tables for line in (*table.lines.values(), *table.helpers)]
+    lines = [line for table in tables for line in table.every_line]
 
     def is_stale(place: Position) -> bool:
         stored, value = calculation.book[place].value, calculation.values.get(place)
@@ -223,48 +313,27 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
     shapes = {place: f.shape for place, f in calculation.formulas.items() if is_stale(place)}
     for run in runs(shapes, tables[0].across):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
+        stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
+        ranks = [rank(run[0], verdict.setting) for verdict in verdicts]
         yield Difference(
-            run[0], "stale value", _text(calculation.values.get(run[0])),
-            _text(calculation.book[run[0]].value),
+            run[0], "stale value", str(value) if isinstance(value, bool) else value,
+            str(stored) if isinstance(stored, bool) else stored,
             f"the stored value is not what the formula gives{more}", tuple(run),
-            _rank(run[0], verdicts, calculation),
+            next((r for r in ranks if r[0] < 2), ranks[0]),  # of the table that it belongs to
         )  # fmt: skip
-
-
-def _text(value: object) -> float | str | None:
-    return value if isinstance(value, float | str) or value is None else str(value)
-
-
-def _unmet(
-    holds: Sequence[Held], calculation: Calculation, verdict: Verdict
-) -> Iterator[Difference]:
-    """Printed numbers that the workbook holds, and holds otherwise."""
-    for number in holds:
-        if not number.met:
-            claim = number.claim
-            yield Difference(
-                number.place, "printed number", claim.text, number.found,
-                f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
-                f"({claim.place}), which stands for values in {claim.interval()}",
-                (number.place,), (3, *rank(number.place, verdict.setting, calculation)),
-            )  # fmt: skip
 
 
 def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
     """Formulas without a stored value, and those that are not computed here."""
     reasons: dict[str, list[Position]] = {}
-    nothing = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
-    reasons[nothing] = [
-        place
-        for place in calculation.formulas
-        if calculation.book[place].value is None and calculation.values.get(place) != ""
-    ]
+    for place in calculation.formulas:
+        if calculation.book[place].value is None and calculation.values.get(place) != "":
+            reason = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
+            reasons.setdefault(reason, []).append(place)
     for place, why in calculation.uncomputed.items():
         reason = f"not computed here, their stored values are taken: {why}"
         reasons.setdefault(reason, []).append(place)
     for reason, places in reasons.items():
-        if not places:
-            continue
         formulas = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}"
         formula = calculation.book[places[0]].formula
         yield Difference(

@@ -32,20 +32,14 @@ def run(options: argparse.Namespace) -> int:
     from replication.check.record import check_record
     from replication.check.workbook import check
 
-    found = check(options.file, _mapping(options.map))
-    record = check_record(found)
-    put(options, record, found.differences, found.calculation, KINDS)
-    return 0 if record["clean"] else 1
-
-
-def _mapping(given: Sequence[str]) -> dict[str, str]:
     mapping = {}
-    for text in given:
+    for text in options.map:
         name, _, where = text.partition("=")
         if not where:
             raise ValueError(f"--map {text[:60]!r}: give NAME=RANGE, such as depth=D8:D139")
         mapping[name.strip().replace("-", "_")] = where.strip()
-    return mapping
+    found = check(options.file, mapping)
+    return put(options, check_record(found), found.differences, found.calculation, KINDS)
 
 
 # What `diff` does in the same way.
@@ -76,16 +70,17 @@ def put(
     differences: "Sequence[Difference]",
     calculation: "Calculation",
     kinds: Sequence[str],
-) -> None:
-    """Write the files that were asked for, then print the record as JSON or as text."""
-    from replication.check import page, terminal
+) -> int:
+    """Write the files that were asked for, then print the record as JSON or as text: the status."""
+    from replication.check import show
     from spreadsheets.safely import write_bytes
 
     if options.html is not None:
-        write_bytes(options.html, page.html(record, differences, calculation).encode())
+        write_bytes(options.html, show.html(record, differences, calculation).encode())
     if options.junit is not None:
-        write_bytes(options.junit, page.junit(record, kinds).encode())
+        write_bytes(options.junit, show.junit(record, kinds).encode())
     if options.json:
         shared.print_json(record)
     elif not options.quiet:
-        print(terminal.text(record))
+        print(show.text(record))
+    return 0 if record["clean"] else 1

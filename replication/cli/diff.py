@@ -37,9 +37,7 @@ def run(options: argparse.Namespace) -> int:
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     found = diff(options.first, options.second, values_only=options.values_only, allowed=allowed)
-    record = diff_record(found)
-    put(options, record, found.differences, found.calculations[1], KINDS)
-    return 0 if record["clean"] else 1
+    return put(options, diff_record(found), found.differences, found.calculations[1], KINDS)
 
 
 def _share(text: str) -> float:

@@ -1,18 +1,21 @@
 """Formulas as their cells see them."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl.formula.translate import Translator
 
+from spreadsheets.foreign import Book
 from spreadsheets.references import LAST_COLUMN, LAST_ROW, Area, parse
 
-SHEETS = {"S": "S", "MY SHEET": "my sheet", "DONNÉES": "Données"}
-NAMES = {"DT": "'my sheet'!$B$7", "HALF": "2E-10/2", "LOOP": "LOOP+1", "'S'!OWN": "S!$A$1"}
+NAMES = {"dt": "'my sheet'!$B$7", "HALF": "2E-10/2", "Loop": "LOOP+1", "'S'!OWN": "S!$A$1"}
+BOOK = Book(Path("book.xlsx"), {"S": {}, "my sheet": {}, "Données": {}}, NAMES)
 
 
 def shape(text: str, row: int = 9, column: int = 4) -> tuple[str, ...]:
-    return parse(text, ("S", row, column), SHEETS, NAMES).shape
+    return parse(text, ("S", row, column), BOOK).shape
 
 
 @pytest.mark.parametrize(
@@ -29,20 +32,20 @@ def shape(text: str, row: int = 9, column: int = 4) -> tuple[str, ...]:
     ],
 )
 def test_what_a_formula_refers_to(text: str, area: Area) -> None:
-    formula = parse(text, ("S", 9, 4), SHEETS, NAMES)
+    formula = parse(text, ("S", 9, 4), BOOK)
     assert formula.areas == (area,)
     assert formula.obstacle is None
 
 
 def test_a_name_may_stand_for_a_calculation() -> None:
-    formula = parse("=C9*half", ("S", 9, 4), SHEETS, NAMES)
+    formula = parse("=C9*half", ("S", 9, 4), BOOK)
     assert formula.for_engine({"S": "S0"}) == "=S0!C9*(2E-10/2)"
     assert formula.literals == (2e-10, 2.0)
 
 
 @pytest.mark.parametrize("text", ["=loop", "=nowhere", "=Other!A1", "=A1048577", "=", "=1E"])
 def test_what_cannot_be_followed_is_an_obstacle(text: str) -> None:
-    assert parse(text, ("S", 9, 4), SHEETS, NAMES).obstacle is not None or text == "="
+    assert parse(text, ("S", 9, 4), BOOK).obstacle is not None or text == "="
 
 
 FORMULAS = ("=D8+C9*$B$7", "=(0.5*$B$4*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/B$3", "=SUM(A1:$B9)-dt")
@@ -66,4 +69,4 @@ def test_another_reference_or_number_is_another_shape() -> None:
 
 @given(st.text(alphabet="ABCabc019$!:'\"(){}[]+-*/^&,;.%#@ \t\nµ€", max_size=60))
 def test_no_text_is_too_odd(text: str) -> None:
-    parse(f"={text}", ("S", 9, 4), SHEETS, NAMES)
+    parse(f"={text}", ("S", 9, 4), BOOK)
