@@ -136,7 +136,7 @@ class Floats(_Points):
     log = staticmethod(math.log)
 
     def number(self, value: Fraction | int) -> Number:
-        return float(value)
+        return value.numerator / value.denominator
 
     def power(self, x: Number, exponent: Fraction) -> Number:
         return x ** float(exponent)
