@@ -9,6 +9,7 @@ Newton's law, Bernoulli's, and earlier equations of the report where it says tha
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from reference.arithmetic import Dual, Duals, Ratio, Ratios, Reals
 from reference.equations import Node, evaluate, symbols_in
@@ -44,6 +45,10 @@ class _Algebra:
     def pi(self) -> Ratio:
         return self.field.pi
 
+    @cached_property
+    def _duals(self) -> dict[str, Dual]:
+        return {name: Dual(ratio) for name, ratio in self.field.symbols.items()}
+
     def value(self, node: Node, **put: Ratio | int) -> Ratio:
         """An expression, with something else put in the place of some of its symbols."""
         given = {name: self.field.number(0) + ratio for name, ratio in put.items()}
@@ -53,8 +58,7 @@ class _Algebra:
     def slope(self, node: Node, by: str, **put: Ratio | int) -> Ratio:
         """The derivative of an expression by one of its symbols."""
         zero, duals = self.field.number(0), Duals(self.field)
-        values = {name: Dual(ratio) for name, ratio in self.field.symbols.items()}
-        values |= {name: Dual(zero + ratio) for name, ratio in put.items()}
+        values = self._duals | {name: Dual(zero + ratio) for name, ratio in put.items()}
         values[by] = duals.variable(values[by].value, by)
         slope: Ratio = evaluate(node, duals, values).slopes.get(by, zero)
         return slope
