@@ -6,17 +6,8 @@ from dataclasses import replace
 from statistics import NormalDist
 
 from reference.ledger import Convention
+from replication.audit import record as r
 from replication.audit.findings import Known, case, constant_pressure_ratio
-from replication.audit.record import (
-    Approach,
-    Curve,
-    Effect,
-    Level,
-    Scatter,
-    ScatterPoint,
-    Sensitivity,
-    VelocityCurve,
-)
 from replication.models import depth, motion, sheet, stream
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
@@ -24,18 +15,18 @@ from replication.models.impact import Impact
 BETAS = (3, 5)
 
 
-def approaches(known: Known) -> list[Approach]:
+def approaches(known: Known) -> list[r.Approach]:
     """Every approach to X/R [1] of the report, and one that prices the target's inertia."""
     claims = known.ledger.claims
 
-    def computed(kind: str, name: str, claim: str, reading: str = "") -> Approach:
+    def computed(kind: str, name: str, claim: str, reading: str = "") -> r.Approach:
         value = known.reading(claim, reading).computed
-        return Approach(
+        return r.Approach(
             kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim
         )
 
-    def quoted(name: str, claim: str) -> Approach:
-        return Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
+    def quoted(name: str, claim: str) -> r.Approach:
+        return r.Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
 
     line = depth_from_volume_ratio(known["volume-ratio-line"])
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
@@ -43,15 +34,16 @@ def approaches(known: Known) -> list[Approach]:
     forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))
     models = [(beta, case(known, beta)) for beta in BETAS]
     return [
-        Approach(kind="observed", name=f"CV/PV = {drawn}, the line in Figure 1", computed=line),
+        r.Approach(kind="observed", name=f"CV/PV = {drawn}, the line in Figure 1", computed=line),
         computed("observed", f"CV/PV = {taken}, as taken for Eq. 4", "observed-depth-ratio"),
-        *(Approach(kind="sheet", name=f"beta = {beta}", computed=sheet.run(impact).normalized_depth,
-                   printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
+        *(r.Approach(kind="sheet", name=f"beta = {beta}",
+                     computed=sheet.run(impact).normalized_depth,
+                     printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
           for beta, impact in models),
-        *(Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
+        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
           for beta, impact in models),
-        *(Approach(kind="constant pressure", name=f"beta = {beta}",
-                   computed=constant_pressure_ratio(impact)) for beta, impact in models),
+        *(r.Approach(kind="constant pressure", name=f"beta = {beta}",
+                     computed=constant_pressure_ratio(impact)) for beta, impact in models),
         *(computed("Frank-Zook", f"{name}, {form}", claim, reading)
           for name, claim in (("armor", armor), ("stainless steel", stainless))
           for form, reading in forms),
@@ -67,12 +59,12 @@ def _ratio(impact: Impact) -> float:
 # What the depth depends on
 
 
-def sensitivity(known: Known, beta: int) -> Sensitivity:
+def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     """How the exact depth of one of the report's cases depends on each input."""
     impact = case(known, beta)
     own = {name: getattr(impact, name) for name in _INPUTS}
     ten = [_effect(impact, name, 0.9 * x, 1.1 * x, "10 % less and more") for name, x in own.items()]
-    return Sensitivity(
+    return r.Sensitivity(
         beta=float(beta),
         depth=depth.final_depth(**impact.motion),
         elasticities=_elasticities(impact),
@@ -100,7 +92,7 @@ def _elasticities(impact: Impact) -> dict[str, float]:
     return dict(zip(_INPUTS, factors, strict=True))
 
 
-def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
+def _stated(known: Known, impact: Impact) -> Iterator[r.Effect]:
     """What each input's own uncertainty does, as far as the report or its evidence states one."""
     density = "inferred:target-density"
     possible = known.judge.inference(density).admitted(Convention())[1].ends
@@ -120,17 +112,17 @@ def _stated(known: Known, impact: Impact) -> Iterator[Effect]:
                   "two hardnesses")  # fmt: skip
 
 
-def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> Effect:
+def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> r.Effect:
     ends = [replace(impact, **{name: end}) for end in (low, high)]
     depths = [depth.final_depth(**end.motion) for end in ends]
     ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
-    return Effect(input=name, low=low, high=high, ratios=ratios, depths=depths, why=why)
+    return r.Effect(input=name, low=low, high=high, ratios=ratios, depths=depths, why=why)
 
 
 # What scatter does
 
 
-def scatter(known: Known) -> list[Scatter]:
+def scatter(known: Known) -> list[r.Scatter]:
     """Velocity and exact X/R (beta = 5) over the particles of the stream, by three laws.
 
     By Eq. 1 and by drag on a sphere a particle's velocity follows from its size, which is normally
@@ -156,12 +148,12 @@ def scatter(known: Known) -> list[Scatter]:
         ("as stated: normal", stated.inv_cdf, stated.stdev),
     )
     return [
-        Scatter(
+        r.Scatter(
             law=name,
             standard_deviation=deviation,
             mean_deviation=deviation * mean,
             points=[
-                ScatterPoint(share=share, velocity=v, ratio=_ratio(replace(impact, velocity=v)))
+                r.ScatterPoint(share=share, velocity=v, ratio=_ratio(replace(impact, velocity=v)))
                 for share in (0.05, 0.5, 0.95)
                 for v in [law(share)]
             ],
@@ -173,7 +165,7 @@ def scatter(known: Known) -> list[Scatter]:
 # The sheet and the exact motion
 
 
-def curves(known: Known) -> list[Curve]:
+def curves(known: Known) -> list[r.Curve]:
     """Depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
     found = []
     for beta in BETAS:
@@ -184,7 +176,7 @@ def curves(known: Known) -> list[Curve]:
         depths, speeds = [0.0] * 101, [0.0] * 101
         motion.history(times, **impact.motion, depth=depths, speed=speeds)
         found.append(
-            Curve(
+            r.Curve(
                 beta=float(beta),
                 sheet_time=[row.time for row in rows],
                 sheet_depth=[row.depth for row in rows],
@@ -196,19 +188,19 @@ def curves(known: Known) -> list[Curve]:
     return found
 
 
-def velocity_curve(known: Known) -> VelocityCurve:
+def velocity_curve(known: Known) -> r.VelocityCurve:
     """X/R against impact velocity, as in Figure 5: the sheet's and the exact one, for beta = 5."""
     low, high = known["figure-5-velocity-least"], known["figure-5-velocity-greatest"]
     velocities = [low + (high - low) * k / 20 for k in range(21)]
     cases = [replace(case(known, 5), velocity=v) for v in velocities]
-    return VelocityCurve(
+    return r.VelocityCurve(
         velocity=velocities,
         sheet=[sheet.run(impact).normalized_depth for impact in cases],
         exact=[_ratio(impact) for impact in cases],
     )
 
 
-def ladders(known: Known) -> list[Level]:
+def ladders(known: Known) -> list[r.Level]:
     """The sheet's error against its time step, in both schemes, each step half of the last."""
     levels = []
     for beta in BETAS:
@@ -218,7 +210,7 @@ def ladders(known: Known) -> list[Level]:
                 impact = case(known, beta, step=known["a-step"] * 2.0**k)
                 run = sheet.run(impact, scheme)
                 levels.append(
-                    Level(beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,
+                    r.Level(beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,
                           depth=run.final_depth, error=run.final_depth - exact)
                 )  # fmt: skip
     return levels

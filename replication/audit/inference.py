@@ -203,9 +203,7 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
     return best
 
 
-def _intersection(
-    unions: list[tuple[Ends, ...]],
-) -> list[Ends]:
+def _intersection(unions: list[tuple[Ends, ...]]) -> list[Ends]:
     """What unions of intervals have in common, in order."""
     common = list(unions[0])
     for union in unions[1:]:
