@@ -97,7 +97,8 @@ def _rendered(prose: Prose, width: int, strong: bool, **context: Any) -> str:
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     """Rows as columns within a width; what is too long goes on in the next line.
 
-    The widest columns give way first. A word is broken only where the width leaves no choice.
+    The columns give way that make the fewest lines of it. A word is broken only where the width
+    leaves no choice.
 
     >>> print(columns([("a", "one two three"), ("bc", "four")], 14))
     a   one two
@@ -109,12 +110,20 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     # A head goes on in the next line before a cell below it does, and that before a word is broken.
     below = [max([word, *map(len, column[1:])]) for word, column in zip(words, texts, strict=True)]
     widths = [max(map(len, column)) for column in texts]
+    lengths = [[len(cell) for cell in row] for row in rows]
+
+    def narrowed(column: int) -> tuple[int, int]:
+        """About how many lines there are with this column narrower; of equals, the widest."""
+        trial = [max(width - (k == column), 1) for k, width in enumerate(widths)]
+        lines = (max(-(-n // w) for n, w in zip(row, trial, strict=True)) for row in lengths)
+        return sum(lines), -widths[column]
+
     for least in (below, words, [1] * len(words)):
         while sum(widths) + 2 * (len(widths) - 1) > width:
-            room = [w if w > end else 0 for w, end in zip(widths, least, strict=True)]
-            if not any(room):
+            room = [k for k, end in enumerate(least) if widths[k] > end]
+            if not room:
                 break
-            widths[room.index(max(room))] -= 1
+            widths[min(room, key=narrowed)] -= 1
     lines = []
     for row in rows:
         cells = [
