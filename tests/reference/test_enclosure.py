@@ -163,9 +163,14 @@ def test_what_a_budget_leaves_open_is_neither_found_nor_excluded() -> None:
 
 
 def test_a_point_that_straddles_an_end_is_undecided_at_once() -> None:
-    third = {"x": (F(1, 3), F(1, 3))}
-    found = explore(lambda ar, x: ar.power(x, F(1, 3)) ** 3, third, Interval(F(1, 3), None))
+    def itself(ar: Any, x: Any) -> Any:
+        return ar.power(x, F(1, 3)) ** 3
+
+    found = explore(itself, {"x": (F(1, 3), F(1, 3))}, Interval(F(1, 3), None))
     assert (found.inside, found.never) == (None, False)
+    touched = solve(itself, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
+    assert touched.inner == ()
+    assert touched.outer[0][0] == F(1, 3)
 
 
 def test_undefined_values_prove_nothing() -> None:
