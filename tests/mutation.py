@@ -39,8 +39,14 @@ _OPERATORS = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: as
 
 
 def places(tree: ast.Module) -> list[tuple[ast.AST, str, object]]:
-    """Every node that can be changed, with what of it is to become what."""
-    return [(node, *change) for node in ast.walk(tree) if (change := _change(node))]
+    """Every node that can be changed, with what of it is to become what.
+
+    What decorates a class or function is left: nothing is computed by a `frozen=True`.
+    """
+    nodes = list(ast.walk(tree))
+    decorators = [d for node in nodes for d in getattr(node, "decorator_list", ())]
+    left = {node for decorator in decorators for node in ast.walk(decorator)}
+    return [(node, *change) for node in nodes if node not in left and (change := _change(node))]
 
 
 def mutant(source: str, number: int) -> str:

@@ -276,3 +276,9 @@ def test_several_constraints_together() -> None:
     assert point is not None
     assert all(target.contains(f(EXACT, **point)) for f, target in near)
     assert satisfying(constraints((lambda ar, x, y: x + y, 0, 1), (saddle, 3, 9)), box)[0] is False
+
+
+def test_what_rises_is_decided_by_its_ends_at_once() -> None:
+    """Term by term x^2 - x is in [-1, 3] over [1, 2]; as it rises, it is in [0, 2]."""
+    over = [(lambda ar, x: x * x - x, Interval(F(5, 2), F(3)))]
+    assert satisfying(over, {"x": (F(1), F(2))}, budget=2) == (False, None)

@@ -194,6 +194,12 @@ def test_holds_names_what_was_tried_and_no_more(record: Record) -> None:
             assert "except" not in claim.holds
 
 
+def test_what_no_inputs_give_is_said_to_lie_on_one_side(record: Record) -> None:
+    for name in ("frank-zook-rha", "frank-zook-stainless"):
+        assert "Proven for all inputs" in record.claim(name).explanation
+        assert "all of it below" in record.claim(name).explanation
+
+
 # Planted misprints
 
 PLANTED = {
