@@ -41,11 +41,16 @@ _OPERATORS = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: as
 def places(tree: ast.Module) -> list[tuple[ast.AST, str, object]]:
     """Every node that can be changed, with what of it is to become what.
 
-    What decorates a class or function is left: nothing is computed by a `frozen=True`.
+    How a class or function is declared is left: nothing is computed by a `frozen=True`.
     """
     nodes = list(ast.walk(tree))
-    decorators = [d for node in nodes for d in getattr(node, "decorator_list", ())]
-    left = {node for decorator in decorators for node in ast.walk(decorator)}
+    declared = [
+        part
+        for node in nodes
+        for part in (*getattr(node, "decorator_list", ()), *getattr(node, "keywords", ()))
+        if isinstance(node, ast.ClassDef | ast.FunctionDef)
+    ]
+    left = {node for part in declared for node in ast.walk(part)}
     return [(node, *change) for node in nodes if node not in left and (change := _change(node))]
 
 

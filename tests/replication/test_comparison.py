@@ -139,3 +139,9 @@ def test_each_step_of_the_sheets_error_is_half_of_the_last(record: Record) -> No
             sheet = run(replace(case, step=level.step), scheme)
             assert (level.depth, level.steps) == (sheet.final_depth, sheet.steps)
             assert level.error == level.depth - depth.final_depth(**case.motion)
+
+
+def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
+    ledger, curve = load(), record.velocity_curve
+    ends = ("figure-5-velocity-least", "figure-5-velocity-greatest")
+    assert [curve.velocity[0], curve.velocity[-1]] == [float(ledger.value(end)) for end in ends]
