@@ -3,7 +3,11 @@
 import math
 import re
 import stat
+import sys
+import threading
 import tomllib
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +17,8 @@ _SIZE = 2**20
 _DEPTH = 20
 _QUOTED = 60
 _NAME = 255
+_PATIENCE = 2.0
+"""Seconds for which a pipe may be silent."""
 
 
 def quoted(text: object, longest: int = _QUOTED) -> str:
@@ -50,15 +56,30 @@ def one_line(message: str, longest: int = 340) -> str:
 def read_file(path: Path, largest: int = _SIZE) -> bytes:
     """The bytes of a file or a pipe, at most so many.
 
+    A pipe is waited for: another program may yet write to it; after a while standard error says so.
     Raises ValueError for a larger one and for a device, OSError where it cannot be read.
     """
-    if stat.S_ISCHR(path.stat().st_mode):
+    mode = path.stat().st_mode
+    if stat.S_ISCHR(mode):
         raise ValueError(f"{name_of(path)} is a device, not a file")
-    with path.open("rb") as file:
+    with _waiting(path) if stat.S_ISFIFO(mode) else nullcontext(), path.open("rb") as file:
         content = file.read(largest + 1)
     if len(content) > largest:
         raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
     return content
+
+
+@contextmanager
+def _waiting(path: Path) -> Iterator[None]:
+    """Say what is waited for, if it takes long."""
+    note = f"coldspray: waiting for a program to write to {name_of(path)}\n"
+    timer = threading.Timer(_PATIENCE, lambda: sys.stderr.write(note))
+    timer.daemon = True  # whoever is tired of waiting may leave
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 class _Float(str):

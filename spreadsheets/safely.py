@@ -2,7 +2,7 @@
 
 import os
 import re
-import tempfile
+import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from errno import EBUSY, EINVAL, EISDIR, ENOENT, ENOTDIR
@@ -91,14 +91,27 @@ def _existing(folder: Path) -> Path:
 
 @contextmanager
 def _beside(folder: Path) -> Iterator[Path]:
-    """A folder for drafts, on the same disk. Raises OSError, naming what cannot be written to."""
+    """A folder for drafts, on the same disk. Raises OSError, naming what cannot be written to.
+
+    As with `draft_of`, one that an earlier run left goes first, wherever that run began it.
+    """
     there = _existing(folder)
+    name = folder.resolve().name
     try:
-        temporary = tempfile.TemporaryDirectory(dir=there, prefix=".coldspray-")
+        for place in {there, _existing(folder.resolve().parent)}:
+            for left in place.glob(".*.part"):
+                if re.fullmatch(rf"\.{re.escape(name)}\.\d+\.part", left.name) and left.is_dir():
+                    shutil.rmtree(left, ignore_errors=True)
+        drafts = there / f".{name}.{os.getpid()}.part"
+        drafts.mkdir()
     except OSError as error:
         raise type(error)(error.errno, "cannot be written to", str(there)) from error
-    with temporary as name:
-        yield Path(name)
+    try:
+        yield drafts
+    except FileNotFoundError as error:
+        raise OSError(EBUSY, "another run is writing to this folder", str(folder)) from error
+    finally:
+        shutil.rmtree(drafts, ignore_errors=True)
 
 
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -1,51 +1,35 @@
 """How many wrong versions of the core the tests notice: a seeded sample of mutants, and its score.
 
-    python tests/mutation.py --sample 60 --seed 1
+    python tests/mutation.py --sample 160 --seed 1 [reference/printed.py replication/audit ...]
 
-Each mutant is one small change of one module: another comparison, operator, number or condition.
-The module's own examples and tests run on a copy of the project, and then, if they pass, those of
-the whole core. A mutant that no test notices is printed with its change: it does no harm, or a
-test is missing. Run it by hand: it takes minutes.
+Each mutant is one small change of one module: another comparison, operator, number or condition. On
+a copy of the project run the module's examples and the tests called like it, then the tests that
+import it, then those that import what imports it; the first failure ends it. A mutant that none
+notices is printed with its change: it does no harm, or a test is missing. Run it by hand: it takes
+half an hour.
 """
 
 import argparse
 import ast
 import difflib
+import os
 import random
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 
-ROOT = Path(__file__).parent.parent
-REFERENCE, AUDIT = "tests/reference/test_", "tests/replication/test_"
-OWN = {
-    **{f"reference/{name}.py": f"{REFERENCE}{name}.py" for name in (
-        "arithmetic", "computations", "enclosure", "equations", "findings", "ledger", "motion",
-        "printed", "units")},
-    "reference/intervals.py": f"{REFERENCE}enclosure.py",
-    "reference/derivations.py": f"{AUDIT}equations.py",
-    "replication/audit/audit.py": f"{AUDIT}claims.py",
-    "replication/audit/comparison.py": f"{AUDIT}comparison.py",
-    "replication/audit/edits.py": f"{AUDIT}explanations.py",
-    "replication/audit/equations.py": f"{AUDIT}equations.py",
-    "replication/audit/explain.py": f"{AUDIT}explanations.py",
-    "replication/audit/findings.py": f"{AUDIT}findings.py",
-    "replication/audit/inference.py": f"{AUDIT}inference.py",
-    "replication/audit/replica.py": f"{AUDIT}verdict.py",
-    "replication/audit/screen.py": f"{AUDIT}explanations.py",
-    "replication/audit/verdict.py": f"{AUDIT}verdict.py",
-}  # fmt: skip
-"""The core -> the tests that are to notice first."""
+from test_arrows import EVERY, ROOT, module_of
+from test_arrows import ours as read_imports
 
-CORE = [
-    "tests/reference",
-    "tests/test_recheck.py",
-    *sorted({p for p in OWN.values() if AUDIT in p}),
-]
-"""The tests that are to notice at last."""
+CORE = ("reference", "replication/models", "replication/audit", "replication/check")
+ours = cache(read_imports)
+LIMIT = 600
+"""Seconds of a processor for tests; a mutant that takes longer is noticed, too."""
 
 _COMPARISONS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt,
                 ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -54,80 +38,107 @@ _OPERATORS = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: as
               ast.Pow: ast.Mult}  # fmt: skip
 
 
-def mutants(source: str) -> Iterator[str]:
-    """Every version of a module that differs from it in one place."""
-    for place, node in enumerate(ast.walk(ast.parse(source))):
-        for change in _changes(node):
-            tree = ast.parse(source)
-            target = next(n for k, n in enumerate(ast.walk(tree)) if k == place)
-            change(target)
-            yield ast.unparse(tree)
+def places(tree: ast.Module) -> list[tuple[ast.AST, str, object]]:
+    """Every node that can be changed, with what of it is to become what.
+
+    How a class or function is declared is left: nothing is computed by a `frozen=True`.
+    """
+    nodes = list(ast.walk(tree))
+    declared = [
+        part
+        for node in nodes
+        for part in (*getattr(node, "decorator_list", ()), *getattr(node, "keywords", ()))
+        if isinstance(node, ast.ClassDef | ast.FunctionDef)
+    ]
+    left = {node for part in declared for node in ast.walk(part)}
+    return [(node, *change) for node in nodes if node not in left and (change := _change(node))]
 
 
-def _changes(node: ast.AST) -> Iterator:
+def mutant(source: str, number: int) -> str:
+    """A module with a change at one of its places."""
+    tree = ast.parse(source)
+    node, name, value = places(tree)[number]
+    setattr(node, name, value)
+    return ast.unparse(tree)
+
+
+def _change(node: ast.AST) -> tuple[str, object] | None:
+    """What of a node is to become what."""
     match node:
         case ast.Compare(ops=[operation]) if type(operation) in _COMPARISONS:
-            yield lambda n: setattr(n, "ops", [_COMPARISONS[type(operation)]()])
+            return "ops", [_COMPARISONS[type(operation)]()]
         case ast.BinOp(op=operation) if type(operation) in _OPERATORS:
-            yield lambda n: setattr(n, "op", _OPERATORS[type(operation)]())
+            return "op", _OPERATORS[type(operation)]()
         case ast.BoolOp(op=operation):
-            opposite = ast.Or if isinstance(operation, ast.And) else ast.And
-            yield lambda n: setattr(n, "op", opposite())
+            return "op", ast.Or() if isinstance(operation, ast.And) else ast.And()
         case ast.IfExp() | ast.If():
-            yield lambda n: setattr(n, "test", ast.UnaryOp(ast.Not(), n.test))
+            return "test", ast.UnaryOp(ast.Not(), node.test)
         case ast.Constant(value=bool() as value):
-            yield lambda n: setattr(n, "value", not value)
+            return "value", not value
         case ast.Constant(value=int() | float() as value):
-            yield lambda n: setattr(n, "value", value + 1)
+            return "value", value + 1
+    return None
 
 
-def passes(copy: Path, tests: list[str]) -> bool:
-    """Whether tests pass on the copy; those that run for ten minutes do not."""
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
-    try:
-        done = subprocess.run(command, cwd=copy, capture_output=True, timeout=600, check=False)
-    except subprocess.TimeoutExpired:
-        return False
-    return done.returncode == 0
+def tests_of(module: Path) -> list[list[Path]]:
+    """The tests of a module, those that are likely to notice soonest first."""
+    name = module_of(module)
+    files = sorted((ROOT / "tests").rglob("test_*.py"))
+    importers = {module_of(path) for path in EVERY if name in ours(path)}
+    own = [path for path in files if path.stem[5:] in (module.stem, module.parent.name)]
+    near = [path for path in files if name in ours(path) and path not in own]
+    far = [path for path in files if importers & ours(path) and path not in own + near]
+    return [tests for tests in ([module, *own], near, far) if tests]
 
 
-def survives(module: str, mutant: str, copy: Path) -> bool:
-    """Whether all tests pass with a mutant in the place of a module."""
-    original = (copy / module).read_text("utf-8")
-    (copy / module).write_text(mutant, "utf-8")
-    try:
-        return passes(copy, ["-n0", module, OWN[module]]) and passes(copy, CORE)
-    finally:
-        (copy / module).write_text(original, "utf-8")
+def survives(module: Path, text: str, seed: int) -> bool:
+    """Whether all tests pass on a copy with this text in the place of a module."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "project"
+        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "*.egg-info"))
+        (copy / module.relative_to(ROOT)).write_text(text, "utf-8")
+        return all(_pass(copy, tests, seed) for tests in tests_of(module))
+
+
+def _pass(copy: Path, tests: list[Path], seed: int) -> bool:
+    options = ("-x", "-q", "-n0", "-p", "no:cacheprovider", f"--hypothesis-seed={seed}")
+    command = [sys.executable, "-m", "pytest", *options, *(p.relative_to(ROOT) for p in tests)]
+    here = os.environ | {"PYTHONPATH": str(copy)}
+    done = subprocess.run(command, cwd=copy, env=here, capture_output=True)
+    return done.returncode in (0, 5)  # 5: there is none
 
 
 def main() -> None:
     """Run a sample and print its score."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--sample", type=int, default=60)
+    parser.add_argument("--sample", type=int, default=160)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("modules", nargs="*", default=list(OWN), help="such as reference/units.py")
+    parser.add_argument("--processes", type=int, default=os.cpu_count())
+    parser.add_argument("modules", nargs="*", default=CORE, help="such as reference/units.py")
     options = parser.parse_args()
-    everything = []
-    for module in options.modules:
-        source = (ROOT / module).read_text("utf-8")
-        everything += [(module, source, mutant) for mutant in mutants(source)]
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))  # of each process that starts here
+    core = [m for m in EVERY if any(m.is_relative_to(ROOT / name) for name in options.modules)]
+    sources = {module: module.read_text("utf-8") for module in core}
+    everything = [(m, k) for m in core for k in range(len(places(ast.parse(sources[m]))))]
     chosen = random.Random(options.seed).sample(everything, min(options.sample, len(everything)))
     print(f"{len(chosen)} of {len(everything)} mutants, seed {options.seed}", flush=True)
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "project"
-        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "*.egg-info"))
-        if not passes(copy, CORE):
-            parser.exit(2, "The tests fail without a mutant: nothing to learn.\n")
-        killed = 0
-        for number, (module, source, mutant) in enumerate(chosen, start=1):
-            if survives(module, mutant, copy):
-                texts = (ast.unparse(ast.parse(source)).split("\n"), mutant.split("\n"))
-                print("\n".join(difflib.unified_diff(*texts, module, "mutant", "", "", 1, "")))
-            else:
-                killed += 1
-            print(f"{number} of {len(chosen)}: {killed} noticed", flush=True)
-    print(f"{killed} of {len(chosen)} mutants noticed ({100 * killed / len(chosen):.0f} %)")
+    tests = sorted({path for m, _ in chosen for stage in tests_of(m) for path in stage})
+    killed = 0
+    with ThreadPoolExecutor(options.processes) as pool:
+        passed = pool.map(lambda path: _pass(ROOT, [path], options.seed), tests)
+        if failing := [str(path) for path, well in zip(tests, passed, strict=True) if not well]:
+            parser.exit(2, f"{failing[0]} fails without a mutant: nothing to learn.\n")
+        texts = [mutant(sources[module], number) for module, number in chosen]
+        alive = pool.map(lambda c, text: survives(c[0], text, options.seed), chosen, texts)
+        outcomes = zip(chosen, texts, alive, strict=True)
+        for done, ((module, _), text, lives) in enumerate(outcomes, start=1):
+            killed += not lives
+            if lives:
+                lines = (ast.unparse(ast.parse(sources[module])).split("\n"), text.split("\n"))
+                name = str(module.relative_to(ROOT))
+                print("\n".join(difflib.unified_diff(*lines, name, "mutant", "", "", 1, "")))
+            print(f"{done} of {len(chosen)}: {killed} noticed", flush=True)
+    print(f"{killed} of {len(chosen)} mutants noticed ({100 * killed / len(chosen):.1f} %)")
 
 
 if __name__ == "__main__":

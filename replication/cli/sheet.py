@@ -27,6 +27,10 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.sheet import run
 
     sheet = run(shared.case(options), options.scheme)
+    doubts = [warning.text for warning in warnings(sheet)]
+    if sheet.steps == 0:
+        slow, least = sheet.impact.velocity, sheet.impact.stop_velocity
+        doubts = [f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"]
     if options.json:
         record = {
             "inputs": inputs_of(sheet.impact),
@@ -35,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
             "final_depth": sheet.final_depth,
             "normalized_depth": sheet.normalized_depth,
             "steps": sheet.steps,
-            "warnings": [warning.text for warning in warnings(sheet)],
+            "warnings": doubts,
         }
         shared.print_json(record)
         return 0
@@ -45,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
         sys.stdout.write(rows_csv([row._asdict() for row in sheet.rows]))
     else:
         print(_text(sheet))
-    shared.warn(options, warnings(sheet))
+    shared.warn(options, doubts)
     return 0
 
 

@@ -164,9 +164,14 @@ def test_what_a_budget_leaves_open_is_neither_found_nor_excluded() -> None:
 
 
 def test_a_point_that_straddles_an_end_is_undecided_at_once() -> None:
-    third = {"x": (F(1, 3), F(1, 3))}
-    found = explore(lambda ar, x: ar.power(x, F(1, 3)) ** 3, third, Interval(F(1, 3), None))
+    def itself(ar: Any, x: Any) -> Any:
+        return ar.power(x, F(1, 3)) ** 3
+
+    found = explore(itself, {"x": (F(1, 3), F(1, 3))}, Interval(F(1, 3), None))
     assert (found.inside, found.never) == (None, False)
+    touched = solve(itself, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
+    assert touched.inner == ()
+    assert touched.outer[0][0] == F(1, 3)
 
 
 def test_undefined_values_prove_nothing() -> None:
@@ -285,3 +290,9 @@ def test_several_constraints_together() -> None:
     assert outcome is True
     assert point is not None
     assert all(target.contains(f(EXACT, **point)) for f, target in sliver)
+
+
+def test_what_rises_is_decided_by_its_ends_at_once() -> None:
+    """Term by term x^2 - x is in [-1, 3] over [1, 2]; as it rises, it is in [0, 2]."""
+    over = [(lambda ar, x: x * x - x, Interval(F(5, 2), F(3)))]
+    assert satisfying(over, {"x": (F(1), F(2))}, budget=2) == (False, None)

@@ -189,6 +189,11 @@ def test_an_empty_interval_and_a_missing_end_are_refused() -> None:
         _ = Interval(None, F(1)).ends
 
 
+def test_short_numbers_are_written_out_and_others_with_an_exponent() -> None:
+    texts = [decimal_text(3 * TENS**power) for power in (-6, -5, 5, 6)]
+    assert texts == ["3E-6", "0.00003", "300000", "3E+6"]
+
+
 @given(st.fractions(max_denominator=10**6), st.integers(-40, 40))
 def test_decimal_text_is_the_rational_itself(value: F, exponent: int) -> None:
     assert F(decimal_text(value * TENS**exponent)) == value * TENS**exponent

@@ -77,3 +77,9 @@ def test_units_for_a_page() -> None:
     assert [written(unit) for unit in ("um^3", "kg/m^3", "percent", "m s^-1", "us", "1")] == [
         "µm³", "kg/m³", "%", "m s⁻¹", "µs", "",
     ]  # fmt: skip
+
+
+def test_prefixes_are_those_of_the_si() -> None:
+    powers = {"p": -12, "n": -9, "u": -6, "m": -3}
+    assert {p: to_si(f"{p}s") for p in powers} == {p: F(10) ** n for p, n in powers.items()}
+    assert (to_si("cm"), to_si("km"), to_si("MPa"), to_si("GPa")) == (F(1, 100), 1000, 10**6, 10**9)

@@ -50,6 +50,17 @@ def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
     assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
 
 
+def test_a_sheet_without_steps_says_why(coldspray: Command) -> None:
+    slow = ["sheet", "--velocity", "0.5"]
+    status, out, err = coldspray(*slow)
+    assert (status, err.count("\n")) == (0, 1)
+    assert "0.5 m/s is below the stop velocity 1.0 m/s" in err
+    assert coldspray(*slow, "--quiet") == (0, out, "")
+    (said,) = json.loads(coldspray(*slow, "--json")[1])["warnings"]
+    assert said in err
+    assert not coldspray("sheet", "--velocity", "1")[2].count("below")
+
+
 def test_history_prints_the_promised_keys(coldspray: Command) -> None:
     status, out, err = coldspray("history", "--points", 5, "--json")
     record = json.loads(out)

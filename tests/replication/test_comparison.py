@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise, product
 from statistics import NormalDist
 
 import mpmath
@@ -12,10 +13,11 @@ from hypothesis import strategies as st
 from reference.ledger import load
 from reference.motion import Trajectory
 from replication.audit import comparison
-from replication.audit.record import Record, Scatter
-from replication.cases import BETA_5
+from replication.audit.record import Level, Record, Scatter
+from replication.cases import BETA_3, BETA_5
 from replication.models import depth
 from replication.models.impact import Impact
+from replication.models.sheet import SCHEMES, run
 
 INPUTS = ("velocity", "radius", "particle_density", "target_density", "beta", "flow_stress")
 
@@ -108,6 +110,10 @@ def test_quantiles_of_each_law(laws: dict[str, Scatter]) -> None:
             size = sizes.inv_cdf(1 - point.share)
             assert point.velocity == pytest.approx(500 * (22 / size) ** power, rel=1e-14)
             assert point.ratio == ratio(replace(BETA_5, velocity=point.velocity))
+        small = 22 - 1e-4, 22 + 1e-4  # the law's own slope at the mean size
+        faster, slower = (500 * (22 / size) ** power for size in small)
+        slope = (faster - slower) / (small[1] - small[0])
+        assert laws[law].standard_deviation == pytest.approx(slope * 5.6, rel=1e-9)
 
 
 def test_equation_1_scatters_the_velocity_far_more_than_the_report_states(
@@ -116,3 +122,25 @@ def test_equation_1_scatters_the_velocity_far_more_than_the_report_states(
     stated = float(load().value("velocity-deviation"))
     assert laws["as stated"].mean_deviation == pytest.approx(stated, rel=1e-14)
     assert laws["Eq. 1"].mean_deviation > 3 * stated
+
+
+def test_each_step_of_the_sheets_error_is_half_of_the_last(record: Record) -> None:
+    groups: dict[tuple[float, str], list[Level]] = {}
+    for level in record.ladders:
+        groups.setdefault((level.beta, level.scheme), []).append(level)
+    assert set(groups) == set(product((3.0, 5.0), SCHEMES))
+    for (beta, scheme), levels in groups.items():
+        steps = [level.step for level in levels]
+        assert BETA_5.step in steps
+        assert all(fine == coarse / 2 for coarse, fine in pairwise(steps))
+        case = {3.0: BETA_3, 5.0: BETA_5}[beta]
+        for level in levels:
+            sheet = run(replace(case, step=level.step), scheme)
+            assert (level.depth, level.steps) == (sheet.final_depth, sheet.steps)
+            assert level.error == level.depth - depth.final_depth(**case.motion)
+
+
+def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
+    ledger, curve = load(), record.velocity_curve
+    ends = ("figure-5-velocity-least", "figure-5-velocity-greatest")
+    assert [curve.velocity[0], curve.velocity[-1]] == [float(ledger.value(end)) for end in ends]

@@ -174,6 +174,9 @@ def test_the_failing_numbers_have_these_repairs(record: Record) -> None:
         *(("fz-resistance-stainless", f"{x}×10^9") for x in ("7.7", "7.68", "7.69")),
     ]
     assert ("eq16-denominator", "1") in repairs["eq16-denominator"]
+    of_equations = {e.id: [(r.entry, r.text) for r in e.repairs] for e in record.equations}
+    assert [name for name, found in of_equations.items() if found] == ["eq16"]
+    assert ("eq16-denominator", "1") in of_equations["eq16"]
     for name in PAIR:
         for repair in record.claim(name).repairs:
             assert repair.reading == DERIVED

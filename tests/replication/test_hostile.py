@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, example, given, settings
@@ -23,6 +24,7 @@ from hypothesis import strategies as st
 
 from replication.cases import INPUTS
 from replication.cli import COMMANDS, main
+from spreadsheets.safely import write_folder
 
 LONGEST = 400
 """Characters of a message."""
@@ -432,4 +434,46 @@ def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) ->
         assert done.returncode == -signal.SIGKILL
         assert contents <= {b"old", b"new"}
     assert contents == {b"new"}
+    assert {name for name in state(tmp_path) if Path(name).parts[0].startswith(".")} == set()
     assert 4 < moment < 59
+
+
+def test_what_a_killed_run_left_goes_and_nothing_else(tmp_path: Path) -> None:
+    """It lies beside the folder if that was not there yet, and in it if it was."""
+    out = tmp_path / "out"
+    left = [tmp_path / ".out.12.part", out / ".out.345.part"]
+    of_others = [tmp_path / name for name in (".out.part", ".other.12.part", ".outs.1.part")]
+    for folder in (*left, *of_others):
+        (folder / "figures").mkdir(parents=True)
+        (folder / "figures" / "a.svg").write_text("half")
+    write_folder(out, {"a": b"new"})
+    assert [folder.exists() for folder in left] == [False, False]
+    assert all((folder / "figures" / "a.svg").exists() for folder in of_others)
+    assert state(out) == {"a": b"new"}
+
+
+def test_of_two_runs_to_one_folder_the_one_that_lost_its_drafts_says_so(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+
+    class Slow(dict[str, bytes]):
+        def items(self) -> Any:
+            yield "a", b"slow"
+            write_folder(out, {"a": b"fast"})
+            yield "b", b"slow"
+
+    with pytest.raises(OSError, match="another run is writing to this folder"):
+        write_folder(out, Slow(a=b"", b=b""))
+    assert state(tmp_path) == {"out": None, "out/a": b"fast"}
+
+
+def test_a_pipe_is_waited_for_and_said_so(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "case.toml")
+    command = [sys.executable, "-m", "replication", "depth", "--case-file", "case.toml"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, cwd=tmp_path, **pipes) as reader:
+        said = reader.stderr.readline()
+        (tmp_path / "case.toml").write_text("[impact]\nvelocity = 500.0\n")
+        out, err = reader.communicate()
+    assert said == "coldspray: waiting for a program to write to case.toml\n"
+    assert (reader.returncode, err) == (0, "")
+    assert "7.6749329 um" in out

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from reference.motion import Trajectory
 from replication.cases import BETA_5
-from replication.models import motion
+from replication.models import crater, motion
 from replication.models.depth import (
     depth_at_velocity,
     final_depth,
@@ -142,3 +142,10 @@ def test_the_sheet_stops_in_the_row_in_which_the_exact_motion_does() -> None:
 def test_stop_time_at_rest_when_the_last_digits_of_the_depth_disagree() -> None:
     case = (1.0, 1.0, 1.0, 1.0, 10.0**5.3515625)
     assert stop_time(*case) == pytest.approx(float(exact(case).stop_time()), rel=1e-14)
+
+
+@given(st.floats(1e-6, 0.5))
+def test_a_crater_has_the_volume_that_its_depth_came_from(ratio: float) -> None:
+    """Depth y over radius, of a part y^2 (3 - y) / 4 of the sphere."""
+    y = crater.depth_from_volume_ratio(ratio)
+    assert y * y * (3 - y) / 4 == pytest.approx(ratio, rel=1e-14)
