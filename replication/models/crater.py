@@ -34,8 +34,8 @@ def depth_from_volume_ratio(ratio: float) -> float:
     """Normalized depth y = X/R [1] of a crater of volume ratio CV/PV [1] (inverse of Eqs. 2-3).
 
     The root of y^2 (3 - y) / 4 = ratio in [0, 1]: y = 2t (t + sqrt 3) / (1 + t^2) with t = tan(h)
-    and tan(3h)^2 = ratio / (1 - ratio), in which nothing cancels for shallow craters; one Newton
-    step on y/2 takes out what rounding left. NaN for ratios outside 0 to 1/2, which no cap of the
+    and sin(3h)^2 = ratio, in which nothing cancels for shallow craters; one Newton step on y/2
+    takes out what rounding left. NaN for ratios outside 0 to 1/2, which no cap of the
     sphere has.
 
     >>> f"{depth_from_volume_ratio(0.06):.3f}"
@@ -43,7 +43,7 @@ def depth_from_volume_ratio(ratio: float) -> float:
     """
     if not 0 < ratio <= 0.5:
         return 0.0 if ratio == 0 else math.nan
-    t = math.tan(math.atan(math.sqrt(ratio / (1 - ratio))) / 3)
+    t = math.tan(math.asin(math.sqrt(ratio)) / 3)
     z = t * (t + SQRT_3) / (1 + t * t)
     z -= (z * z * (3 - 2 * z) - ratio) / (6 * z * (1 - z))
     return 2 * z

@@ -22,7 +22,7 @@ def normalized_depth(
     '0.6977'
     """
     V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
-    return _depth_of_work(rho_p * math.log1p(rho_t * V * V / (2 * R_t)) / rho_t)
+    return _depth_of_work(rho_p / rho_t * math.log1p(rho_t * V * V / (2 * R_t)))
 
 
 def _depth_of_work(three_quarters: float) -> float:
@@ -64,7 +64,7 @@ def depth_at_velocity(
     if v > V:
         return math.nan
     lost = rho_t * (V - v) * (V + v) / (2 * R_t + rho_t * v * v)
-    return radius * _depth_of_work(rho_p * math.log1p(lost) / rho_t)
+    return radius * _depth_of_work(rho_p / rho_t * math.log1p(lost))
 
 
 def velocity_at_depth(
