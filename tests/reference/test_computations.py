@@ -12,6 +12,7 @@ from reference.computations import COMPUTATIONS, EXPONENT, SAME, Formulas
 from reference.enclosure import enclose
 from reference.ledger import Claim, load
 from reference.units import to_si
+from replication.audit.replica import REPLICA, replica
 
 LEDGER = load()
 COMPUTED = [
@@ -100,6 +101,8 @@ BETAS = {"goodier": 3.5, "walker_anderson": 5.0, "brinell": 3.0}
 def test_values_by_hand(name: str, inputs: dict[str, Any], expected: float) -> None:
     value = COMPUTATIONS[name].function(Formulas(Floats(), LEDGER.sides), **inputs)
     assert isclose(value, expected, rel_tol=1e-14)  # a dozen roundings
+    if name in REPLICA:
+        assert isclose(replica(name, inputs), expected, rel_tol=1e-14)
 
 
 def test_lengths_of_equation_16_are_counted_in_diameters() -> None:

@@ -144,6 +144,8 @@ def test_edits_of_words_and_of_the_reports_powers() -> None:
     assert found[r"9.31 \times 10^9"] == "digits swapped"
     assert not any(text.endswith("11^9") for text in found)
     assert dict(edits("Four"))["Five"] == "other word"
+    shifted = {text for text, kind in edits("1E1") if kind == "exponent changed"}
+    assert shifted == {"1E0", "1E2", "1E-1"}
     assert dict(edits("third")) == {"half": "other word"}
     assert dict(edits("7.67"))["76.7"] == "decimal point moved"
 

@@ -45,6 +45,16 @@ def test_products_that_overflow_or_vanish_are_refused() -> None:
         replace(BETA_5, radius=1e150)
     with pytest.raises(ValueError, match=r"particle mass is 0\.0"):
         replace(BETA_5, radius=1e-150)
+    with pytest.raises(ValueError, match=r"work is 5e\+299"):
+        replace(
+            BETA_5,
+            velocity=1e100,
+            particle_density=1e100,
+            target_density=1.0,
+            beta=1.0,
+            flow_stress=1.0,
+            radius=1e-50,
+        )
 
 
 def test_inputs_are_doubles_whatever_was_given() -> None:
