@@ -7,7 +7,7 @@ route than the audit's proofs. Then the audit judges what depends on it.
 
 import random
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from importlib import resources
 
@@ -85,14 +85,8 @@ class Power(Counts, kw_only=True):
     def table(self) -> list[tuple[str, ...]]:
         """Heads and rates in percent of what is visible: all, by kind of entry, by kind of edit."""
         heads = (
-            "",
-            "planted",
-            "visible",
-            "noticed",
-            "text named",
-            "named first",
-            "accused wrongly",
-        )
+            "", "planted", "visible", "noticed", "text named", "named first", "accused wrongly",
+        )  # fmt: skip
         kinds = [(f"in {name}", self.by_kind[name]) for name in sorted(self.by_kind)]
         edits = [(f"by {name}", self.by_edit[name]) for name in sorted(self.by_edit)]
         return [heads, *(_row(name, counts) for name, counts in [("all", self), *kinds, *edits])]
@@ -231,11 +225,9 @@ def power(
         ):
             counts.add(outcome)
         if outcome.visible and not outcome.detected:
-            result.unnoticed.append(
-                {"entry": plant.entry, "true": plant.true, "text": plant.text, "edit": plant.edit}
-            )
+            result.unnoticed.append(asdict(plant))
     return result
 
 
 def _kind(ledger: Ledger, plant: Plant) -> str:
-    return "equation" if plant.entry in ledger.equations else ledger.claims[plant.entry].entry.kind
+    return "equation" if plant.entry in ledger.equations else ledger.claims[plant.entry].kind

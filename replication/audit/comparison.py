@@ -1,7 +1,6 @@
 """What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from statistics import NormalDist
 
@@ -69,7 +68,7 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
         depth=depth.final_depth(**impact.motion),
         elasticities=_elasticities(impact),
         ten_percent=ten,
-        stated=list(_stated(known, impact)),
+        stated=_stated(known, impact),
     )
 
 
@@ -92,24 +91,20 @@ def _elasticities(impact: Impact) -> dict[str, float]:
     return dict(zip(_INPUTS, factors, strict=True))
 
 
-def _stated(known: Known, impact: Impact) -> Iterator[r.Effect]:
+def _stated(known: Known, impact: Impact) -> list[r.Effect]:
     """What each input's own uncertainty does, as far as the report or its evidence states one."""
-    density = "inferred:target-density"
-    possible = known.judge.inference(density).admitted(Convention())[1].ends
-    rounding = known.target("a1-density").ends
-    spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
-    yield _effect(impact, "velocity", impact.velocity - spread, impact.velocity + spread,
-                  "mean deviation in the stream")  # fmt: skip
-    yield _effect(impact, "radius", impact.radius - size, impact.radius + size,
-                  "standard deviation of the powder")  # fmt: skip
-    low, high = map(float, rounding)
-    yield _effect(impact, "particle_density", low, high, "rounding of the print")
-    low, high = map(float, possible)
-    yield _effect(impact, "target_density", low, high, "all that Table A-1 allows")
-    yield _effect(impact, "beta", known["beta-range-least"], known["beta-range-greatest"],
-                  "the report's range")  # fmt: skip
-    yield _effect(impact, "flow_stress", known["strength-clear"], known["strength-feathery"],
-                  "two hardnesses")  # fmt: skip
+    possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
+    velocity, spread = impact.velocity, known["velocity-deviation"]
+    radius, size = impact.radius, known["diameter-deviation"] / 2
+    ranges = (
+        ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
+        ("radius", radius - size, radius + size, "standard deviation of the powder"),
+        ("particle_density", *known.target("a1-density").ends, "rounding of the print"),
+        ("target_density", *possible, "all that Table A-1 allows"),
+        ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
+        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
+    )
+    return [_effect(impact, name, float(low), float(high), why) for name, low, high, why in ranges]
 
 
 def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> r.Effect:

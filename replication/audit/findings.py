@@ -88,7 +88,7 @@ def _exact_ratio(known: Known, **changed: float) -> float:
 
 def _headline(known: Known) -> Evidence:
     own = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
-    table = [name for name, a in known.assessments.items() if a.claim.entry.cell and a.readings]
+    table = [name for name, a in known.assessments.items() if a.claim.cell and a.readings]
     pair = [known.assessments[f"frank-zook-{name}"] for name in ("rha", "stainless")]
     factor = known.equations["eq16"].factor
     return {
@@ -340,7 +340,7 @@ def _two_schemes(known: Known) -> Evidence:
     found["reprinted"] = Fraction(f"{float(found['plain_coarse_5']):.2e}")
     found["middle_density"] = _middle_density(known)
     row, plain, middle = _first_difference(known)
-    table = [a for a in known.assessments.values() if a.claim.entry.cell and a.claim.by_scheme]
+    table = [a for a in known.assessments.values() if a.claim.cell and a.claim.by_scheme]
     found |= {"row": Fraction(row), "row_plain": plain, "row_middle": middle}
     found["table"] = all(
         j.verdict is Verdict.REPRODUCED

@@ -69,7 +69,7 @@ def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> b
         return claim.target().contains(Fraction(len(claim.inputs)))
     (name,) = claim.inputs["value"]
     # A choice or an exact number has one value; a bound or an "about" has its own interval.
-    loose = claim.bound is not None or claim.entry.kind == "approximation"
+    loose = claim.bound is not None or claim.kind == "approximation"
     own = claim.target() if loose else claim.as_input(Convention())
     if name in changed:
         return own.contains(changed[name])
@@ -88,11 +88,11 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         for claim in ledger.claims.values()
         if claim.id == name
         or name in claim.entries
-        or claim.entry.against == name
+        or claim.against == name
         or (within and any(within in c.equations for c in claim.computations.values()))
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
-    return direct | {c.id for c in ledger.claims.values() if direct & set(c.entry.shown_by)}
+    return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}

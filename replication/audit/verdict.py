@@ -167,7 +167,7 @@ class Judge:
         computation = claim.computations[name]
         settings: dict[str, object] = {}
         if computation.by_row:
-            settings["row"] = claim.entry.row
+            settings["row"] = claim.row
         if computation.by_scheme:
             settings["scheme"] = "published"
         inputs = {
@@ -219,7 +219,7 @@ class Judge:
         """The inputs as printed do not give the number: do any that print like them?"""
         inside, around = _without_and_with_ends(claim, convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
-        whole_sheet = claim.by_scheme and claim.entry.row is None
+        whole_sheet = claim.by_scheme and claim.row is None
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
@@ -278,7 +278,7 @@ class Judge:
     ) -> tuple[Fraction, Fraction]:
         computation = claim.computations[name]
         key = (
-            computation.name, claim.entry.row, convention.centered,
+            computation.name, claim.row, convention.centered,
             tuple(sorted(claim.inputs.items())), tuple(sorted(box.items())),
         )  # fmt: skip
         if key not in self._ranges:
@@ -340,13 +340,11 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     """
     claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
-    header = bool(claim.inferred) or any(
-        (entry.entry.cell or "").startswith("B") for entry in claims
-    )
+    header = bool(claim.inferred) or any((entry.cell or "").startswith("B") for entry in claims)
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    whole_sheet = claim.by_scheme and claim.entry.row is None
+    whole_sheet = claim.by_scheme and claim.row is None
     choices_exact = (True, False) if chosen and not whole_sheet else (True,)
     for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)

@@ -47,10 +47,10 @@ def _audit(options: argparse.Namespace) -> int:
     from replication.workbook import build
 
     record = audit()
-    outcomes = [hard_cases.outcome(case) for case in hard_cases.HARD_CASES]
+    random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
     beside = {
         "workbook.xlsx": build(record=record).to_bytes(),
-        "hard-cases.txt": hard_cases.text(outcomes, hard_cases.worst_of(1000, seed=1)).encode(),
+        "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
     }
     written = render.write(record, options.out, beside)
     if options.json:

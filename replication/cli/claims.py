@@ -53,10 +53,10 @@ def _listed(claim: Any) -> dict[str, Any]:
         "line": claim.place.line,
         "section": claim.place.section,
         "cell": claim.place.cell,
-        "quote": " ".join(claim.entry.quote.split()),
+        "quote": " ".join(claim.quote.split()),
         "printed": claim.text,
         "unit": claim.unit,
-        "kind": claim.entry.kind,
+        "kind": claim.kind,
     }
 
 

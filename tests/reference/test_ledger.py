@@ -53,7 +53,7 @@ def test_nothing_that_the_report_prints_is_left_out() -> None:
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
 def test_a_claim_stands_where_its_quote_does_and_nowhere_else(claim: Claim) -> None:
-    before, text, after = re.split("[⟦⟧]", claim.entry.quote)
+    before, text, after = re.split("[⟦⟧]", claim.quote)
     start, end = claim.place.start, claim.place.end
     assert LEDGER.text[start:end] == claim.text == text
     assert LEDGER.text[start - len(before) : end + len(after)] == before + text + after
@@ -63,7 +63,7 @@ def test_a_claim_stands_where_its_quote_does_and_nowhere_else(claim: Claim) -> N
     others = [other for other in CLAIMS if other is not claim]
     left = [(line, word.lower()) for line, word in uncovered(LEDGER.text, others, FURNITURE)]
     words = re.findall(r"\d+", text) or re.split("[ -]", text.lower().removesuffix(" times"))
-    if claim.entry.kind in ("comparison", "remark"):
+    if claim.kind in ("comparison", "remark"):
         assert left == []
     else:
         assert left == [(claim.place.line, word) for word in words]
@@ -76,7 +76,7 @@ def test_no_two_claims_share_a_word_and_they_come_in_order() -> None:
     assert running == sorted(running)
     assert [claim.place.cell for claim in CLAIMS[-len(cells) :]] == cells
     assert cells == sorted(cells, key=lambda cell: (int(cell[1:]), cell[0]))
-    assert {claim.entry.kind for claim in CLAIMS} == set(get_args(Kind))
+    assert {claim.kind for claim in CLAIMS} == set(get_args(Kind))
 
 
 @pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece.pattern)
@@ -85,7 +85,7 @@ def test_every_piece_of_furniture_is_needed_and_hides_no_claim(piece: Any) -> No
     others = [pattern for pattern in FURNITURE if pattern != piece.pattern]
     assert uncovered(LEDGER.text, CLAIMS, others)
     spans = [match.span() for match in re.finditer(piece.pattern, LEDGER.text)]
-    for claim in (c for c in CLAIMS if c.entry.kind not in ("comparison", "remark")):
+    for claim in (c for c in CLAIMS if c.kind not in ("comparison", "remark")):
         assert all(claim.place.end <= a or b <= claim.place.start for a, b in spans), claim.id
 
 

@@ -42,7 +42,7 @@ TAKEN_OVER = {"eq1-power", "eq8-multiple", "eq10-factor"}
 def expected(claim: Claim) -> str:
     if claim.id in NOT_REPRODUCED:
         return "not reproduced"
-    if claim.entry.kind == "remark":
+    if claim.kind == "remark":
         return "remark, quantified"
     if claim.id in SOURCES:
         return (
@@ -82,7 +82,7 @@ def test_claim(claim: Claim, record: Record) -> None:
 
 def test_nothing_is_expected_that_is_not_there() -> None:
     assert {*NOT_REPRODUCED, *SOURCES, *SHOWN, *TAKEN_OVER} <= set(LEDGER.claims)
-    assert {c.id for c in LEDGER.claims.values() if c.entry.shown_by} - set(SHOWN) == {
+    assert {c.id for c in LEDGER.claims.values() if c.shown_by} - set(SHOWN) == {
         "yield-strength", "elastic-modulus", "a1-density",
     }  # fmt: skip
 

@@ -208,13 +208,13 @@ SAID = {
 STEPS = {"at the stop velocity": 1, "below the stop velocity": 0}
 
 
-@pytest.mark.parametrize("case", hard_cases.HARD_CASES, ids=lambda case: case.name)
-def test_hard_case(case: hard_cases.HardCase) -> None:
+@pytest.mark.parametrize("name", hard_cases.HARD_CASES)
+def test_hard_case(name: str) -> None:
     """The closed form holds; the sheet holds, warns, or is refused with the reason."""
-    outcome = hard_cases.outcome(case)
+    outcome = hard_cases.outcome(name, hard_cases.HARD_CASES[name])
     said = (outcome.refused, outcome.sheet_refused, *outcome.warnings)
-    assert SAID.get(case.name, "") in " ".join(said)
-    assert outcome.steps == STEPS.get(case.name, outcome.steps)
+    assert SAID.get(name, "") in " ".join(said)
+    assert outcome.steps == STEPS.get(name, outcome.steps)
     if outcome.refused:
         assert outcome.closed_form is None
         assert re.search("must be|nothing would bring|doubles carry", outcome.refused)
