@@ -22,26 +22,30 @@ INPUTS = {
 }
 """Every input of a case and the SI unit that a plain number is taken to be in."""
 
-_CLAIMS = {
-    "velocity": "a1-initial-velocity",
-    "radius": "a1-radius",
-    "particle_density": "a1-density",
-    # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside it.
-    "target_density": INFERRED + "target-density",
-    "flow_stress": "flow-stress",
-    "step": "a-step",
-    "stop_velocity": "a-stop-velocity",
-}
-"""Where the report prints the inputs that its two cases share."""
+
+def claims_of_case(beta: int) -> dict[str, str]:
+    """The claims that print the inputs of the report's case with this beta.
+
+    >>> claims_of_case(5)["beta"]
+    'depth-beta-5-beta'
+    """
+    return {
+        "velocity": "a1-initial-velocity",
+        "radius": "a1-radius",
+        "particle_density": "a1-density",
+        # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside.
+        "target_density": INFERRED + "target-density",
+        "beta": f"depth-beta-{beta}-beta",
+        "flow_stress": "flow-stress",
+        "step": "a-step",
+        "stop_velocity": "a-stop-velocity",
+    }
 
 
-def _report_case(beta: str) -> Impact:
-    claims = {**_CLAIMS, "beta": beta}
-    return Impact(**{name: float(load().value(claim)) for name, claim in claims.items()})
-
-
-BETA_3 = _report_case("depth-beta-3-beta")
-BETA_5 = _report_case("depth-beta-5-beta")
+BETA_3, BETA_5 = (
+    Impact(**{name: float(load().value(claim)) for name, claim in claims_of_case(beta).items()})
+    for beta in (3, 5)
+)
 CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 
 

@@ -18,7 +18,7 @@ from replication.audit.audit import Audit
 from replication.audit.edits import edits, equation_edits
 from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import Verdict
+from replication.audit.verdict import OPEN, Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,13 +161,7 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     )
 
 
-_WORSE = {
-    Verdict.NOT_REPRODUCED,
-    Verdict.INCONSISTENT,
-    Verdict.WITHIN_ROUNDING,
-    Verdict.UNDECIDED,
-    Verdict.DIFFERS,
-}
+_WORSE = {*OPEN, Verdict.DIFFERS}
 """Verdicts by which a reader is told that something is wrong, or may be."""
 
 

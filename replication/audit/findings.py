@@ -15,6 +15,7 @@ from reference.units import to_si
 from replication.audit.equations import EquationAssessment
 from replication.audit.explain import BackSolved, Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict
+from replication.cases import claims_of_case
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact
 
@@ -65,16 +66,7 @@ class Known:
 
 def case(known: Known, beta: int, **changed: float) -> Impact:
     """One of the report's two cases, with some inputs changed (SI)."""
-    inputs = {
-        "velocity": known["a1-initial-velocity"],
-        "radius": known["a1-radius"],
-        "particle_density": known["a1-density"],
-        "target_density": known[_DENSITY],
-        "beta": known[f"depth-beta-{beta}-beta"],
-        "flow_stress": known["flow-stress"],
-        "step": known["a-step"],
-        "stop_velocity": known["a-stop-velocity"],
-    }
+    inputs = {name: known[claim] for name, claim in claims_of_case(beta).items()}
     if "resistance" in changed:
         del inputs["beta"], inputs["flow_stress"]
     return Impact(**{**inputs, **changed})

@@ -41,6 +41,10 @@ class Verdict(StrEnum):
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
 
+OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING}
+"""The verdicts on claims that do not plainly come out as printed."""
+
+
 @dataclass(frozen=True, slots=True)
 class Judgement:
     """The verdict under one convention.

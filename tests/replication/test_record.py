@@ -18,7 +18,7 @@ from reference.printed import parse
 from replication.audit.audit import audit
 from replication.audit.record import ClaimRecord, Record, schema
 from replication.audit.verdict import Verdict
-from replication.cases import _CLAIMS, BETA_3, BETA_5
+from replication.cases import BETA_3, BETA_5, claims_of_case
 from replication.plain import json_text
 
 LEDGER = load()
@@ -156,7 +156,7 @@ def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None
 
 @pytest.mark.parametrize(("case", "beta"), [(BETA_3, 3), (BETA_5, 5)])
 def test_the_cases_are_the_ledgers(case: object, beta: int) -> None:
-    claims = {**_CLAIMS, "beta": f"depth-beta-{beta}-beta"}
+    claims = claims_of_case(beta)
     assert set(claims) == {
         "velocity", "radius", "particle_density", "target_density", "beta", "flow_stress", "step",
         "stop_velocity",

@@ -26,9 +26,10 @@ from hypothesis import strategies as st
 
 from reference.ledger import load
 from replication.audit.record import Record, schema
+from replication.audit.verdict import OPEN
 from replication.cli import main
 from replication.report import terminal
-from replication.report.facts import OPEN, between
+from replication.report.facts import between
 from replication.report.figures import draw
 from replication.report.prose import Named, Prose
 from replication.report.render import check, contents, page, write
