@@ -11,7 +11,6 @@ HELP = "audit every number the report prints"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     folder = Path("coldspray-audit")
     command.add_argument(
         "--out", type=shared.path, default=folder, metavar="DIR", help=f"default: {folder}/"
@@ -25,7 +24,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Audit, write, summarize."""
     if options.schema:
         from replication.audit.record import schema
 

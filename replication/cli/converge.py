@@ -18,7 +18,6 @@ MOST_STEPS = 40
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     shared.input_options(command)
     shared.scheme_option(command)
     command.add_argument(
@@ -41,7 +40,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the ladder and print it."""
     from replication.error.ladder import converge, ladder, step_for_digits
 
     case = shared.case(options)

@@ -8,7 +8,6 @@ HELP = "the hard cases: sheet, closed form and reference"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     cases, seeds = shared.whole(1, 10_000_000), shared.whole(0, 2**63)
     command.add_argument(
         "--random", type=cases, default=100_000, metavar="N", help="random cases (100000)"
@@ -20,7 +19,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Try the cases and print what came out."""
     from replication.error import hard_cases
 
     outcomes = hard_cases.outcomes()

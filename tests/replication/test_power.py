@@ -52,15 +52,6 @@ def test_a_misprint_that_no_digit_tells_is_invisible() -> None:
     assert not outcome.detected
 
 
-def test_one_wrong_cell_of_the_table_does_not_end_the_audit() -> None:
-    ledger = planted(LEDGER, plant("a1-deceleration-2", "9.40E+08"))
-    audit = Audit(ledger)
-    inference = audit.judge.inference("inferred:target-density")
-    assert inference.odd == ("a1-deceleration-2",)
-    assert audit.assessment(ledger.claims["a1-deceleration-2"]).verdict == "not reproduced"
-    assert audit.assessment(ledger.claims["depth-beta-5"]).verdict == "reproduced"
-
-
 @pytest.mark.slow
 def test_the_rates_on_the_page_are_measured_again() -> None:
     rates = measured()

@@ -199,12 +199,6 @@ def test_holds_names_what_was_tried_and_no_more(record: Record) -> None:
             assert "except" not in claim.holds
 
 
-def test_what_no_inputs_give_is_said_to_lie_on_one_side(record: Record) -> None:
-    for name in ("frank-zook-rha", "frank-zook-stainless"):
-        assert "Proven for all inputs" in record.claim(name).explanation
-        assert "all of it below" in record.claim(name).explanation
-
-
 def test_a_number_of_unclear_digits_says_which_were_taken(record: Record) -> None:
     (said,) = [text for text in record.claim("a1-velocity-initial-1").assumes if "digits" in text]
     assert said == "all digits of 500 taken as significant; the verdict does not depend on that"
