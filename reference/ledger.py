@@ -308,13 +308,11 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
-        if rounding not in self._targets:
-            self._targets[rounding] = self.interval(rounding).scaled(self.si)
         return self._targets[rounding]
 
     @cached_property
-    def _targets(self) -> dict[Rounding, Interval]:
-        return {}
+    def _targets(self) -> Mapping[Rounding, Interval]:
+        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""

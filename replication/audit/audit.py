@@ -5,7 +5,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
-from functools import cache, partial
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
@@ -25,10 +24,9 @@ from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.equations import assess_equation
-from replication.audit.explain import BackSolved, Explainer
+from replication.audit.explain import BackSolved
 from replication.audit.findings import EVIDENCE, Known, case
-from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
+from replication.audit.verdict import Assessment, Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, rounded
 
@@ -48,49 +46,14 @@ def audit_claim(name: str) -> r.ClaimRecord:
     return whole.claim(whole.ledger.claims[name])
 
 
-class Audit:
-    """The audit of one ledger; what several parts of its record need is computed once."""
-
-    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
-        self.ledger = ledger
-        self.judge = Judge(ledger, every_convention=every_convention)
-        self.explainer = Explainer(self.judge)
-        self.equation = cache(partial(assess_equation, ledger))
-        self.assessment = cache(self._assess)
-        self._shown = cache(self._shown_by)
-
-    def _assess(self, claim: Claim) -> Assessment:
-        """The verdict on one claim."""
-        if claim.kind == "remark":
-            return Assessment(claim, Verdict.REMARK)
-        if claim.within is not None:
-            constants = self.equation(claim.within).constants
-            if claim.id in constants and constants[claim.id].settled:
-                return Assessment(claim, constants[claim.id].verdict)
-        elif claim.computation is not None:
-            return self.judge.assess(claim)
-        sources = self._sources(claim.id, claim.target() if claim.printed else None)
-        if sources:
-            agrees = any(source.agrees for source in sources)
-            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
-        if claim.shown_by:
-            consistent = self._shown(claim) is not None
-            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
-        return Assessment(claim, Verdict.NOT_CHECKABLE)
-
-    # The record
+class Audit(Known):
+    """The audit of one ledger."""
 
     def record(self) -> r.Record:
         """Everything, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        known = Known(
-            self.judge,
-            self.explainer,
-            {name: self.assessment(claim) for name, claim in self.ledger.claims.items()},
-            {name: self.equation(name) for name in self.ledger.equations},
-        )
-        findings = [self._finding(known, finding) for finding in asserted.load().values()]
+        findings = [self._finding(finding) for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
         verdicts = [(c.id, c.verdict) for c in claims] + [(e.id, e.verdict) for e in equations]
         wrong = [name for name, verdict in verdicts if Verdict(verdict).is_failure]
@@ -110,12 +73,12 @@ class Audit:
                 for name in self.ledger.inferred
                 for centered in (False, True)
             ],
-            approaches=comparison.approaches(known),
-            sensitivity=[comparison.sensitivity(known, beta) for beta in comparison.BETAS],
-            scatter=comparison.scatter(known),
-            curves=comparison.curves(known),
-            velocity_curve=comparison.velocity_curve(known),
-            ladders=comparison.ladders(known),
+            approaches=comparison.approaches(self),
+            sensitivity=[comparison.sensitivity(self, beta) for beta in comparison.BETAS],
+            scatter=comparison.scatter(self),
+            curves=comparison.curves(self),
+            velocity_curve=comparison.velocity_curve(self),
+            ladders=comparison.ladders(self),
             blank_cells=list(self.ledger.blank),
             symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
             provenance=_provenance(),
@@ -154,6 +117,7 @@ class Audit:
         own = self._reading(claim, first) if first else _UNREAD
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         formula, mathml, by_hand = self._formula(claim, first)
+        shown = self.shown(claim)
         restates = claim.computation is not None and claim.computation.restates
         return _record(
             r.ClaimRecord,
@@ -174,7 +138,12 @@ class Audit:
             formula=formula,
             mathml=mathml,
             by_hand=by_hand,
-            shown_by=self._shown(claim),
+            shown_by=shown
+            and r.Shown(
+                claims=list(claim.shown_by),
+                interval=(float(shown[0] / claim.si), float(shown[1] / claim.si)),
+                unit=claim.unit,
+            ),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
             back_solved=[
@@ -220,10 +189,10 @@ class Audit:
         if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
             return wording.sources(self._sources(claim.id, claim.target()))
         if claim.shown_by:
-            shown = self._shown(claim)
+            shown = self.shown(claim)
             if shown is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            low, high = map(Fraction, shown.interval)
+            low, high = (Fraction(float(end / claim.si)) for end in shown)
             ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
             text = wording.quantity(ends, claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
@@ -276,32 +245,17 @@ class Audit:
         table = _math(f"<mtable>{(3 * row).format(*cells)}</mtable>")
         return " = ".join(texts), table, _by_hand(right, put, values, result)
 
-    # What a choice is shown to be
-
-    def _shown_by(self, claim: Claim) -> r.Shown | None:
-        """The values, in its unit, around a chosen number for which what it shows is as printed.
-
-        None if it shows nothing, or if the number itself puts one of those claims wrong.
-        """
-        claims = claim.shown_by
-        ends = self.explainer.admitted(claim.id, claims) if claims else None
-        return ends and r.Shown(
-            claims=list(claims),
-            interval=(float(ends[0] / claim.si), float(ends[1] / claim.si)),
-            unit=claim.unit,
-        )
-
     def _figures(self, claim: Claim) -> list[r.Figure]:
         """For a remark: the final depths at both steps, in both schemes."""
         if claim.kind != "remark":
             return []
-        known, figures = Known(self.judge, self.explainer, {}, {}), []
+        figures = []
         for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
             where = "initial" if scheme == "published" else "middle"
             with_what = f"beta = {beta}, drag at the {where} velocity"
             depths = []
             for name in ("a-step", "coarse-step"):
-                impact = case(known, beta, step=known[name])
+                impact = case(self, beta, step=self[name])
                 depths.append(sheet.run(impact, scheme).final_depth)
                 step = wording.quantity(self.ledger.claims[name].shown, "ns")
                 means = f"final depth at {step}, {with_what}"
@@ -369,9 +323,9 @@ class Audit:
             repairs=repairs,
         )
 
-    def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:
+    def _finding(self, finding: asserted.Finding) -> r.FindingRecord:
         try:
-            computed = EVIDENCE[finding.id](known)
+            computed = EVIDENCE[finding.id](self)
         except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
             computed = {}
         evidence = []

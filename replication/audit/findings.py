@@ -2,17 +2,17 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache, partial
 from statistics import NormalDist
 from typing import Any
 
 from reference.arithmetic import Number
 from reference.enclosure import enclose, holding, solve
-from reference.ledger import INFERRED, Convention, Ledger
+from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import Interval
 from reference.units import to_si
-from replication.audit.equations import EquationAssessment
+from replication.audit.equations import assess_equation
 from replication.audit.explain import BackSolved, Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict
 from replication.cases import claims_of_case
@@ -28,19 +28,42 @@ _MEAN_DEVIATION = math.sqrt(2 / math.pi)
 """Mean absolute deviation of a normal distribution over its standard deviation."""
 
 
-@dataclass(frozen=True, slots=True)
 class Known:
-    """What the evidence is computed from: the ledger, the verdicts on claims and on equations."""
+    """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
 
-    judge: Judge
-    explainer: Explainer
-    assessments: Mapping[str, Assessment]
-    equations: Mapping[str, EquationAssessment]
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger = ledger
+        self.judge = Judge(ledger, every_convention=every_convention)
+        self.explainer = Explainer(self.judge)
+        self.equation = cache(partial(assess_equation, ledger))
+        self.assessment = cache(self._assess)
+        self.shown = cache(self._shown)
 
-    @property
-    def ledger(self) -> Ledger:
-        """What is audited."""
-        return self.judge.ledger
+    def _assess(self, claim: Claim) -> Assessment:
+        """The verdict on one claim."""
+        if claim.kind == "remark":
+            return Assessment(claim, Verdict.REMARK)
+        if claim.within is not None:
+            constants = self.equation(claim.within).constants
+            if claim.id in constants and constants[claim.id].settled:
+                return Assessment(claim, constants[claim.id].verdict)
+        elif claim.computation is not None:
+            return self.judge.assess(claim)
+        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
+        if sources:
+            agrees = any(claim.target().meets(source.interval) for source in sources)
+            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
+        if claim.shown_by:
+            consistent = self.shown(claim) is not None
+            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
+        return Assessment(claim, Verdict.NOT_CHECKABLE)
+
+    def _shown(self, claim: Claim) -> tuple[Fraction, Fraction] | None:
+        """The values around a chosen number for which what it shows comes out as printed, in SI.
+
+        None if it shows nothing, or if the number itself puts one of those claims wrong.
+        """
+        return self.explainer.admitted(claim.id, claim.shown_by) if claim.shown_by else None
 
     def target(self, claim: str) -> Interval:
         """What agrees with a claim, in SI."""
@@ -56,8 +79,11 @@ class Known:
         return float(self.exact(name))
 
     def reading(self, claim: str, name: str = "") -> Reading:
-        """One reading of a claim."""
-        return next(r for r in self.assessments[claim].readings if r.name == name)
+        """One reading of a claim. Raises ArithmeticError where it has no value."""
+        for reading in self.assessment(self.ledger.claims[claim]).readings:
+            if reading.name == name:
+                return reading
+        raise ArithmeticError(f"{claim} has no value")
 
     def computed(self, claim: str, reading: str = "") -> float:
         """What a reading makes of a claim, in SI."""
@@ -79,15 +105,14 @@ def _exact_ratio(known: Known, **changed: float) -> float:
 
 
 def _headline(known: Known) -> Evidence:
-    own = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
-    table = [name for name, a in known.assessments.items() if a.claim.cell and a.readings]
-    pair = [known.assessments[f"frank-zook-{name}"] for name in ("rha", "stainless")]
-    factor = known.equations["eq16"].factor
+    claims = known.ledger.claims
+    model = [c for c in claims.values() if c.cell and c.computation and not c.computation.restates]
+    model += [claims[f"{what}-beta-{beta}"] for what in ("depth", "ratio") for beta in (3, 5)]
+    pair = [claims[f"frank-zook-{name}"] for name in ("rha", "stainless")]
+    factor = known.equation("eq16").factor
     return {
-        "model": all(
-            known.assessments[name].verdict is Verdict.REPRODUCED for name in (*own, *table)
-        ),
-        "pair": all(a.verdict is Verdict.NOT_REPRODUCED for a in pair),
+        "model": all(known.assessment(c).verdict is Verdict.REPRODUCED for c in model),
+        "pair": all(known.assessment(c).verdict is Verdict.NOT_REPRODUCED for c in pair),
         "together": _least_ratio(known, choices_exact=False) <= _printed_ratio(known)[1],
         "factor": Fraction(0) if factor is None else 1 / factor,
     }
@@ -166,7 +191,7 @@ def _pair(known: Known) -> Evidence:
 
 
 def _equation_16(known: Known) -> Evidence:
-    eq16 = known.equations["eq16"]
+    eq16 = known.equation("eq16")
     (must,) = eq16.constants["eq16-denominator"].needed
     over = {
         name: known[f"frank-zook-{name}"] / known.computed(f"frank-zook-{name}", _DERIVED)
@@ -218,7 +243,7 @@ def _values(known: Known) -> Evidence:
         "rha_derived": known.computed("frank-zook-rha", _DERIVED),
         "never": all(
             j.verdict is Verdict.NOT_REPRODUCED
-            for reading in known.assessments["frank-zook-rha"].readings
+            for reading in known.assessment(claims["rha"]).readings
             for j in reading.judgements
             if j.convention.choices_exact
         ),
@@ -332,12 +357,12 @@ def _two_schemes(known: Known) -> Evidence:
     found["reprinted"] = Fraction(f"{float(found['plain_coarse_5']):.2e}")
     found["middle_density"] = _middle_density(known)
     row, plain, middle = _first_difference(known)
-    table = [a for a in known.assessments.values() if a.claim.cell and a.claim.by_scheme]
+    table = [c for c in known.ledger.claims.values() if c.cell and c.by_scheme]
     found |= {"row": Fraction(row), "row_plain": plain, "row_middle": middle}
     found["table"] = all(
         j.verdict is Verdict.REPRODUCED
-        for a in table
-        for j in a.readings[0].judgements
+        for claim in table
+        for j in known.reading(claim.id).judgements
         if j.convention.rounding is Convention().rounding
     )
     found["order_plain"] = _order(known, "published")
@@ -630,7 +655,7 @@ def _minimum_velocity(known: Known) -> Evidence:
 def _wrong_reference(known: Known) -> Evidence:
     return {
         "stress": "Sigma" in known.ledger.printed_text("eq1"),
-        "follows": known.equations["eq6"].verdict is Verdict.REPRODUCED,
+        "follows": known.equation("eq6").verdict is Verdict.REPRODUCED,
         "times": _times(known, "equation 1 reduces"),
         "caption": _times(known, "500-m/s steel"),
     }

@@ -6,6 +6,7 @@ one of them would put wrong.
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import cache
 
 from reference.arithmetic import Floats
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
@@ -21,7 +22,7 @@ class Screen:
 
     def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
         self.ledger, self.assumed = ledger, assumed
-        self._prepared: dict[tuple[Claim, str], tuple[Function, dict[str, float], Interval]] = {}
+        self._prepared = cache(self._prepare)
 
     def agrees(
         self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
@@ -29,7 +30,7 @@ class Screen:
         """Whether a claim with a computation agrees, with some entries changed (SI)."""
         if claim.computations[reading].restates:
             return restates(self.ledger, claim, changed or {})
-        function, values, target = self._claim(claim, reading)
+        function, values, target = self._prepared(claim, reading)
         if changed:
             values = {name: float(changed.get(name, value)) for name, value in values.items()}
         try:
@@ -40,17 +41,14 @@ class Screen:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
 
-    def _claim(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
+    def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
         """What an agreement takes that no change of an entry changes."""
-        if (claim, reading) not in self._prepared:
-            known = self.assumed
-            values = {
-                name: float(known[name] if name in known else self.ledger.value(name))
-                for name in claim.entries
-            }
-            function = self.ledger.function(claim, reading=reading)
-            self._prepared[claim, reading] = function, values, claim.target()
-        return self._prepared[claim, reading]
+        known = self.assumed
+        values = {
+            name: float(known[name] if name in known else self.ledger.value(name))
+            for name in claim.entries
+        }
+        return self.ledger.function(claim, reading=reading), values, claim.target()
 
     def failing(self, names: Iterable[str]) -> set[str]:
         """Those of the claims that do not agree."""

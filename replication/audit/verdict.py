@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property, partial
 from itertools import product
 from math import prod
 from typing import Any
@@ -110,15 +110,12 @@ class Judge:
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
-        self._inferences: dict[tuple[str, bool], Inference] = {}
+        self._inferences = cache(partial(infer, ledger))
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
-        key = name, centered
-        if key not in self._inferences:
-            self._inferences[key] = infer(self.ledger, name, centered=centered)
-        return self._inferences[key]
+        return self._inferences(name, centered=centered)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:

@@ -23,18 +23,12 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--steps", metavar="X,X,...", help="steps, coarsest first (default: from 16 times --step)"
     )
+    levels, digits = shared.whole(2, MOST_STEPS), shared.whole(1, 15)
     command.add_argument(
-        "--levels",
-        type=shared.whole(2, MOST_STEPS),
-        default=8,
-        metavar="N",
-        help="number of steps, by halves (8)",
+        "--levels", type=levels, default=8, metavar="N", help="number of steps, by halves (8)"
     )
     command.add_argument(
-        "--digits",
-        type=shared.whole(1, 15),
-        metavar="N",
-        help="also find the largest step for N correct digits",
+        "--digits", type=digits, metavar="N", help="also find the largest step for N correct digits"
     )
     shared.output_options(command)
 
