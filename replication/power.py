@@ -124,14 +124,9 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
             yield Plant(name, true, text, kind)
 
 
-def planted(ledger: Ledger, plant: Plant) -> Ledger:
-    """A copy of the ledger with the misprint."""
-    return ledger.misprint(plant.entry, plant.text)
-
-
 def trial(truth: Audit, plant: Plant) -> Trial:
     """Judge one plant: all that depends on it, beside what the report itself gives there."""
-    ledger = planted(truth.ledger, plant)
+    ledger = truth.ledger.misprint(plant.entry, plant.text)
     claims = dependents(truth.ledger, plant.entry)
     wrong = set()
     for name in _equations(truth.ledger, plant):
@@ -212,16 +207,10 @@ def power(
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
     for plant in progress(chosen):
         outcome = trial(truth, plant)
-        for counts in (
-            result,
-            result.by_kind.setdefault(_kind(ledger, plant), Counts()),
-            result.by_edit.setdefault(plant.edit, Counts()),
-        ):
-            counts.add(outcome)
+        kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
+        result.add(outcome)
+        result.by_kind.setdefault(kind, Counts()).add(outcome)
+        result.by_edit.setdefault(plant.edit, Counts()).add(outcome)
         if outcome.visible and not outcome.detected:
             result.unnoticed.append(asdict(plant))
     return result
-
-
-def _kind(ledger: Ledger, plant: Plant) -> str:
-    return "equation" if plant.entry in ledger.equations else ledger.claims[plant.entry].kind

@@ -6,7 +6,7 @@ from statistics import NormalDist
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import Known, case, constant_pressure_ratio
+from replication.audit.findings import Known, case, constant_pressure_ratio, exact_ratio
 from replication.models import depth, motion, sheet, stream
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
@@ -39,7 +39,7 @@ def approaches(known: Known) -> list[r.Approach]:
                      computed=sheet.run(impact).normalized_depth,
                      printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
           for beta, impact in models),
-        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
+        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=exact_ratio(impact))
           for beta, impact in models),
         *(r.Approach(kind="constant pressure", name=f"beta = {beta}",
                      computed=constant_pressure_ratio(impact)) for beta, impact in models),
@@ -49,10 +49,6 @@ def approaches(known: Known) -> list[r.Approach]:
         quoted("CTH", "cth-ratio"),
         quoted("Autodyne", "autodyne-ratio"),
     ]  # fmt: skip
-
-
-def _ratio(impact: Impact) -> float:
-    return depth.final_depth(**impact.motion) / impact.radius
 
 
 # What the depth depends on
@@ -84,7 +80,7 @@ def _elasticities(impact: Impact) -> dict[str, float]:
     """
     p = impact.target_density * impact.velocity**2 / (2 * impact.target_resistance)
     c = 4 / 3 * impact.particle_density / impact.target_density * math.log1p(p)
-    y = _ratio(impact)
+    y = exact_ratio(impact)
     s = c / (y * y * (2 - y)) if y < 1 else c / y
     q = p / ((1 + p) * math.log1p(p))
     factors = (2 * q * s, 1.0, s, (q - 1) * s, -q * s, -q * s)
@@ -148,7 +144,9 @@ def scatter(known: Known) -> list[r.Scatter]:
             standard_deviation=deviation,
             mean_deviation=deviation * mean,
             points=[
-                r.ScatterPoint(share=share, velocity=v, ratio=_ratio(replace(impact, velocity=v)))
+                r.ScatterPoint(
+                    share=share, velocity=v, ratio=exact_ratio(replace(impact, velocity=v))
+                )
                 for share in (0.05, 0.5, 0.95)
                 for v in [law(share)]
             ],
@@ -191,7 +189,7 @@ def velocity_curve(known: Known) -> r.VelocityCurve:
     return r.VelocityCurve(
         velocity=velocities,
         sheet=[sheet.run(impact).normalized_depth for impact in cases],
-        exact=[_ratio(impact) for impact in cases],
+        exact=[exact_ratio(impact) for impact in cases],
     )
 
 

@@ -98,9 +98,8 @@ def case(known: Known, beta: int, **changed: float) -> Impact:
     return Impact(**{**inputs, **changed})
 
 
-def _exact_ratio(known: Known, **changed: float) -> float:
-    """The model's exact X/R [1] for beta = 5, with some inputs changed."""
-    impact = case(known, 5, **changed)
+def exact_ratio(impact: Impact) -> float:
+    """The model's exact X/R [1]."""
     return depth.final_depth(**impact.motion) / impact.radius
 
 
@@ -288,8 +287,8 @@ def _two_resistances(known: Known) -> Evidence:
         "fz_high": _derived(known, case(known, 5).target_resistance),
         "low": case(known, 3).target_resistance,
         "high": case(known, 5).target_resistance,
-        "model_stainless": _exact_ratio(known, resistance=known["fz-resistance-stainless"]),
-        "model_rha": _exact_ratio(known, resistance=known["fz-resistance-rha"]),
+        "model_stainless": exact_ratio(case(known, 5, resistance=known["fz-resistance-stainless"])),
+        "model_rha": exact_ratio(case(known, 5, resistance=known["fz-resistance-rha"])),
         "inertia": _inertia(known),
         "z": _drag(known),
     }
@@ -462,7 +461,7 @@ def _beta_and_flow_stress(known: Known) -> Evidence:
         "alpha": alpha,
         "beta": beta,
         "resistance": beta * stress,
-        "ratio": _exact_ratio(known, resistance=beta * stress),
+        "ratio": exact_ratio(case(known, 5, resistance=beta * stress)),
         "cavity_bulk": 2 / 3 + 2 * math.log(known.computed("walker-anderson-alpha")),
         "cavity": 2 / 3 + 2 * math.log(alpha),
         "cube": 2 * modulus / (3 * stress),
@@ -535,7 +534,7 @@ def _unlike_strengths(known: Known) -> Evidence:
     steel, code = known["autodyne-steel-yield"], known["autodyne-ratio"]
     found: dict[str, float] = {}
     for name, beta in (("low", 3), ("high", 5)):
-        ratio = _exact_ratio(known, resistance=known[f"depth-beta-{beta}-beta"] * steel)
+        ratio = exact_ratio(case(known, 5, resistance=known[f"depth-beta-{beta}-beta"] * steel))
         found |= {name: ratio, f"times_{name}": ratio / code}
     return found
 
@@ -574,7 +573,9 @@ def _cth_pressure(known: Known) -> Evidence:
 
 def _compared_velocity(known: Known) -> Evidence:
     speeds = {"first": "velocity-521", "second": "velocity-606", "least": "velocity-403"}
-    return {name: _exact_ratio(known, velocity=known[claim]) for name, claim in speeds.items()} | {
+    return {
+        name: exact_ratio(case(known, 5, velocity=known[claim])) for name, claim in speeds.items()
+    } | {
         "volume_high": crater.volume_ratio(known["ratio-beta-5"]),
         "volume_low": crater.volume_ratio(known["ratio-beta-3"]),
     }

@@ -16,14 +16,13 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import html5lib
-import jsonschema
 import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.ledger import load
-from replication.audit.record import Record, schema
+from replication.audit.record import Record
 from replication.audit.verdict import OPEN
 from replication.report import terminal
 from replication.report.facts import between
@@ -178,14 +177,11 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 # The other files
 
 
-def test_json_is_the_record_and_fits_its_schema(files: dict[str, bytes], record: Record) -> None:
+def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
     document = json.loads(files["audit.json"])
-    jsonschema.validate(document, schema())
     digest = document["provenance"]["sha256"].pop("workbook.xlsx")
     assert digest == sha256(BESIDE["workbook.xlsx"]).hexdigest()
     assert document == json.loads(msgspec.json.encode(record))
-    with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(document | {"counts": None}, schema())
 
 
 def test_every_claim_is_a_line_of_the_csv_with_all_digits(
