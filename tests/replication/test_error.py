@@ -266,25 +266,6 @@ def test_texts_for_reading(coldspray: Command) -> None:
     assert record["random"]["cases"] == 500
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of published"),
-        (["converge", "--steps", "1 ns"], "two steps or more"),
-        (["converge", "--levels", "1"], "--levels: a whole number from 2 to 40 is wanted"),
-        (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
-        (["converge", "--digits", "6"], "lower the stop velocity"),
-        (["sheet", "--scheme", "upwind"], "no scheme 'upwind'"),
-        (["stability", "--random", "0"], "--random: a whole number from 1 to 10,000,000 is wanted"),
-    ],
-)
-def test_bad_input(arguments: list[str], message: str, coldspray: Command) -> None:
-    status, out, err = coldspray(*arguments)
-    assert (status, out) == (2, "")
-    assert message in err
-    assert len(err.splitlines()) == 1
-
-
 def test_a_sheet_that_reverses_says_so(coldspray: Command) -> None:
     _, out, err = coldspray("sheet", "--csv")
     assert "reverses the velocity to -3.316 m/s" in err

@@ -19,6 +19,7 @@ from replication.audit.audit import audit
 from replication.audit.record import ClaimRecord, Record, schema
 from replication.audit.verdict import Verdict
 from replication.cases import BETA_3, BETA_5, INPUTS, claims_of_case
+from replication.models.impact import Impact
 from replication.plain import json_text
 
 LEDGER = load()
@@ -162,15 +163,8 @@ def test_the_cases_are_the_ledgers(case: object, beta: int) -> None:
 
 
 def test_defaults_of_the_model_are_the_reports() -> None:
-    from dataclasses import fields
-
-    from replication.models.impact import Impact
-
-    own = {f.name: f.default for f in fields(Impact) if f.name in ("step", "stop_velocity")}
-    assert own == {
-        "step": float(LEDGER.value("a-step")),
-        "stop_velocity": float(LEDGER.value("a-stop-velocity")),
-    }
+    bare = Impact(**BETA_5.motion)
+    assert (bare.step, bare.stop_velocity) == (BETA_5.step, BETA_5.stop_velocity)
 
 
 # The same bytes
