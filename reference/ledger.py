@@ -559,6 +559,25 @@ def load() -> Ledger:
     return read(document, text, sources["source"])
 
 
+def claims_of_case(beta: int) -> dict[str, str]:
+    """The claims that print the inputs of the report's case with this beta.
+
+    >>> claims_of_case(5)["beta"]
+    'depth-beta-5-beta'
+    """
+    return {
+        "velocity": "a1-initial-velocity",
+        "radius": "a1-radius",
+        "particle_density": "a1-density",
+        # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside.
+        "target_density": INFERRED + "target-density",
+        "beta": f"depth-beta-{beta}-beta",
+        "flow_stress": "flow-stress",
+        "step": "a-step",
+        "stop_velocity": "a-stop-velocity",
+    }
+
+
 def read(
     document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
 ) -> Ledger:

@@ -223,10 +223,9 @@ def record(outcomes: Sequence[Outcome], worst: Worst) -> dict[str, Any]:
     """As JSON. Inputs that are no finite numbers are given as text."""
     cases = [asdict(outcome) for outcome in outcomes]
     for case in cases:
-        case["changes"] = {
-            name: x if math.isfinite(x) else str(x) for name, x in case["changes"].items()
-        }
-    return {"cases": cases, "random": asdict(worst)}
+        given = case["changes"].items()
+        case["changes"] = {name: x if math.isfinite(x) else str(x) for name, x in given}
+    return {"cases": cases, "random": worst}
 
 
 def text(outcomes: Sequence[Outcome], worst: Worst) -> str:

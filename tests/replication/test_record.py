@@ -13,12 +13,12 @@ import jsonschema
 import msgspec
 import pytest
 
-from reference.ledger import INFERRED, load
+from reference.ledger import INFERRED, claims_of_case, load
 from reference.printed import parse
 from replication.audit.audit import audit
 from replication.audit.record import ClaimRecord, Record, schema
 from replication.audit.verdict import Verdict
-from replication.cases import BETA_3, BETA_5, INPUTS, claims_of_case
+from replication.cases import BETA_3, BETA_5, INPUTS
 from replication.models.impact import Impact
 from replication.plain import json_text
 
