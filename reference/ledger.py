@@ -357,6 +357,11 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         """Whether it depends on the scheme of the sheet."""
         return any(computation.by_scheme for computation in self.computations.values())
 
+    @cached_property
+    def uses(self) -> list[str]:
+        """The printed equations that it is computed with, sorted."""
+        return sorted({e for c in self.computations.values() for e in c.equations})
+
 
 class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
     """One printed equation: its table of the file, and where it stands."""

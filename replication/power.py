@@ -15,7 +15,7 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.edits import edits, equation_edits
+from replication.audit.edits import edits_of
 from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
 from replication.audit.verdict import OPEN, Verdict
@@ -39,7 +39,6 @@ class Trial:
     are named; `first`: it is the first of them; `accused`: the first repair changes another entry.
     """
 
-    plant: Plant
     visible: bool
     failing: frozenset[str]
     repaired: bool = False
@@ -114,14 +113,9 @@ def measured() -> Power:
 
 def plants(ledger: Ledger) -> Iterator[Plant]:
     """Every plant: all edits of all printed numbers and equations."""
-    for claim in ledger.claims.values():
-        if claim.printed is not None:
-            for text, kind in edits(claim.text):
-                yield Plant(claim.id, claim.text, text, kind)
-    for name in ledger.equations:
-        true = ledger.printed_text(name)
-        for text, kind in equation_edits(true, ledger.written, ledger.dimensions):
-            yield Plant(name, true, text, kind)
+    for name in (*ledger.claims, *ledger.equations):
+        for text, kind in edits_of(ledger, name):
+            yield Plant(name, ledger.printed_text(name), text, kind)
 
 
 def trial(truth: Audit, plant: Plant) -> Trial:
@@ -143,11 +137,10 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     }
     visible = bool(failing) or _visible(truth, ledger, claims)
     if not failing:
-        return Trial(plant, visible, frozenset())
+        return Trial(visible, frozenset())
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     return Trial(
-        plant,
         visible,
         frozenset(failing),
         repaired=any(true),

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import pairwise
 
+from reference.ledger import Ledger
 from reference.printed import parse
 from reference.units import Dimension
 
@@ -19,6 +20,14 @@ EQUATION_EDITS = (
 
 _LEADING_ZERO = re.compile(r"~?\s*0\d")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
+
+
+def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
+    """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
+    text = ledger.printed_text(name)
+    if name in ledger.equations:
+        return equation_edits(text, ledger.written, ledger.dimensions)
+    return edits(text) if ledger.claims[name].printed is not None else iter(())
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:

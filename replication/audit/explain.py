@@ -9,7 +9,7 @@ from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
-from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
+from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
 from replication.audit.equations import follows
 from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.screen import Screen, dependents
@@ -128,19 +128,14 @@ class Explainer:
         )[:_SHOWN]  # fmt: skip
 
     def _repairs(self, name: str, entry: str) -> Iterator[RepairRecord]:
-        ledger, printed = self.ledger, self.ledger.printed_text(entry)
-        if entry in ledger.equations:
-            texts = equation_edits(printed, ledger.written, ledger.dimensions)
-        else:
-            texts = edits(printed) if ledger.claims[entry].printed is not None else iter(())
-        for text, kind in texts:
+        for text, kind in edits_of(self.ledger, entry):
             reading = self._mends(name, entry, text)
             if reading is not None:
                 yield RepairRecord(
                     entry=entry,
-                    title=ledger.title(entry),
+                    title=self.ledger.title(entry),
                     reading=reading,
-                    printed=printed,
+                    printed=self.ledger.printed_text(entry),
                     text=text,
                     kind=kind,
                     failing=sorted(self._failing(entry, text)),
@@ -161,9 +156,8 @@ class Explainer:
                 ]
         against = [claim.against] if claim.against else []
         within = [claim.within] if claim.within else []
-        used = {e for c in claim.computations.values() for e in c.equations}
-        constants = [c for e in sorted(used) for c in self.ledger.constants_of(e)]
-        return list(dict.fromkeys([name, *entries, *against, *within, *sorted(used), *constants]))
+        constants = [c for e in claim.uses for c in self.ledger.constants_of(e)]
+        return list(dict.fromkeys([name, *entries, *against, *within, *claim.uses, *constants]))
 
     def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
@@ -265,8 +259,7 @@ class Explainer:
 
     def _slips(self, claim: Claim) -> list[SlipRecord]:
         """What the slips of the claim's equations make of it."""
-        used = {e for c in claim.computations.values() for e in c.equations}
-        return [self._tried(claim, slip) for slip in self.ledger.slips if slip.equation in used]
+        return [self._tried(claim, s) for s in self.ledger.slips if s.equation in claim.uses]
 
     def _tried(self, claim: Claim, slip: Slip) -> SlipRecord:
         ledger = self.ledger

@@ -87,7 +87,7 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         if claim.id == name
         or name in claim.entries
         or claim.against == name
-        or (within and any(within in c.equations for c in claim.computations.values()))
+        or within in claim.uses
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
