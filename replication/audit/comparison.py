@@ -1,6 +1,7 @@
 """What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from statistics import NormalDist
 
@@ -19,10 +20,10 @@ def approaches(known: Known) -> list[r.Approach]:
     claims = known.ledger.claims
 
     def computed(kind: str, name: str, claim: str, reading: str = "") -> r.Approach:
-        value = known.reading(claim, reading).computed
-        return r.Approach(
-            kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim
-        )
+        printed, value = claims[claim].shown, None
+        with suppress(ArithmeticError):  # a formula without a value, in a report with a misprint
+            value = known.reading(claim, reading).computed
+        return r.Approach(kind=kind, name=name, computed=value, printed=printed, claim=claim)
 
     def quoted(name: str, claim: str) -> r.Approach:
         return r.Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
