@@ -62,14 +62,14 @@ def enclose(function: Function, box: Box) -> Range:
     """
     wide = [name for name, (low, high) in box.items() if low != high]
     value, slopes = _tangent(function, box, wide) if wide else (None, {})
-    signs = {name: _sign(slopes.get(name)) for name in wide}
+    signs = _signs(slopes, wide)
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign for name, sign in signs.items() if sign}
     if not fixed:
         return Range(*_best(function, box, value, slopes), signs)
     lower, upper = (
         _points({
-            name: ends if name not in fixed else ends[_end(fixed[name], top)]
+            name: ends if name not in fixed else ends[top if fixed[name] > 0 else 1 - top]
             for name, ends in box.items()
         })
         for top in (0, 1)
@@ -92,11 +92,6 @@ def _best(
         steepest = max(map(abs, _INTERVALS.ends(slope)))
         reach += steepest * (box[name][1] - box[name][0]) / 2
     return max(low, at_middle[0] - reach), min(high, at_middle[1] + reach)
-
-
-def _end(sign: int, top: int) -> int:
-    """Which end of a rising or falling input gives the least (top 0) or greatest value (1)."""
-    return top if sign > 0 else 1 - top
 
 
 def _points(part: Mapping[str, Fraction | tuple[Fraction, Fraction]]) -> Part:
@@ -132,11 +127,9 @@ def _tangent(
     return value.value, {name: value.slopes.get(name, zero) for name in wide}
 
 
-def _sign(slope: Number | None) -> int:
+def _signs(slopes: Mapping[str, Number], wide: Sequence[str]) -> dict[str, int]:
     """Whether a function is proven to rise or fall; no slope is known where it may jump."""
-    if slope is None:
-        return 0
-    return _INTERVALS.sign(slope)
+    return {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,7 +277,10 @@ def solve(
     outer: list[tuple[Fraction, Fraction]] = []
     while queue:
         part, budget = queue.popleft(), budget - 1
-        range_ = _range_or_none(function, {name: part})
+        try:
+            range_ = enclose(function, {name: part})
+        except ArithmeticError:  # no value, or no bounded one, on some of it
+            range_ = None
         if range_ is not None and target.excludes(*range_.ends):
             continue
         if range_ is not None and target.encloses(*range_.ends):
@@ -302,14 +298,6 @@ def solve(
         else:
             outer.append(part)
     return Solutions(search, _merged(inner), _merged(outer))
-
-
-def _range_or_none(function: Function, box: Box) -> Range | None:
-    """A proven range, or None where the function has no value, or no bounded one, on some of it."""
-    try:
-        return enclose(function, box)
-    except ArithmeticError:
-        return None
 
 
 def _crossings(
@@ -406,7 +394,7 @@ def extent(
     monotone = []
     for function, target in constraints:
         _, slopes = _tangent(function, box, wide)
-        signs = {key: _sign(slopes.get(key)) for key in wide}
+        signs = _signs(slopes, wide)
         monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
 
     def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:

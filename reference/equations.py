@@ -269,6 +269,7 @@ def dimension(
 class Notation:
     """How the parts of an expression are put together as text."""
 
+    symbol: Callable[[str], str]
     number: Callable[[str], str]
     bracket: Callable[[str], str]
     fraction: Callable[[str, str], str]
@@ -283,7 +284,16 @@ class Notation:
     """How tightly what is over and under a fraction bar must bind to go without brackets."""
 
 
+def _mathml_symbol(shown: str) -> str:
+    """What stands for a symbol, a number perhaps; after an underscore comes its subscript."""
+    if shown[0].isdigit():
+        return f"<mn>{shown}</mn>"
+    name, _, below = shown.partition("_")
+    return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
+
+
 MATHML = Notation(
+    symbol=_mathml_symbol,
     number=lambda text: f"<mn>{text}</mn>",
     bracket=lambda inner: f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>",
     fraction=lambda over, under: f"<mfrac>{over}{under}</mfrac>",
@@ -297,6 +307,7 @@ MATHML = Notation(
     stroke=(0, 0),
 )
 PLAIN = Notation(
+    symbol=str,
     number=str,
     bracket=lambda inner: f"({inner})",
     fraction=lambda over, under: f"{over}/{under}",
@@ -335,7 +346,7 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "number":
             return notation.number(str(node.value))
         case "symbol":
-            return shown[node.name]
+            return notation.symbol(shown[node.name])
         case "negative":
             return notation.row(notation.minus + part(parts[0], 2))
         case "sum":

@@ -10,7 +10,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache, reduce
@@ -20,6 +20,7 @@ from operator import mul
 from typing import Any, Literal, TypeVar
 
 import msgspec
+from msgspec.structs import asdict, replace
 
 from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation, Formulas
@@ -249,9 +250,8 @@ class Place:
         return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
-@dataclass(frozen=True, eq=False)
-class Claim:
-    """One printed number, and what is claimed of it.
+class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
+    """One printed number: its table of the file, and what follows from it.
 
     `computations` has the computation as printed under the name "", and each other reading;
     `inputs` names for each input of them the entries whose product it is; `given` is the reason why
@@ -260,31 +260,14 @@ class Claim:
     the equation that the number is a constant of.
     """
 
-    entry: ClaimEntry
     text: str
     place: Place
     printed: Printed | None
     computations: Mapping[str, Computation]
     inputs: Mapping[str, tuple[str, ...]]
-    given: str | None
     within: str | None
-    chosen: bool = False
+    chosen: bool
     bound: Fraction | None = None
-
-    @property
-    def id(self) -> str:
-        """What everything calls it."""
-        return self.entry.id
-
-    @property
-    def title(self) -> str:
-        """What the number is."""
-        return self.entry.title
-
-    @property
-    def unit(self) -> str:
-        """Its unit."""
-        return self.entry.unit
 
     @property
     def shown(self) -> str:
@@ -306,37 +289,35 @@ class Claim:
     @property
     def is_exact(self) -> bool:
         """Whether the text is the value itself under every convention."""
-        return self.entry.exact or self.entry.kind == "constant"
+        return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
         if self.bound is not None:
-            closed = self.entry.relation in ("<=", ">=")
-            if self.entry.relation in (">", ">="):
+            closed = self.relation in ("<=", ">=")
+            if self.relation in (">", ">="):
                 return Interval(self.bound, None, closed, False)
             return Interval(None, self.bound, False, closed)
         if self.printed is None:
             raise ValueError(f"claim {self.id!r} prints no number")
         if self.is_exact:
             return Interval.point(self.printed.value)
-        if self.entry.kind == "approximation":
+        if self.kind == "approximation":
             return self.printed.about()
         return self.printed.interval(rounding)
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
-        if rounding not in self._targets:
-            self._targets[rounding] = self.interval(rounding).scaled(self.si)
         return self._targets[rounding]
 
     @cached_property
-    def _targets(self) -> dict[Rounding, Interval]:
-        return {}
+    def _targets(self) -> Mapping[Rounding, Interval]:
+        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
         assert self.printed is not None
-        in_header = self.entry.cell is not None and self.entry.cell.startswith("B")
+        in_header = self.cell is not None and self.cell.startswith("B")
         if (
             self.is_exact
             or self.printed.quantum == 0
@@ -376,18 +357,16 @@ class Claim:
         """Whether it depends on the scheme of the sheet."""
         return any(computation.by_scheme for computation in self.computations.values())
 
+    @cached_property
+    def uses(self) -> list[str]:
+        """The printed equations that it is computed with, sorted."""
+        return sorted({e for c in self.computations.values() for e in c.equations})
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Equation:
-    """One printed equation: where it stands and what it is derived from."""
 
-    entry: EquationEntry
+class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
+    """One printed equation: its table of the file, and where it stands."""
+
     place: Place
-
-    @property
-    def id(self) -> str:
-        """What everything calls it."""
-        return self.entry.id
 
 
 class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
@@ -472,7 +451,7 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
     def title(self, name: str) -> str:
         """What an entry is, in words."""
         equation = self.equations.get(name)
-        return equation.entry.title if equation else self._input(name).title
+        return equation.title if equation else self._input(name).title
 
     def unit(self, name: str) -> str:
         """The unit of an input."""
@@ -497,8 +476,7 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """The least and the greatest value of an entry, in SI, to search, and why these."""
-        entry = self._input(name)
-        key = entry.quantity if isinstance(entry, Inferred) else entry.entry.quantity
+        key = self._input(name).quantity
         if key is None:
             value = self.value(name)
             ends = sorted((value / 10, value * 10)) if value else [Fraction(-1), Fraction(1)]
@@ -522,7 +500,7 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
         }
         inputs = {key: names for key, names in claim.inputs.items() if key not in settings}
         if computation.by_row:
-            settings["row"] = claim.entry.row
+            settings["row"] = claim.row
         if computation.by_scheme:
             settings["centered"] = centered
 
@@ -549,11 +527,11 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
             claims = dict(claims)
             claims[name] = replace(claims[name], text=text, printed=parse(text))
             for claim in list(claims.values()):
-                if name in (claim.id, claim.entry.against):
+                if name in (claim.id, claim.against):
                     claims[claim.id] = replace(claim, bound=_bound(claim, claims))
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
-        copy = msgspec.structs.replace(self, claims=claims, misprinted=misprinted)
+        copy = replace(self, claims=claims, misprinted=misprinted)
         # What no text decides, and all other equations, are as they were.
         kept = ("written", "dimensions", "_inside")
         copy.__dict__.update({key: getattr(self, key) for key in kept})
@@ -586,6 +564,25 @@ def load() -> Ledger:
     return read(document, text, sources["source"])
 
 
+def claims_of_case(beta: int) -> dict[str, str]:
+    """The claims that print the inputs of the report's case with this beta.
+
+    >>> claims_of_case(5)["beta"]
+    'depth-beta-5-beta'
+    """
+    return {
+        "velocity": "a1-initial-velocity",
+        "radius": "a1-radius",
+        "particle_density": "a1-density",
+        # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside.
+        "target_density": INFERRED + "target-density",
+        "beta": f"depth-beta-{beta}-beta",
+        "flow_stress": "flow-stress",
+        "step": "a-step",
+        "stop_velocity": "a-stop-velocity",
+    }
+
+
 def read(
     document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
 ) -> Ledger:
@@ -604,7 +601,9 @@ def read(
         with naming(f"equation {equation.id!r}"):
             if equation.kind == "derived" and equation.id not in DERIVATIONS:
                 raise ValueError("nothing in reference/derivations.py derives it")
-            equations[equation.id] = Equation(equation, _place(text, equation.quote))
+            equations[equation.id] = Equation(
+                **asdict(equation), place=_place(text, equation.quote)
+            )
     claims: dict[str, Claim] = {}
     for entry in tables.claim_entries:
         with naming(f"claim {entry.id!r}"):
@@ -729,8 +728,9 @@ def _claim(
         rests_on = {**_known("group", group, tables.groups), **rests_on}
     if rests_on and not readings:
         raise ValueError("rests_on needs computed_by")
+    given = None if entry.given is None else _known("reason", entry.given, tables.reasons)
     return Claim(
-        entry=entry,
+        **{**asdict(entry), "given": given},
         text=words,
         place=place,
         printed=None if entry.kind in ("comparison", "remark") else parse(words),
@@ -738,8 +738,8 @@ def _claim(
             key: _known("computation", name, COMPUTATIONS) for key, name in readings.items()
         },
         inputs={key: tuple(names.split(" * ")) for key, names in rests_on.items()},
-        given=None if entry.given is None else _known("reason", entry.given, tables.reasons),
         within=within,
+        chosen=entry.given == "choice",
     )
 
 
@@ -753,7 +753,7 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
     chosen: set[str] = set()
     for claim in order:
         repeats = claim.computation is COMPUTATIONS["same_as"]
-        if claim.entry.given == "choice" or (repeats and not chosen.isdisjoint(claim.entries)):
+        if claim.chosen or (repeats and not chosen.isdisjoint(claim.entries)):
             chosen.add(claim.id)
     completed = {}
     for name, claim in claims.items():
@@ -765,14 +765,14 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
 
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
     """The number that a claim compares with, its own or another claim's."""
-    other, against = claim, claim.entry.against
+    other, against = claim, claim.against
     if against is not None:
         other = _known("number", against, claims)
         if other.printed is None:
             raise ValueError(f"there is no number {against!r} to compare with")
         if other.unit != claim.unit:
             raise ValueError(f"is in {claim.unit}, but {against} in {other.unit}")
-    return None if claim.entry.relation is None or other.printed is None else other.printed.value
+    return None if claim.relation is None or other.printed is None else other.printed.value
 
 
 # What does not fit between entries
@@ -783,7 +783,7 @@ def _check(ledger: Ledger) -> None:
         for computation in claim.computations.values():
             with naming(f"claim {claim.id!r}, {computation.name}"):
                 _check_computation(claim, computation, ledger)
-        for name in claim.entry.shown_by:
+        for name in claim.shown_by:
             if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
                 raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
     for key, inferred in ledger.inferred.items():
@@ -824,7 +824,7 @@ def _check_source(source: Source, ledger: Ledger) -> None:
 
 def _check_computation(claim: Claim, computation: Computation, ledger: Ledger) -> None:
     """Its row, the names of its inputs, and their units."""
-    if computation.by_row != (claim.entry.row is not None):
+    if computation.by_row != (claim.row is not None):
         raise ValueError("needs a row" if computation.by_row else "takes no row")
     expected = computation.inputs
     if "each" in expected:

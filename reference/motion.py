@@ -175,10 +175,11 @@ class Trajectory:
         if s >= 1:
             return self.context.zero
         panels = [s, *(edge for edge in self._edges if s < edge < 1), self.context.one]
-        return self.radius / self.velocity * self.context.quad(self._slowness, panels)
-
-    def _slowness(self, s: Number) -> Number:
-        return 2 * self._final * s / self._velocity(self._final * s * s)
+        final = self._final
+        slowness = self.context.quad(
+            lambda s: 2 * final * s / self._velocity(final * s * s), panels
+        )
+        return self.radius / self.velocity * slowness
 
     @cached_property
     def _edges(self) -> list[Number]:

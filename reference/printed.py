@@ -171,7 +171,8 @@ class Printed:
         else:
             # Just below a power of ten, digits that are counted stand ten times closer.
             counted = self.floating or (self.quantum and quantum != self.quantum)
-            below = quantum / 10 if counted and _is_power_of_ten(size / quantum) else quantum
+            closer = counted and re.fullmatch("10*", str(size / quantum))
+            below = quantum / 10 if closer else quantum
             low, high = size - below / 2, size + quantum / 2
             even = size / quantum % 2 == 0
             # Below a power of ten the neighbor ends in 9, which is odd.
@@ -198,10 +199,6 @@ class Printed:
             return self.interval(quantum=Fraction(1))
         n = 1 / self.value
         return Interval((1 / n + 1 / (n + 1)) / 2, (1 / n + 1 / (n - 1)) / 2)
-
-
-def _is_power_of_ten(number: Fraction) -> bool:
-    return number.denominator == 1 and str(number.numerator).rstrip("0") == "1"
 
 
 _WORDS = {

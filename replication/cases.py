@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from reference.ledger import INFERRED, load
+from reference.ledger import claims_of_case, load
 from replication.models.impact import Impact
 from replication.reading import name_of, parse_toml, quoted, read_file, read_number
 
@@ -22,26 +22,11 @@ INPUTS = {
 }
 """Every input of a case and the SI unit that a plain number is taken to be in."""
 
-_CLAIMS = {
-    "velocity": "a1-initial-velocity",
-    "radius": "a1-radius",
-    "particle_density": "a1-density",
-    # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside it.
-    "target_density": INFERRED + "target-density",
-    "flow_stress": "flow-stress",
-    "step": "a-step",
-    "stop_velocity": "a-stop-velocity",
-}
-"""Where the report prints the inputs that its two cases share."""
 
-
-def _report_case(beta: str) -> Impact:
-    claims = {**_CLAIMS, "beta": beta}
-    return Impact(**{name: float(load().value(claim)) for name, claim in claims.items()})
-
-
-BETA_3 = _report_case("depth-beta-3-beta")
-BETA_5 = _report_case("depth-beta-5-beta")
+BETA_3, BETA_5 = (
+    Impact(**{name: float(load().value(claim)) for name, claim in claims_of_case(beta).items()})
+    for beta in (3, 5)
+)
 CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 
 

@@ -7,7 +7,7 @@ route than the audit's proofs. Then the audit judges what depends on it.
 
 import random
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from importlib import resources
 
@@ -15,10 +15,10 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.edits import edits, equation_edits
+from replication.audit.edits import edits_of
 from replication.audit.equations import assess_equation
 from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import Verdict
+from replication.audit.verdict import OPEN, Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,6 @@ class Trial:
     are named; `first`: it is the first of them; `accused`: the first repair changes another entry.
     """
 
-    plant: Plant
     visible: bool
     failing: frozenset[str]
     repaired: bool = False
@@ -85,14 +84,8 @@ class Power(Counts, kw_only=True):
     def table(self) -> list[tuple[str, ...]]:
         """Heads and rates in percent of what is visible: all, by kind of entry, by kind of edit."""
         heads = (
-            "",
-            "planted",
-            "visible",
-            "noticed",
-            "text named",
-            "named first",
-            "accused wrongly",
-        )
+            "", "planted", "visible", "noticed", "text named", "named first", "accused wrongly",
+        )  # fmt: skip
         kinds = [(f"in {name}", self.by_kind[name]) for name in sorted(self.by_kind)]
         edits = [(f"by {name}", self.by_edit[name]) for name in sorted(self.by_edit)]
         return [heads, *(_row(name, counts) for name, counts in [("all", self), *kinds, *edits])]
@@ -120,24 +113,14 @@ def measured() -> Power:
 
 def plants(ledger: Ledger) -> Iterator[Plant]:
     """Every plant: all edits of all printed numbers and equations."""
-    for claim in ledger.claims.values():
-        if claim.printed is not None:
-            for text, kind in edits(claim.text):
-                yield Plant(claim.id, claim.text, text, kind)
-    for name in ledger.equations:
-        true = ledger.printed_text(name)
-        for text, kind in equation_edits(true, ledger.written, ledger.dimensions):
-            yield Plant(name, true, text, kind)
-
-
-def planted(ledger: Ledger, plant: Plant) -> Ledger:
-    """A copy of the ledger with the misprint."""
-    return ledger.misprint(plant.entry, plant.text)
+    for name in (*ledger.claims, *ledger.equations):
+        for text, kind in edits_of(ledger, name):
+            yield Plant(name, ledger.printed_text(name), text, kind)
 
 
 def trial(truth: Audit, plant: Plant) -> Trial:
     """Judge one plant: all that depends on it, beside what the report itself gives there."""
-    ledger = planted(truth.ledger, plant)
+    ledger = truth.ledger.misprint(plant.entry, plant.text)
     claims = dependents(truth.ledger, plant.entry)
     wrong = set()
     for name in _equations(truth.ledger, plant):
@@ -154,11 +137,10 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     }
     visible = bool(failing) or _visible(truth, ledger, claims)
     if not failing:
-        return Trial(plant, visible, frozenset())
+        return Trial(visible, frozenset())
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     return Trial(
-        plant,
         visible,
         frozenset(failing),
         repaired=any(true),
@@ -167,13 +149,7 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     )
 
 
-_WORSE = {
-    Verdict.NOT_REPRODUCED,
-    Verdict.INCONSISTENT,
-    Verdict.WITHIN_ROUNDING,
-    Verdict.UNDECIDED,
-    Verdict.DIFFERS,
-}
+_WORSE = {*OPEN, Verdict.DIFFERS}
 """Verdicts by which a reader is told that something is wrong, or may be."""
 
 
@@ -224,18 +200,10 @@ def power(
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
     for plant in progress(chosen):
         outcome = trial(truth, plant)
-        for counts in (
-            result,
-            result.by_kind.setdefault(_kind(ledger, plant), Counts()),
-            result.by_edit.setdefault(plant.edit, Counts()),
-        ):
-            counts.add(outcome)
+        kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
+        result.add(outcome)
+        result.by_kind.setdefault(kind, Counts()).add(outcome)
+        result.by_edit.setdefault(plant.edit, Counts()).add(outcome)
         if outcome.visible and not outcome.detected:
-            result.unnoticed.append(
-                {"entry": plant.entry, "true": plant.true, "text": plant.text, "edit": plant.edit}
-            )
+            result.unnoticed.append(asdict(plant))
     return result
-
-
-def _kind(ledger: Ledger, plant: Plant) -> str:
-    return "equation" if plant.entry in ledger.equations else ledger.claims[plant.entry].entry.kind

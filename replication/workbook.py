@@ -546,14 +546,14 @@ class _Builder:
         """
         held: dict[str, Value] = {}
         for claim in audit.computed_claims(self.ledger):
-            value = values[plan.cell(place_of(str(claim.entry.workbook))).key]
+            value = values[plan.cell(place_of(str(claim.workbook))).key]
             held[f"audit.{claim.id}.computed"] = value
             held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
         verdicts = [value for key, value in held.items() if key.endswith(".verdict")]
         for text, what in audit.KINDS:
             held[f"audit.{what}"] = held[f"overview.audit_{what}"] = float(verdicts.count(text))
         for name in (*findings.failing, *findings.differing):
-            if self.ledger.claims[name].entry.workbook:
+            if self.ledger.claims[name].workbook:
                 held[f"overview.{name}"] = held[f"audit.{name}.computed"]
         for claim in self.ledger.claims.values():
             if claim.place.cell and claim.printed:

@@ -9,21 +9,24 @@ from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
 from math import inf, isclose, nextafter
+from types import SimpleNamespace
+from typing import Any, TypeVar
+
+import msgspec
 
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.computations import SYMBOLS
 from reference.equations import MATHML, PLAIN, EquationError, Node, Notation, evaluate, rendered
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source
+from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.equations import EquationAssessment, assess_equation
-from replication.audit.explain import BackSolved, Explainer
+from replication.audit.explain import BackSolved
 from replication.audit.findings import EVIDENCE, Known, case
-from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
+from replication.audit.verdict import Assessment, Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, rounded
 
@@ -43,64 +46,22 @@ def audit_claim(name: str) -> r.ClaimRecord:
     return whole.claim(whole.ledger.claims[name])
 
 
-class Audit:
-    """The audit of one ledger; what several parts of its record need is computed once."""
-
-    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
-        self.ledger = ledger
-        self.judge = Judge(ledger, every_convention=every_convention)
-        self.explainer = Explainer(self.judge)
-        self._equations: dict[str, EquationAssessment] = {}
-        self._assessments: dict[str, Assessment] = {}
-        self._shown_values: dict[str, r.Shown | None] = {}
-
-    def equation(self, name: str) -> EquationAssessment:
-        """The verdict on one equation."""
-        if name not in self._equations:
-            self._equations[name] = assess_equation(self.ledger, name)
-        return self._equations[name]
-
-    def assessment(self, claim: Claim) -> Assessment:
-        """The verdict on one claim."""
-        if claim.id not in self._assessments:
-            self._assessments[claim.id] = self._assess(claim)
-        return self._assessments[claim.id]
-
-    def _assess(self, claim: Claim) -> Assessment:
-        if claim.entry.kind == "remark":
-            return Assessment(claim, Verdict.REMARK)
-        if claim.within is not None:
-            constants = self.equation(claim.within).constants
-            if claim.id in constants and constants[claim.id].settled:
-                return Assessment(claim, constants[claim.id].verdict)
-        elif claim.computation is not None:
-            return self.judge.assess(claim)
-        sources = self._sources(claim.id, claim.target() if claim.printed else None)
-        if sources:
-            agrees = any(source.agrees for source in sources)
-            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
-        if claim.entry.shown_by:
-            consistent = self._shown(claim) is not None
-            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
-        return Assessment(claim, Verdict.NOT_CHECKABLE)
-
-    # The record
+class Audit(Known):
+    """The audit of one ledger."""
 
     def record(self) -> r.Record:
         """Everything, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        known = Known(self.judge, self.explainer, self._assessments, self._equations)
-        findings = [self._finding(known, finding) for finding in asserted.load().values()]
+        findings = [self._finding(finding) for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
         verdicts = [(c.id, c.verdict) for c in claims] + [(e.id, e.verdict) for e in equations]
         wrong = [name for name, verdict in verdicts if Verdict(verdict).is_failure]
         failing = len(self.ledger.claims.keys() & wrong)
-        report = self.ledger.report
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else f"{failing} numbers fail.",
-            report=r.ReportRecord(title=report.title, author=report.author, year=report.year),
+            report=_record(r.ReportRecord, self.ledger.report),
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=self._counts(claims, equations),
             culprit=self.explainer.culprit(wrong),
@@ -112,12 +73,12 @@ class Audit:
                 for name in self.ledger.inferred
                 for centered in (False, True)
             ],
-            approaches=comparison.approaches(known),
-            sensitivity=[comparison.sensitivity(known, beta) for beta in comparison.BETAS],
-            scatter=comparison.scatter(known),
-            curves=comparison.curves(known),
-            velocity_curve=comparison.velocity_curve(known),
-            ladders=comparison.ladders(known),
+            approaches=comparison.approaches(self),
+            sensitivity=[comparison.sensitivity(self, beta) for beta in comparison.BETAS],
+            scatter=comparison.scatter(self),
+            curves=comparison.curves(self),
+            velocity_curve=comparison.velocity_curve(self),
+            ladders=comparison.ladders(self),
             blank_cells=list(self.ledger.blank),
             symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
             provenance=_provenance(),
@@ -153,44 +114,36 @@ class Audit:
         fails = assessment.verdict.is_failure or any(
             reading.verdict is not Verdict.REPRODUCED for reading in assessment.readings[:1]
         )
-        own = self._reading(claim, first) if first else None
+        own = self._reading(claim, first) if first else _UNREAD
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         formula, mathml, by_hand = self._formula(claim, first)
+        shown = self.shown(claim)
         restates = claim.computation is not None and claim.computation.restates
-        return r.ClaimRecord(
-            id=claim.id,
-            title=claim.title,
+        return _record(
+            r.ClaimRecord,
+            *(claim, claim.place, own),
             where=str(claim.place),
-            line=claim.place.line,
-            section=claim.place.section,
-            equation=claim.place.equation,
-            cell=claim.place.cell,
-            quote=" ".join(claim.entry.quote.split()),
+            quote=" ".join(claim.quote.split()),
             printed=claim.text,
-            unit=claim.unit,
-            kind=claim.entry.kind,
             interval=_ends(interval) if interval else None,
             interval_exact=_exact(interval.lower, interval.upper) if interval else None,
             interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
-            computed_by=claim.entry.computed_by,
-            computed=own.computed if own else None,
-            reference=own.reference if own else None,
-            enclosure=own.enclosure if own else None,
-            enclosure_exact=own.enclosure_exact if own else None,
-            witness=own.witness if own else None,
             error_in_last_digit=_error(claim, first),
-            holds=own.holds if own else "",
-            otherwise=own.otherwise if own else [],
             readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, own.computed if own else None),
+            assumes=wording.assumptions(self.judge, claim, own.computed),
             explanation=self._explanation(claim, assessment),
             formula=formula,
             mathml=mathml,
             by_hand=by_hand,
-            shown_by=self._shown(claim),
+            shown_by=shown
+            and r.Shown(
+                claims=list(claim.shown_by),
+                interval=(float(shown[0] / claim.si), float(shown[1] / claim.si)),
+                unit=claim.unit,
+            ),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
             back_solved=[
@@ -199,19 +152,15 @@ class Audit:
             ],
             repairs=self.repairs(claim.id) if fails else [],
             slips=self.explainer.slips(claim) if fails and first else [],
-            workbook=claim.entry.workbook,
         )
 
     @staticmethod
     def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
         judgement = reading.judgements[0]
         witness = judgement.witness
-        return r.ReadingRecord(
-            name=reading.name,
-            summary=reading.summary,
-            verdict=reading.verdict,
-            computed=reading.computed,
-            reference=reading.reference,
+        return _record(
+            r.ReadingRecord,
+            reading,
             enclosure=_outward(judgement.lower, judgement.upper),
             enclosure_exact=_exact(judgement.lower, judgement.upper),
             witness={k: float(value) for k, value in witness.items()} if witness else None,
@@ -229,7 +178,7 @@ class Audit:
             return wording.explanation(self.judge, claim, assessment.readings)
         if assessment.reason:
             return f"With the numbers as printed it cannot be computed: {assessment.reason}."
-        if claim.entry.kind == "remark":
+        if claim.kind == "remark":
             return "A remark, no number: the figures below are what it can be judged by."
         if claim.computation is not None:
             return self._restated(claim, assessment)
@@ -239,11 +188,11 @@ class Audit:
                 return wording.constant_explanation(self.ledger, claim, constants[claim.id])
         if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
             return wording.sources(self._sources(claim.id, claim.target()))
-        if claim.entry.shown_by:
-            shown = self._shown(claim)
+        if claim.shown_by:
+            shown = self.shown(claim)
             if shown is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            low, high = map(Fraction, shown.interval)
+            low, high = (Fraction(float(end / claim.si)) for end in shown)
             ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
             text = wording.quantity(ends, claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
@@ -287,46 +236,26 @@ class Audit:
         texts = (
             rendered(left, names), rendered(right, names), rendered(right, put, _NUMBERS), result,
         )  # fmt: skip
-        marked_names, marked_put = (
-            {key: _mathml_symbol(text) for key, text in shown.items()} for shown in (names, put)
-        )
         cells = (
-            rendered(left, marked_names, MATHML), rendered(right, marked_names, MATHML),
-            "", rendered(right, marked_put, _MATHML_NUMBERS),
+            rendered(left, names, MATHML), rendered(right, names, MATHML),
+            "", rendered(right, put, _MATHML_NUMBERS),
             "", f"<mn>{result}</mn>",
         )  # fmt: skip
         row = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
         table = _math(f"<mtable>{(3 * row).format(*cells)}</mtable>")
         return " = ".join(texts), table, _by_hand(right, put, values, result)
 
-    # What a choice is shown to be
-
-    def _shown(self, claim: Claim) -> r.Shown | None:
-        """The values, in its unit, around a chosen number for which what it shows is as printed.
-
-        None if it shows nothing, or if the number itself puts one of those claims wrong.
-        """
-        claims = claim.entry.shown_by
-        if claim.id not in self._shown_values:
-            ends = self.explainer.admitted(claim.id, claims) if claims else None
-            self._shown_values[claim.id] = ends and r.Shown(
-                claims=list(claims),
-                interval=(float(ends[0] / claim.si), float(ends[1] / claim.si)),
-                unit=claim.unit,
-            )
-        return self._shown_values[claim.id]
-
     def _figures(self, claim: Claim) -> list[r.Figure]:
         """For a remark: the final depths at both steps, in both schemes."""
-        if claim.entry.kind != "remark":
+        if claim.kind != "remark":
             return []
-        known, figures = Known(self.judge, self.explainer, {}, {}), []
+        figures = []
         for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
             where = "initial" if scheme == "published" else "middle"
             with_what = f"beta = {beta}, drag at the {where} velocity"
             depths = []
             for name in ("a-step", "coarse-step"):
-                impact = case(known, beta, step=known[name])
+                impact = case(self, beta, step=self[name])
                 depths.append(sheet.run(impact, scheme).final_depth)
                 step = wording.quantity(self.ledger.claims[name].shown, "ns")
                 means = f"final depth at {step}, {with_what}"
@@ -336,20 +265,11 @@ class Audit:
         return figures
 
     def _sources(self, name: str, target: Interval | None) -> list[r.SourceRecord]:
-        sources = self.ledger.sources.values()
-        return [self._source(source, target) for source in sources if name in source.claims]
-
-    def _source(self, source: Source, target: Interval | None) -> r.SourceRecord:
-        return r.SourceRecord(
-            id=source.id,
-            title=source.title,
-            address=source.address,
-            quote=source.quote,
-            says=source.says,
-            unit=source.unit,
-            applies=source.applies,
-            agrees=None if target is None else target.meets(source.interval),
-        )
+        return [
+            _record(r.SourceRecord, source, agrees=target and target.meets(source.interval))
+            for source in self.ledger.sources.values()
+            if name in source.claims
+        ]
 
     # Explanations
 
@@ -366,9 +286,9 @@ class Audit:
         def in_unit(ends: tuple[Fraction, Fraction]) -> tuple[float, float]:
             return float(ends[0] / si), float(ends[1] / si)
 
-        return r.BackSolvedRecord(
-            reading=solved.reading,
-            entry=solved.entry,
+        return _record(
+            r.BackSolvedRecord,
+            solved,
             title=self.ledger.title(solved.entry),
             unit=self.ledger.unit(solved.entry),
             printed=float(self.judge.value(solved.entry) / si),
@@ -376,42 +296,36 @@ class Audit:
             search=in_unit(solutions.search),
             search_reason=solved.reason,
             proof=proof,
-            prints_alike=solved.prints_alike,
         )
 
     # Equations and findings
 
     def _equation(self, name: str) -> r.EquationRecord:
         assessed = self.equation(name)
-        entry, place = assessed.equation.entry, assessed.equation.place
-        shown = {key: _mathml_symbol(s.shown) for key, s in self.ledger.symbols.items()}
+        place = assessed.equation.place
+        shown = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
         sides = [rendered(side, shown, MATHML) for side in self.ledger.sides[name]]
         repairs = self.repairs(name) if assessed.verdict.is_failure else []
-        return r.EquationRecord(
-            id=name,
+        return _record(
+            r.EquationRecord,
+            *(assessed.equation, assessed),
             number=place.equation,
-            title=entry.title,
             where=str(place),
             text=self.ledger.printed_text(name),
             mathml=_math("<mo>=</mo>".join(sides)),
-            kind=entry.kind,
-            follows_from=entry.follows_from,
-            verdict=assessed.verdict,
             factor=None if assessed.factor is None else str(assessed.factor),
-            checks=[r.CheckRecord(says=c.says, holds=c.holds) for c in assessed.checks],
+            checks=[_record(r.CheckRecord, check) for check in assessed.checks],
             constants=[
-                r.ConstantRecord(
-                    claim=c.claim, verdict=c.verdict, needed=[str(value) for value in c.needed]
-                )
+                _record(r.ConstantRecord, c, needed=[str(value) for value in c.needed])
                 for c in assessed.constants.values()
             ],
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=repairs,
         )
 
-    def _finding(self, known: Known, finding: asserted.Finding) -> r.FindingRecord:
+    def _finding(self, finding: asserted.Finding) -> r.FindingRecord:
         try:
-            computed = EVIDENCE[finding.id](known)
+            computed = EVIDENCE[finding.id](self)
         except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
             computed = {}
         evidence = []
@@ -420,24 +334,19 @@ class Audit:
             if value is not None and not isinstance(value, bool):
                 value = Fraction(value) / to_si(assertion.unit)
             evidence.append(
-                r.EvidenceRecord(
+                _record(
+                    r.EvidenceRecord,
+                    assertion,
                     name=name,
-                    means=assertion.means,
-                    unit=assertion.unit,
                     asserted=assertion.says,
                     computed=float(value) if isinstance(value, Fraction) else value,
                     holds=value is not None and assertion.holds(value),
                 )
             )
-        return r.FindingRecord(
-            id=finding.id,
-            title=finding.title,
-            kind=finding.kind,
-            status=finding.status,
+        return _record(
+            r.FindingRecord,
+            finding,
             claims=list(finding.claims),
-            statement=finding.statement,
-            by_hand=finding.by_hand,
-            settle=finding.settle,
             holds=all(e.holds for e in evidence) and all(step.holds for step in finding.steps),
             evidence=evidence,
         )
@@ -447,13 +356,12 @@ class Audit:
         entry, si = inference.entry, to_si(inference.entry.unit)
         inner = inference.inner.ends
         rounded = None if centered else inference.admitted(Convention())
-        return r.InferredRecord(
+        return _record(
+            r.InferredRecord,
+            entry,
             id=name,
-            title=entry.title,
-            unit=entry.unit,
             scheme="centered" if centered else "published",
             assumed=float(self.judge.value(INFERRED + name) / si),
-            nominal_source=entry.nominal_source,
             interval=_inward(*(end / si for end in inner)),
             interval_exact=(str(inner[0] / si), str(inner[1] / si)),
             with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
@@ -465,13 +373,31 @@ class Audit:
             odd=list(inference.odd),
             sources=[
                 r.HandbookRecord(
-                    source=self._source(source, None),
+                    source=_record(r.SourceRecord, source, agrees=None),
                     verdict=inference.admits(source.value, source.interval),
                 )
                 for source in self.ledger.sources.values()
                 if INFERRED + name in source.claims and not centered
             ],
         )
+
+
+_Part = TypeVar("_Part", bound=msgspec.Struct)
+
+
+def _record(kind: type[_Part], *sources: object, **own: Any) -> _Part:
+    """A part of the record; what is not given is what a source has under the same name."""
+    for name in kind.__struct_fields__:
+        if name not in own:
+            own[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
+    return kind(**own)
+
+
+_UNREAD = SimpleNamespace(
+    computed=None, reference=None, enclosure=None, enclosure_exact=None, witness=None, holds="",
+    otherwise=[],
+)  # fmt: skip
+"""Of a claim that nothing computes."""
 
 
 def _short(value: Fraction) -> str:
@@ -517,14 +443,6 @@ def _math(inner: str) -> str:
     return f'<math display="block">{inner}</math>'
 
 
-def _mathml_symbol(shown: str) -> str:
-    """A symbol or a number as MathML; what follows an underscore is its subscript."""
-    if shown[0].isdigit():
-        return f"<mn>{shown}</mn>"
-    name, _, below = shown.partition("_")
-    return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
-
-
 def _judged(judgement: Judgement) -> r.Judged:
     convention = judgement.convention
     return r.Judged(
@@ -543,7 +461,7 @@ def _error(claim: Claim, reading: Reading | None) -> float | None:
     printed = claim.printed
     if reading is None or printed is None or claim.bound is not None or printed.quantum == 0:
         return None
-    quantum = printed.quanta[-1] if claim.entry.kind == "approximation" else printed.quantum
+    quantum = printed.quanta[-1] if claim.kind == "approximation" else printed.quantum
     return float((Fraction(reading.computed) - printed.value) / quantum)
 
 

@@ -1,13 +1,13 @@
 """What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
 
 import math
-from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from statistics import NormalDist
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import Known, case, constant_pressure_ratio
+from replication.audit.findings import Known, case, constant_pressure_ratio, exact_ratio
 from replication.models import depth, motion, sheet, stream
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
@@ -20,10 +20,10 @@ def approaches(known: Known) -> list[r.Approach]:
     claims = known.ledger.claims
 
     def computed(kind: str, name: str, claim: str, reading: str = "") -> r.Approach:
-        value = known.reading(claim, reading).computed
-        return r.Approach(
-            kind=kind, name=name, computed=value, printed=claims[claim].shown, claim=claim
-        )
+        printed, value = claims[claim].shown, None
+        with suppress(ArithmeticError):  # a formula without a value, in a report with a misprint
+            value = known.reading(claim, reading).computed
+        return r.Approach(kind=kind, name=name, computed=value, printed=printed, claim=claim)
 
     def quoted(name: str, claim: str) -> r.Approach:
         return r.Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
@@ -40,7 +40,7 @@ def approaches(known: Known) -> list[r.Approach]:
                      computed=sheet.run(impact).normalized_depth,
                      printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
           for beta, impact in models),
-        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=_ratio(impact))
+        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=exact_ratio(impact))
           for beta, impact in models),
         *(r.Approach(kind="constant pressure", name=f"beta = {beta}",
                      computed=constant_pressure_ratio(impact)) for beta, impact in models),
@@ -50,10 +50,6 @@ def approaches(known: Known) -> list[r.Approach]:
         quoted("CTH", "cth-ratio"),
         quoted("Autodyne", "autodyne-ratio"),
     ]  # fmt: skip
-
-
-def _ratio(impact: Impact) -> float:
-    return depth.final_depth(**impact.motion) / impact.radius
 
 
 # What the depth depends on
@@ -69,7 +65,7 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
         depth=depth.final_depth(**impact.motion),
         elasticities=_elasticities(impact),
         ten_percent=ten,
-        stated=list(_stated(known, impact)),
+        stated=_stated(known, impact),
     )
 
 
@@ -85,31 +81,27 @@ def _elasticities(impact: Impact) -> dict[str, float]:
     """
     p = impact.target_density * impact.velocity**2 / (2 * impact.target_resistance)
     c = 4 / 3 * impact.particle_density / impact.target_density * math.log1p(p)
-    y = _ratio(impact)
+    y = exact_ratio(impact)
     s = c / (y * y * (2 - y)) if y < 1 else c / y
     q = p / ((1 + p) * math.log1p(p))
     factors = (2 * q * s, 1.0, s, (q - 1) * s, -q * s, -q * s)
     return dict(zip(_INPUTS, factors, strict=True))
 
 
-def _stated(known: Known, impact: Impact) -> Iterator[r.Effect]:
+def _stated(known: Known, impact: Impact) -> list[r.Effect]:
     """What each input's own uncertainty does, as far as the report or its evidence states one."""
-    density = "inferred:target-density"
-    possible = known.judge.inference(density).admitted(Convention())[1].ends
-    rounding = known.target("a1-density").ends
-    spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
-    yield _effect(impact, "velocity", impact.velocity - spread, impact.velocity + spread,
-                  "mean deviation in the stream")  # fmt: skip
-    yield _effect(impact, "radius", impact.radius - size, impact.radius + size,
-                  "standard deviation of the powder")  # fmt: skip
-    low, high = map(float, rounding)
-    yield _effect(impact, "particle_density", low, high, "rounding of the print")
-    low, high = map(float, possible)
-    yield _effect(impact, "target_density", low, high, "all that Table A-1 allows")
-    yield _effect(impact, "beta", known["beta-range-least"], known["beta-range-greatest"],
-                  "the report's range")  # fmt: skip
-    yield _effect(impact, "flow_stress", known["strength-clear"], known["strength-feathery"],
-                  "two hardnesses")  # fmt: skip
+    possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
+    velocity, spread = impact.velocity, known["velocity-deviation"]
+    radius, size = impact.radius, known["diameter-deviation"] / 2
+    ranges = (
+        ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
+        ("radius", radius - size, radius + size, "standard deviation of the powder"),
+        ("particle_density", *known.target("a1-density").ends, "rounding of the print"),
+        ("target_density", *possible, "all that Table A-1 allows"),
+        ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
+        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
+    )
+    return [_effect(impact, name, float(low), float(high), why) for name, low, high, why in ranges]
 
 
 def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> r.Effect:
@@ -153,7 +145,9 @@ def scatter(known: Known) -> list[r.Scatter]:
             standard_deviation=deviation,
             mean_deviation=deviation * mean,
             points=[
-                r.ScatterPoint(share=share, velocity=v, ratio=_ratio(replace(impact, velocity=v)))
+                r.ScatterPoint(
+                    share=share, velocity=v, ratio=exact_ratio(replace(impact, velocity=v))
+                )
                 for share in (0.05, 0.5, 0.95)
                 for v in [law(share)]
             ],
@@ -196,7 +190,7 @@ def velocity_curve(known: Known) -> r.VelocityCurve:
     return r.VelocityCurve(
         velocity=velocities,
         sheet=[sheet.run(impact).normalized_depth for impact in cases],
-        exact=[_ratio(impact) for impact in cases],
+        exact=[exact_ratio(impact) for impact in cases],
     )
 
 

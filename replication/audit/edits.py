@@ -2,9 +2,11 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
 from itertools import pairwise
 
-from reference.printed import Printed, parse
+from reference.ledger import Ledger
+from reference.printed import parse
 from reference.units import Dimension
 
 EQUATION_EDITS = (
@@ -20,8 +22,16 @@ _LEADING_ZERO = re.compile(r"~?\s*0\d")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 
+def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
+    """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
+    text = ledger.printed_text(name)
+    if name in ledger.equations:
+        return equation_edits(text, ledger.written, ledger.dimensions)
+    return edits(text) if ledger.claims[name].printed is not None else iter(())
+
+
 def edits(text: str) -> Iterator[tuple[str, str]]:
-    """Every text one edit away that is another number, with the kind of the edit; none twice.
+    """Every text one edit of a number away that is another, with the edit's kind; none twice.
 
     The base of a power of ten is no digit, and no number begins with a zero before a digit.
 
@@ -37,21 +47,17 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
             if edited in seen or _LEADING_ZERO.match(edited):
                 continue
             seen.add(edited)
-            number = _number(edited)
-            if number is not None and original is not None and not _same(number, original):
+            if _number(edited) not in (None, original):
                 yield edited, kind
 
 
-def _number(text: str) -> Printed | None:
-    """The text as a number, if it is one."""
+def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
+    """The value of a text and the places that its last digit may have, if it is a number."""
     try:
-        return parse(text)
+        printed = parse(text)
     except ValueError:
         return None
-
-
-def _same(number: Printed, other: Printed) -> bool:
-    return (number.value, number.quanta) == (other.value, other.quanta)
+    return printed.value, printed.quanta
 
 
 def _digits(text: str) -> list[int]:
@@ -155,28 +161,18 @@ def equation_edits(
     ['D = R']
     """
     found: dict[str, str] = {}
-    for edited, kind in _equation_edits(text, written, dimensions):
-        if edited != text:
-            found.setdefault(edited, kind)
-    return iter(found.items())
-
-
-def _equation_edits(
-    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
-) -> Iterator[tuple[str, str]]:
     symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
     tokens = re.compile(
         rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        before, after = text[: match.start()], text[match.end() :]
         for other, kind in _replacements(match, written, dimensions):
-            yield before + other + after, kind
+            found.setdefault(text[: match.start()] + other + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
-        yield (
-            text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :],
-            ("fraction turned over"),
-        )
+        turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
+        found.setdefault(turned, "fraction turned over")
+    found.pop(text, None)
+    return iter(found.items())
 
 
 def _replacements(

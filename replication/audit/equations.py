@@ -71,7 +71,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
-    }[equation.entry.kind]
+    }[equation.kind]
     judged = _constants(ledger, name, sides, holds) if constants else {}
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 

@@ -3,13 +3,13 @@
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 
 from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
 from reference.printed import parse
-from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
+from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
 from replication.audit.equations import follows
 from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.screen import Screen, dependents
@@ -36,8 +36,8 @@ class Explainer:
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
         self._solved: dict[str, list[BackSolved]] = {}
-        self._tries: dict[str, list[SlipRecord]] = {}
-        self._found: dict[tuple[str, str], list[RepairRecord]] = {}
+        self._repairs_by = cache(lambda name, entry: list(self._repairs(name, entry)))
+        self.slips = cache(self._slips)
 
     def _screens(self, ledger: Ledger) -> list[Screen]:
         """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
@@ -71,15 +71,18 @@ class Explainer:
         if name.startswith(INFERRED):
             return True
         claim = self.ledger.claims[name]
-        return not claim.is_exact or claim.entry.quantity is not None
+        return not claim.is_exact or claim.quantity is not None
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
-        solutions = self.solved(claim, reading, name)
+        low, high, reason = self.ledger.search(name)
+        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = holding(self.ledger.function(claim, reading=reading), others)
+        solutions = solve(function, name, (low, high), claim.target(), _BUDGET)
         alike = False
         if not name.startswith(INFERRED):
             own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
             alike = any(not own.excludes(*part) for part in solutions.inner)
-        return BackSolved(reading, name, solutions, self.ledger.search(name)[2], alike)
+        return BackSolved(reading, name, solutions, reason, alike)
 
     def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
         """The least and greatest value of an entry, around the printed one, that suits some claims.
@@ -104,13 +107,6 @@ class Explainer:
             ends.append(good)
         return ends[0], ends[1]
 
-    def solved(self, claim: Claim, reading: str, name: str) -> Solutions:
-        """The values of one entry, the others as printed, for which a claim agrees."""
-        low, high, _ = self.ledger.search(name)
-        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = holding(self.ledger.function(claim, reading=reading), others)
-        return solve(function, name, (low, high), claim.target(), _BUDGET)
-
     # Misprints
 
     def repairs(self, name: str) -> list[RepairRecord]:
@@ -124,30 +120,22 @@ class Explainer:
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
         """The edits of some entries with which a claim or an equation agrees."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
-        for entry in entries:
-            if (name, entry) not in self._found:
-                self._found[name, entry] = list(self._repairs(name, entry))
         return sorted(
-            (repair for entry in entries for repair in self._found[name, entry]),
+            (repair for entry in entries for repair in self._repairs_by(name, entry)),
             key=lambda r: (
                 r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
             ),
         )[:_SHOWN]  # fmt: skip
 
     def _repairs(self, name: str, entry: str) -> Iterator[RepairRecord]:
-        ledger, printed = self.ledger, self.ledger.printed_text(entry)
-        if entry in ledger.equations:
-            texts = equation_edits(printed, ledger.written, ledger.dimensions)
-        else:
-            texts = edits(printed) if ledger.claims[entry].printed is not None else iter(())
-        for text, kind in texts:
+        for text, kind in edits_of(self.ledger, entry):
             reading = self._mends(name, entry, text)
             if reading is not None:
                 yield RepairRecord(
                     entry=entry,
-                    title=ledger.title(entry),
+                    title=self.ledger.title(entry),
                     reading=reading,
-                    printed=printed,
+                    printed=self.ledger.printed_text(entry),
                     text=text,
                     kind=kind,
                     failing=sorted(self._failing(entry, text)),
@@ -166,11 +154,10 @@ class Explainer:
                 entries += [
                     e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims
                 ]
-        against = [claim.entry.against] if claim.entry.against else []
+        against = [claim.against] if claim.against else []
         within = [claim.within] if claim.within else []
-        used = {e for c in claim.computations.values() for e in c.equations}
-        constants = [c for e in sorted(used) for c in self.ledger.constants_of(e)]
-        return list(dict.fromkeys([name, *entries, *against, *within, *sorted(used), *constants]))
+        constants = [c for e in claim.uses for c in self.ledger.constants_of(e)]
+        return list(dict.fromkeys([name, *entries, *against, *within, *claim.uses, *constants]))
 
     def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
@@ -181,7 +168,7 @@ class Explainer:
         if claim.computation is None:
             return self._suits(claim, text) if entry == name else None
         of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
-        if entry in (name, claim.entry.against) or of_equation:
+        if entry in (name, claim.against) or of_equation:
             changed = self.ledger.misprint(entry, text)
             claim, screens = changed.claims[name], self._screens(changed)
         else:
@@ -205,7 +192,7 @@ class Explainer:
         if sources and not any(changed.target().meets(source.interval) for source in sources):
             return None
         value = {claim.id: changed.value}
-        shown = (self.ledger.claims[result] for result in claim.entry.shown_by)
+        shown = (self.ledger.claims[result] for result in claim.shown_by)
         return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
 
     def _failing(self, entry: str, text: str) -> set[str]:
@@ -250,7 +237,7 @@ class Explainer:
 
     def _is_only_shown(self, name: str) -> bool:
         claim = self.ledger.claims.get(name)
-        return claim is not None and claim.computation is None and bool(claim.entry.shown_by)
+        return claim is not None and claim.computation is None and bool(claim.shown_by)
 
     def _cost(self, name: str) -> tuple[int, str]:
         """How long a claim takes to compute: whole sheets last, repetitions first."""
@@ -259,7 +246,7 @@ class Explainer:
         claim = self.ledger.claims[name]
         if claim.computation is None or claim.computation.restates:
             return 0 if claim.within is None else 2, name
-        return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.entry.row is None), name
+        return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.row is None), name
 
     def culprit(self, names: Collection[str]) -> CulpritRecord | None:
         """The one repair that makes everything agree that fails, if there is one."""
@@ -270,13 +257,9 @@ class Explainer:
 
     # Slips
 
-    def slips(self, claim: Claim) -> list[SlipRecord]:
+    def _slips(self, claim: Claim) -> list[SlipRecord]:
         """What the slips of the claim's equations make of it."""
-        if claim.id not in self._tries:
-            used = {e for c in claim.computations.values() for e in c.equations}
-            slips = [slip for slip in self.ledger.slips if slip.equation in used]
-            self._tries[claim.id] = [self._tried(claim, slip) for slip in slips]
-        return self._tries[claim.id]
+        return [self._tried(claim, s) for s in self.ledger.slips if s.equation in claim.uses]
 
     def _tried(self, claim: Claim, slip: Slip) -> SlipRecord:
         ledger = self.ledger

@@ -2,17 +2,17 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache, partial
 from statistics import NormalDist
 from typing import Any
 
 from reference.arithmetic import Number
 from reference.enclosure import enclose, holding, solve
-from reference.ledger import INFERRED, Convention, Ledger
+from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.printed import Interval
 from reference.units import to_si
-from replication.audit.equations import EquationAssessment
+from replication.audit.equations import assess_equation
 from replication.audit.explain import BackSolved, Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
@@ -27,19 +27,42 @@ _MEAN_DEVIATION = math.sqrt(2 / math.pi)
 """Mean absolute deviation of a normal distribution over its standard deviation."""
 
 
-@dataclass(frozen=True, slots=True)
 class Known:
-    """What the evidence is computed from: the ledger, the verdicts on claims and on equations."""
+    """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
 
-    judge: Judge
-    explainer: Explainer
-    assessments: Mapping[str, Assessment]
-    equations: Mapping[str, EquationAssessment]
+    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
+        self.ledger = ledger
+        self.judge = Judge(ledger, every_convention=every_convention)
+        self.explainer = Explainer(self.judge)
+        self.equation = cache(partial(assess_equation, ledger))
+        self.assessment = cache(self._assess)
+        self.shown = cache(self._shown)
 
-    @property
-    def ledger(self) -> Ledger:
-        """What is audited."""
-        return self.judge.ledger
+    def _assess(self, claim: Claim) -> Assessment:
+        """The verdict on one claim."""
+        if claim.kind == "remark":
+            return Assessment(claim, Verdict.REMARK)
+        if claim.within is not None:
+            constants = self.equation(claim.within).constants
+            if claim.id in constants and constants[claim.id].settled:
+                return Assessment(claim, constants[claim.id].verdict)
+        elif claim.computation is not None:
+            return self.judge.assess(claim)
+        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
+        if sources:
+            agrees = any(claim.target().meets(source.interval) for source in sources)
+            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
+        if claim.shown_by:
+            consistent = self.shown(claim) is not None
+            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
+        return Assessment(claim, Verdict.NOT_CHECKABLE)
+
+    def _shown(self, claim: Claim) -> tuple[Fraction, Fraction] | None:
+        """The values around a chosen number for which what it shows comes out as printed, in SI.
+
+        None if it shows nothing, or if the number itself puts one of those claims wrong.
+        """
+        return self.explainer.admitted(claim.id, claim.shown_by) if claim.shown_by else None
 
     def target(self, claim: str) -> Interval:
         """What agrees with a claim, in SI."""
@@ -55,8 +78,11 @@ class Known:
         return float(self.exact(name))
 
     def reading(self, claim: str, name: str = "") -> Reading:
-        """One reading of a claim."""
-        return next(r for r in self.assessments[claim].readings if r.name == name)
+        """One reading of a claim. Raises ArithmeticError where it has no value."""
+        for reading in self.assessment(self.ledger.claims[claim]).readings:
+            if reading.name == name:
+                return reading
+        raise ArithmeticError(f"{claim} has no value")
 
     def computed(self, claim: str, reading: str = "") -> float:
         """What a reading makes of a claim, in SI."""
@@ -65,37 +91,26 @@ class Known:
 
 def case(known: Known, beta: int, **changed: float) -> Impact:
     """One of the report's two cases, with some inputs changed (SI)."""
-    inputs = {
-        "velocity": known["a1-initial-velocity"],
-        "radius": known["a1-radius"],
-        "particle_density": known["a1-density"],
-        "target_density": known[_DENSITY],
-        "beta": known[f"depth-beta-{beta}-beta"],
-        "flow_stress": known["flow-stress"],
-        "step": known["a-step"],
-        "stop_velocity": known["a-stop-velocity"],
-    }
+    inputs = {name: known[claim] for name, claim in claims_of_case(beta).items()}
     if "resistance" in changed:
         del inputs["beta"], inputs["flow_stress"]
     return Impact(**{**inputs, **changed})
 
 
-def _exact_ratio(known: Known, **changed: float) -> float:
-    """The model's exact X/R [1] for beta = 5, with some inputs changed."""
-    impact = case(known, 5, **changed)
+def exact_ratio(impact: Impact) -> float:
+    """The model's exact X/R [1]."""
     return depth.final_depth(**impact.motion) / impact.radius
 
 
 def _headline(known: Known) -> Evidence:
-    own = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
-    table = [name for name, a in known.assessments.items() if a.claim.entry.cell and a.readings]
-    pair = [known.assessments[f"frank-zook-{name}"] for name in ("rha", "stainless")]
-    factor = known.equations["eq16"].factor
+    claims = known.ledger.claims
+    model = [c for c in claims.values() if c.cell and c.computation and not c.computation.restates]
+    model += [claims[f"{what}-beta-{beta}"] for what in ("depth", "ratio") for beta in (3, 5)]
+    pair = [claims[f"frank-zook-{name}"] for name in ("rha", "stainless")]
+    factor = known.equation("eq16").factor
     return {
-        "model": all(
-            known.assessments[name].verdict is Verdict.REPRODUCED for name in (*own, *table)
-        ),
-        "pair": all(a.verdict is Verdict.NOT_REPRODUCED for a in pair),
+        "model": all(known.assessment(c).verdict is Verdict.REPRODUCED for c in model),
+        "pair": all(known.assessment(c).verdict is Verdict.NOT_REPRODUCED for c in pair),
         "together": _least_ratio(known, choices_exact=False) <= _printed_ratio(known)[1],
         "factor": Fraction(0) if factor is None else 1 / factor,
     }
@@ -174,7 +189,7 @@ def _pair(known: Known) -> Evidence:
 
 
 def _equation_16(known: Known) -> Evidence:
-    eq16 = known.equations["eq16"]
+    eq16 = known.equation("eq16")
     (must,) = eq16.constants["eq16-denominator"].needed
     over = {
         name: known[f"frank-zook-{name}"] / known.computed(f"frank-zook-{name}", _DERIVED)
@@ -226,7 +241,7 @@ def _values(known: Known) -> Evidence:
         "rha_derived": known.computed("frank-zook-rha", _DERIVED),
         "never": all(
             j.verdict is Verdict.NOT_REPRODUCED
-            for reading in known.assessments["frank-zook-rha"].readings
+            for reading in known.assessment(claims["rha"]).readings
             for j in reading.judgements
             if j.convention.choices_exact
         ),
@@ -271,8 +286,8 @@ def _two_resistances(known: Known) -> Evidence:
         "fz_high": _derived(known, case(known, 5).target_resistance),
         "low": case(known, 3).target_resistance,
         "high": case(known, 5).target_resistance,
-        "model_stainless": _exact_ratio(known, resistance=known["fz-resistance-stainless"]),
-        "model_rha": _exact_ratio(known, resistance=known["fz-resistance-rha"]),
+        "model_stainless": exact_ratio(case(known, 5, resistance=known["fz-resistance-stainless"])),
+        "model_rha": exact_ratio(case(known, 5, resistance=known["fz-resistance-rha"])),
         "inertia": _inertia(known),
         "z": _drag(known),
     }
@@ -340,12 +355,12 @@ def _two_schemes(known: Known) -> Evidence:
     found["reprinted"] = Fraction(f"{float(found['plain_coarse_5']):.2e}")
     found["middle_density"] = _middle_density(known)
     row, plain, middle = _first_difference(known)
-    table = [a for a in known.assessments.values() if a.claim.entry.cell and a.claim.by_scheme]
+    table = [c for c in known.ledger.claims.values() if c.cell and c.by_scheme]
     found |= {"row": Fraction(row), "row_plain": plain, "row_middle": middle}
     found["table"] = all(
         j.verdict is Verdict.REPRODUCED
-        for a in table
-        for j in a.readings[0].judgements
+        for claim in table
+        for j in known.reading(claim.id).judgements
         if j.convention.rounding is Convention().rounding
     )
     found["order_plain"] = _order(known, "published")
@@ -445,7 +460,7 @@ def _beta_and_flow_stress(known: Known) -> Evidence:
         "alpha": alpha,
         "beta": beta,
         "resistance": beta * stress,
-        "ratio": _exact_ratio(known, resistance=beta * stress),
+        "ratio": exact_ratio(case(known, 5, resistance=beta * stress)),
         "cavity_bulk": 2 / 3 + 2 * math.log(known.computed("walker-anderson-alpha")),
         "cavity": 2 / 3 + 2 * math.log(alpha),
         "cube": 2 * modulus / (3 * stress),
@@ -518,7 +533,7 @@ def _unlike_strengths(known: Known) -> Evidence:
     steel, code = known["autodyne-steel-yield"], known["autodyne-ratio"]
     found: dict[str, float] = {}
     for name, beta in (("low", 3), ("high", 5)):
-        ratio = _exact_ratio(known, resistance=known[f"depth-beta-{beta}-beta"] * steel)
+        ratio = exact_ratio(case(known, 5, resistance=known[f"depth-beta-{beta}-beta"] * steel))
         found |= {name: ratio, f"times_{name}": ratio / code}
     return found
 
@@ -557,7 +572,9 @@ def _cth_pressure(known: Known) -> Evidence:
 
 def _compared_velocity(known: Known) -> Evidence:
     speeds = {"first": "velocity-521", "second": "velocity-606", "least": "velocity-403"}
-    return {name: _exact_ratio(known, velocity=known[claim]) for name, claim in speeds.items()} | {
+    return {
+        name: exact_ratio(case(known, 5, velocity=known[claim])) for name, claim in speeds.items()
+    } | {
         "volume_high": crater.volume_ratio(known["ratio-beta-5"]),
         "volume_low": crater.volume_ratio(known["ratio-beta-3"]),
     }
@@ -638,7 +655,7 @@ def _minimum_velocity(known: Known) -> Evidence:
 def _wrong_reference(known: Known) -> Evidence:
     return {
         "stress": "Sigma" in known.ledger.printed_text("eq1"),
-        "follows": known.equations["eq6"].verdict is Verdict.REPRODUCED,
+        "follows": known.equation("eq6").verdict is Verdict.REPRODUCED,
         "times": _times(known, "equation 1 reduces"),
         "caption": _times(known, "500-m/s steel"),
     }

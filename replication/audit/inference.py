@@ -95,7 +95,7 @@ class Inference:
         ends = claim.as_input(convention).ends
         if (name, ends) not in self._rounded:
             low, high = ends
-            for shown in (self.ledger.claims[other] for other in claim.entry.shown_by):
+            for shown in (self.ledger.claims[other] for other in claim.shown_by):
                 if low != high and shown.entries == [name]:
                     function = self.ledger.function(shown)
                     found = solve(function, name, (low, high), shown.target()).outer

@@ -6,6 +6,7 @@ one of them would put wrong.
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import cache
 
 from reference.arithmetic import Floats
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
@@ -21,7 +22,7 @@ class Screen:
 
     def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
         self.ledger, self.assumed = ledger, assumed
-        self._prepared: dict[tuple[Claim, str], tuple[Function, dict[str, float], Interval]] = {}
+        self._prepared = cache(self._prepare)
 
     def agrees(
         self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
@@ -29,7 +30,7 @@ class Screen:
         """Whether a claim with a computation agrees, with some entries changed (SI)."""
         if claim.computations[reading].restates:
             return restates(self.ledger, claim, changed or {})
-        function, values, target = self._claim(claim, reading)
+        function, values, target = self._prepared(claim, reading)
         if changed:
             values = {name: float(changed.get(name, value)) for name, value in values.items()}
         try:
@@ -40,17 +41,14 @@ class Screen:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
 
-    def _claim(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
+    def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
         """What an agreement takes that no change of an entry changes."""
-        if (claim, reading) not in self._prepared:
-            known = self.assumed
-            values = {
-                name: float(known[name] if name in known else self.ledger.value(name))
-                for name in claim.entries
-            }
-            function = self.ledger.function(claim, reading=reading)
-            self._prepared[claim, reading] = function, values, claim.target()
-        return self._prepared[claim, reading]
+        known = self.assumed
+        values = {
+            name: float(known[name] if name in known else self.ledger.value(name))
+            for name in claim.entries
+        }
+        return self.ledger.function(claim, reading=reading), values, claim.target()
 
     def failing(self, names: Iterable[str]) -> set[str]:
         """Those of the claims that do not agree."""
@@ -69,7 +67,7 @@ def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> b
         return claim.target().contains(Fraction(len(claim.inputs)))
     (name,) = claim.inputs["value"]
     # A choice or an exact number has one value; a bound or an "about" has its own interval.
-    loose = claim.bound is not None or claim.entry.kind == "approximation"
+    loose = claim.bound is not None or claim.kind == "approximation"
     own = claim.target() if loose else claim.as_input(Convention())
     if name in changed:
         return own.contains(changed[name])
@@ -88,11 +86,11 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         for claim in ledger.claims.values()
         if claim.id == name
         or name in claim.entries
-        or claim.entry.against == name
-        or (within and any(within in c.equations for c in claim.computations.values()))
+        or claim.against == name
+        or within in claim.uses
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
-    return direct | {c.id for c in ledger.claims.values() if direct & set(c.entry.shown_by)}
+    return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property, partial
 from itertools import product
 from math import prod
 from typing import Any
@@ -39,6 +39,10 @@ class Verdict(StrEnum):
     def is_failure(self) -> bool:
         """Whether the number contradicts what the report prints."""
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
+
+
+OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING}
+"""The verdicts on claims that do not plainly come out as printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,15 +110,12 @@ class Judge:
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
-        self._inferences: dict[tuple[str, bool], Inference] = {}
+        self._inferences = cache(partial(infer, ledger))
         self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
-        key = name, centered
-        if key not in self._inferences:
-            self._inferences[key] = infer(self.ledger, name, centered=centered)
-        return self._inferences[key]
+        return self._inferences(name, centered=centered)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:
@@ -167,7 +168,7 @@ class Judge:
         computation = claim.computations[name]
         settings: dict[str, object] = {}
         if computation.by_row:
-            settings["row"] = claim.entry.row
+            settings["row"] = claim.row
         if computation.by_scheme:
             settings["scheme"] = "published"
         inputs = {
@@ -219,7 +220,7 @@ class Judge:
         """The inputs as printed do not give the number: do any that print like them?"""
         inside, around = _without_and_with_ends(claim, convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
-        whole_sheet = claim.by_scheme and claim.entry.row is None
+        whole_sheet = claim.by_scheme and claim.row is None
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
@@ -278,7 +279,7 @@ class Judge:
     ) -> tuple[Fraction, Fraction]:
         computation = claim.computations[name]
         key = (
-            computation.name, claim.entry.row, convention.centered,
+            computation.name, claim.row, convention.centered,
             tuple(sorted(claim.inputs.items())), tuple(sorted(box.items())),
         )  # fmt: skip
         if key not in self._ranges:
@@ -340,13 +341,11 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     """
     claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
-    header = bool(claim.inferred) or any(
-        (entry.entry.cell or "").startswith("B") for entry in claims
-    )
+    header = bool(claim.inferred) or any((entry.cell or "").startswith("B") for entry in claims)
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    whole_sheet = claim.by_scheme and claim.entry.row is None
+    whole_sheet = claim.by_scheme and claim.row is None
     choices_exact = (True, False) if chosen and not whole_sheet else (True,)
     for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)

@@ -142,7 +142,7 @@ def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
-    assumed = [] if claim.entry.assumes is None else [claim.entry.assumes]
+    assumed = [] if claim.assumes is None else [claim.assumes]
     for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
         admitted = inward(*judge.inference(name).inner.ends)
@@ -161,7 +161,7 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
         return []
     if claim.bound is not None:
         return []
-    taken = "the fewest digits" if claim.entry.kind == "approximation" else "all digits"
+    taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
     inside = {
         printed.interval(quantum=quantum).contains(Fraction(computed)) for quantum in printed.quanta
     }
@@ -186,12 +186,12 @@ def sources(records: Sequence[SourceRecord]) -> str:
 
 def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     """Why an equation has its verdict."""
-    entry = assessed.equation.entry
+    premises = assessed.equation.follows_from
     failed = [check.says for check in assessed.checks if not check.holds]
     if not failed:
         said = "; ".join(check.says for check in assessed.checks)
-        return f"From {entry.follows_from}. Checked exactly: {said}."
-    text = f"From {entry.follows_from}. This check fails: {failed[0]}."
+        return f"From {premises}. Checked exactly: {said}."
+    text = f"From {premises}. This check fails: {failed[0]}."
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
     for constant in assessed.constants.values():
@@ -204,9 +204,9 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
 
 def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
     """Why a constant of an equation has its verdict."""
-    entry = ledger.equations[claim.within or ""].entry
-    passes = f"the equation follows from {entry.follows_from}"
-    if entry.kind == "taken over":
+    equation = ledger.equations[claim.within or ""]
+    passes = f"the equation follows from {equation.follows_from}"
+    if equation.kind == "taken over":
         passes = "the equation has the right dimensions, limits and signs"
     match constant.verdict:
         case Verdict.REPRODUCED:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from reference.arithmetic import Number
 from reference.motion import Trajectory
 from replication.error.budget import exact_motion
-from replication.error.hard_cases import HARD_CASES
+from replication.error.hard_cases import HARD_CASES, impact_of
 from replication.models.impact import Impact
 
 CASES = {
@@ -61,7 +61,7 @@ def build(name: str) -> Case:
     """
     if name not in CASES:
         raise ValueError(f"there is no case {name!r} to time: choose of {', '.join(CASES)}")
-    impact = next(case.impact() for case in HARD_CASES if case.name == CASES[name])
+    impact = impact_of(HARD_CASES[CASES[name]])
     motion = exact_motion(impact)
     times, depths = zip(*(_instant(motion, k) for k in range(POINTS)), strict=True)
     return Case(name, impact, motion, np.array(times), depths)

@@ -11,41 +11,16 @@ import re
 import signal
 import sys
 from collections.abc import Sequence
-from types import FrameType, ModuleType
+from importlib import import_module
+from types import FrameType
 from typing import Any, NoReturn
 
-from replication.cli import (
-    audit,
-    bench,
-    check,
-    claims,
-    converge,
-    depth,
-    diff,
-    history,
-    power,
-    sheet,
-    stability,
-    sweep,
-    workbook,
-)
 from replication.reading import one_line, quoted
 
-COMMANDS: tuple[ModuleType, ...] = (
-    audit,
-    claims,
-    workbook,
-    sheet,
-    depth,
-    history,
-    converge,
-    stability,
-    sweep,
-    bench,
-    check,
-    diff,
-    power,
-)
+COMMANDS = (
+    "audit", "claims", "workbook", "sheet", "depth", "history", "converge", "stability", "sweep",
+    "bench", "check", "diff", "power",
+)  # fmt: skip
 """In the order in which `coldspray --help` lists them."""
 
 
@@ -116,13 +91,10 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in COMMANDS:
+    for name in COMMANDS:
+        module = import_module(f"replication.cli.{name}")
         text: str = module.HELP
-        command = commands.add_parser(
-            module.__name__.rpartition(".")[2],
-            help=text,
-            description=f"{text[0].upper()}{text[1:]}.",
-        )
+        command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.options(command)
         command.set_defaults(run=module.run)
     for argument in arguments:

@@ -16,7 +16,6 @@ HELP = "speed against error: every method and its peers"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     command.add_argument(
         "--case", action="append", metavar="NAME", help="only this case; may be repeated"
     )
@@ -32,7 +31,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, print, and write the files if asked to."""
     from replication.bench.cases import CASES
     from replication.bench.report import bench_record, bench_rows, bench_text, check, write
     from replication.bench.run import bench

@@ -11,13 +11,11 @@ HELP = "list the claims, or prove one"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     command.add_argument("id", nargs="?", metavar="ID", help="prove this claim")
     command.add_argument("--json", action="store_true", help="print JSON")
 
 
 def run(options: argparse.Namespace) -> int:
-    """List, or prove."""
     from reference.ledger import load
 
     ledger = load()
@@ -53,10 +51,10 @@ def _listed(claim: Any) -> dict[str, Any]:
         "line": claim.place.line,
         "section": claim.place.section,
         "cell": claim.place.cell,
-        "quote": " ".join(claim.entry.quote.split()),
+        "quote": " ".join(claim.quote.split()),
         "printed": claim.text,
         "unit": claim.unit,
-        "kind": claim.entry.kind,
+        "kind": claim.kind,
     }
 
 

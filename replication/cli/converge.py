@@ -1,7 +1,6 @@
 """`coldspray converge`: error against time step, observed order, extrapolated limit."""
 
 import argparse
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from replication.cases import inputs_of
@@ -18,30 +17,22 @@ MOST_STEPS = 40
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     shared.input_options(command)
     shared.scheme_option(command)
     command.add_argument(
         "--steps", metavar="X,X,...", help="steps, coarsest first (default: from 16 times --step)"
     )
+    levels, digits = shared.whole(2, MOST_STEPS), shared.whole(1, 15)
     command.add_argument(
-        "--levels",
-        type=shared.whole(2, MOST_STEPS),
-        default=8,
-        metavar="N",
-        help="number of steps, by halves (8)",
+        "--levels", type=levels, default=8, metavar="N", help="number of steps, by halves (8)"
     )
     command.add_argument(
-        "--digits",
-        type=shared.whole(1, 15),
-        metavar="N",
-        help="also find the largest step for N correct digits",
+        "--digits", type=digits, metavar="N", help="also find the largest step for N correct digits"
     )
     shared.output_options(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the ladder and print it."""
     from replication.error.ladder import converge, ladder, step_for_digits
 
     case = shared.case(options)
@@ -70,17 +61,16 @@ def _steps(text: str) -> list[float]:
 def _record(result: "Convergence", digits: "StepForDigits | None") -> dict[str, Any]:
     from replication.error.ladder import ORDER
 
-    levels = [{**asdict(level), "undefined": level.undefined or None} for level in result.levels]
     return {
         "inputs": inputs_of(result.impact),
         "scheme": result.scheme,
         "nominal_order": ORDER[result.scheme],
-        "levels": levels,
+        "levels": result.levels,
         "limit": result.limit,
-        "limit_undefined": result.levels[-1].undefined or None,
+        "limit_undefined": result.levels[-1].undefined,
         "exact": result.exact,
         "exact_at_stop": result.exact_at_stop,
-        "digits": None if digits is None else asdict(digits),
+        "digits": digits,
     }
 
 
@@ -102,7 +92,7 @@ def _text(result: "Convergence", digits: "StepForDigits | None") -> str:
              "stop rule", "half step", "rounding", "governed by")  # fmt: skip
     units = ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", "")
     last = result.levels[-1]
-    limit = f"{_um(result.limit, 8)} um" if result.limit else last.undefined
+    limit = last.undefined or f"{_um(result.limit, 8)} um"
     if last.gci is not None:
         limit += f", observed order {last.observed_order:.2f}, grid convergence index "
         limit += f"{100 * last.gci:.2g} %"

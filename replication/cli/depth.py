@@ -9,13 +9,11 @@ HELP = "final depth of a case, without time steps"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     shared.input_options(command)
     shared.output_options(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compute and print it."""
     from replication.models.depth import final_depth, normalized_depth
 
     case = shared.case(options)

@@ -16,7 +16,6 @@ MAX_POINTS = 1_000_000
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     shared.input_options(command)
     at = command.add_mutually_exclusive_group()
     at.add_argument(
@@ -31,7 +30,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compute the history and print it."""
     from replication.models.motion import stop_time
 
     case = shared.case(options)

@@ -12,7 +12,6 @@ HELP = "plant misprints in memory and measure what the audit notices"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     command.add_argument(
         "--sample", type=shared.whole(1, 10**6), default=500, metavar="N", help="misprints (500)"
     )
@@ -23,7 +22,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Plant, audit, count, print."""
     from tqdm import tqdm
 
     from reference.ledger import load

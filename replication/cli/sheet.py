@@ -15,14 +15,12 @@ HELP = "the Excel scheme's rows for a case"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     shared.input_options(command)
     shared.scheme_option(command)
     shared.output_options(command, csv=True)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the sheet and print it."""
     from replication.error.warnings import warnings
     from replication.models.sheet import run
 

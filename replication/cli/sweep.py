@@ -10,7 +10,6 @@ HELP = "many cases by a TOML plan, to CSV or Parquet"
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    """What the command takes."""
     command.add_argument("plan", type=shared.path, metavar="FILE", help="TOML, table [inputs]")
     command.add_argument(
         "-o",
@@ -24,7 +23,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compute and write, with a progress bar on a terminal."""
     from tqdm import tqdm
 
     from replication.sweep.output import check_output, provenance, write

@@ -41,7 +41,7 @@ class Level:
     observed_order: float | None = None
     limit: float | None = None
     gci: float | None = None
-    undefined: str = ""
+    undefined: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

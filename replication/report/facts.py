@@ -11,17 +11,10 @@ from math import isclose
 from typing import NamedTuple
 
 from reference.ledger import shown
-from replication.audit.record import (
-    BackSolvedRecord,
-    ClaimRecord,
-    Effect,
-    EvidenceRecord,
-    FindingRecord,
-    Record,
-    RepairRecord,
-)
-from replication.audit.verdict import Verdict
+from replication.audit import record as r
+from replication.audit.verdict import OPEN, Verdict
 from replication.audit.wording import quantity
+from replication.cases import INPUTS
 from replication.report.prose import Named, quoted
 from replication.text import number, rounded
 
@@ -42,16 +35,8 @@ VERDICTS = {
 }
 """The verdicts, and what they say."""
 
-OPEN = {
-    Verdict.NOT_REPRODUCED,
-    Verdict.INCONSISTENT,
-    Verdict.UNDECIDED,
-    Verdict.WITHIN_ROUNDING,
-}
-"""The verdicts of claims that do not plainly come out as printed."""
 
-
-def printed(claim: ClaimRecord) -> str:
+def printed(claim: r.ClaimRecord) -> str:
     """What the report prints, with its unit; the words of a remark as they are."""
     return quantity(shown(claim.printed), claim.unit)
 
@@ -81,28 +66,21 @@ def _end(end: float, digits: int, direction: str) -> str:
     return rounded(Fraction(end), digits, direction)
 
 
-_SCALES = {
-    "velocity": (1.0, "m/s"),
-    "radius": (1e6, "um"),
-    "particle_density": (1.0, "kg/m^3"),
-    "target_density": (1.0, "kg/m^3"),
-    "beta": (1.0, "1"),
-    "flow_stress": (1e-6, "MPa"),
-}
+_SCALES = {"radius": (1e6, "um"), "flow_stress": (1e-6, "MPa")}
 
 
-def shown_range(effect: Effect) -> str:
+def shown_range(effect: r.Effect) -> str:
     """The range of an effect's input in the unit that a reader wants.
 
-    >>> effect = Effect(input="radius", low=8.2e-6, high=1.38e-5, ratios=[], depths=[], why="")
+    >>> effect = r.Effect(input="radius", low=8.2e-6, high=1.38e-5, ratios=[], depths=[], why="")
     >>> shown_range(effect)
     '8.2 to 13.8 µm'
     """
-    scale, unit = _SCALES[effect.input]
+    scale, unit = _SCALES.get(effect.input, (1.0, INPUTS[effect.input]))
     return quantity(between((effect.low * scale, effect.high * scale), 4), unit)
 
 
-def names_of(record: Record) -> dict[str, Named]:
+def names_of(record: r.Record) -> dict[str, Named]:
     """What the ids of a record name, and where the page shows it."""
     equations = {
         e.id: Named(f"Eq. {e.number}" if e.number else e.title, f"equation-{e.id}")
@@ -116,7 +94,7 @@ def names_of(record: Record) -> dict[str, Named]:
     return equations | inferred | claims
 
 
-def facts(claim: ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
+def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
     """Label and text of all that is known of a claim beside its verdict and explanation."""
     unit, off, still = claim.unit, claim.error_in_last_digit, claim.shown_by
     inputs = (
@@ -169,7 +147,7 @@ class Table(NamedTuple):
     rows: Sequence[tuple[str, ...]]
 
 
-def failing(record: Record) -> Table:
+def failing(record: r.Record) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
     claims = [claim for claim in record.claims if claim.verdict in OPEN]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
@@ -200,7 +178,7 @@ def significant(text: str) -> int:
 # What was tried for a claim
 
 
-def tried(claim: ClaimRecord) -> list[Table]:
+def tried(claim: r.ClaimRecord) -> list[Table]:
     """What was tried to explain a claim that fails, and the figures that a remark is judged by."""
     figures = [(f.means, quantity(number(f.value, 5), f.unit)) for f in claim.figures]
     slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
@@ -213,9 +191,9 @@ def tried(claim: ClaimRecord) -> list[Table]:
     return [table for table in tables if table.rows]
 
 
-def _back_solved(solved: Iterable[BackSolvedRecord]) -> Table:
+def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
     """A row for each input, a column for each reading."""
-    found: dict[str, dict[str, BackSolvedRecord]] = {}
+    found: dict[str, dict[str, r.BackSolvedRecord]] = {}
     for item in solved:
         found.setdefault(item.entry, {})[item.reading] = item
     readings = list(dict.fromkeys(reading for row in found.values() for reading in row))
@@ -230,7 +208,7 @@ def _back_solved(solved: Iterable[BackSolvedRecord]) -> Table:
     return Table(caption, ("input", "printed", *heads, "searched"), rows)
 
 
-def _needed(solved: BackSolvedRecord) -> str:
+def _needed(solved: r.BackSolvedRecord) -> str:
     if not solved.intervals:
         return "undecided" if solved.proof == "undecided" else "none"
     ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
@@ -238,7 +216,7 @@ def _needed(solved: BackSolvedRecord) -> str:
     return quantity(ends, solved.unit) + beyond + ", prints alike" * solved.prints_alike
 
 
-def repairs(records: Iterable[RepairRecord], own: str = "") -> Table:
+def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
     """The misprints that would explain a failure, of the claim with the id `own` if it is one.
 
     Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
@@ -255,23 +233,19 @@ def repairs(records: Iterable[RepairRecord], own: str = "") -> Table:
     return Table("Misprints, one edit of the text, that would explain it", heads, rows)
 
 
-def evidence(finding: FindingRecord) -> Table:
+def evidence(finding: r.FindingRecord) -> Table:
     """The numbers of a finding, as asserted and as computed."""
     rows = [
-        (
-            piece.means,
-            quantity(piece.asserted, piece.unit),
-            computed(piece) + ("" if piece.holds else ": NOT AS STATED"),
-        )
-        for piece in finding.evidence
+        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
+        for x in finding.evidence
     ]
     return Table("The finding's numbers, computed anew", ("what", "stated", "computed"), rows)
 
 
-def computed(piece: EvidenceRecord) -> str:
+def computed(piece: r.EvidenceRecord) -> str:
     """What was computed for a finding, to two digits more than asserted; a bound, safely rounded.
 
-    >>> piece = EvidenceRecord(
+    >>> piece = r.EvidenceRecord(
     ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
     ... )
     >>> computed(piece)
@@ -289,7 +263,7 @@ def computed(piece: EvidenceRecord) -> str:
 # Beside the claims
 
 
-def proven(cells: Mapping[str, ClaimRecord]) -> Table:
+def proven(cells: Mapping[str, r.ClaimRecord]) -> Table:
     """The cells of Table A-1 that are computed, with all digits that matter."""
     rows = [
         (claim.title, cell, quantity(number(claim.computed, 10), claim.unit),
@@ -300,7 +274,7 @@ def proven(cells: Mapping[str, ClaimRecord]) -> Table:
     return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
 
 
-def approaches(record: Record) -> Table:
+def approaches(record: r.Record) -> Table:
     """Every approach to X/R."""
     rows = [
         (
@@ -313,7 +287,7 @@ def approaches(record: Record) -> Table:
     return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
 
 
-def ladders(record: Record) -> Table:
+def ladders(record: r.Record) -> Table:
     """The sheet at other time steps: a row for each, a column for each case and scheme."""
     schemes = {"published": "initial", "centered": "middle"}
     columns = list(dict.fromkeys((level.beta, level.scheme) for level in record.ladders))
@@ -326,7 +300,7 @@ def ladders(record: Record) -> Table:
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 
 
-def sensitivity(record: Record) -> list[Table]:
+def sensitivity(record: r.Record) -> list[Table]:
     """For each case, what its inputs' own ranges do to the depth."""
     heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
     return [
@@ -349,7 +323,7 @@ def sensitivity(record: Record) -> list[Table]:
     ]
 
 
-def scatter(record: Record) -> Table:
+def scatter(record: r.Record) -> Table:
     """The stream of particles by three laws."""
     shares = (
         f"V and X/R that {number(100 * point.share)} % do not exceed"

@@ -1,7 +1,5 @@
 """The record as the audit's folder: page, Markdown, JSON, CSV and figures, written all or none."""
 
-import csv
-import io
 import re
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
@@ -17,7 +15,7 @@ import msgspec
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
 from replication.audit.wording import quantity
-from replication.plain import json_text
+from replication.plain import json_text, rows_csv
 from replication.power import measured
 from replication.report import facts as told
 from replication.report.figures import Drawing, draw
@@ -70,11 +68,7 @@ _COLUMNS = (
 
 def _csv(record: Record) -> str:
     """A line for each claim; what does not apply is empty."""
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(_COLUMNS)
-    writer.writerows([_cell(claim, column) for column in _COLUMNS] for claim in record.claims)
-    return buffer.getvalue()
+    return rows_csv([{name: _cell(claim, name) for name in _COLUMNS} for claim in record.claims])
 
 
 def _cell(claim: ClaimRecord, column: str) -> Any:

@@ -55,7 +55,7 @@ def _by_title(record: Record, table: told.Table) -> told.Table:
 def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
     """One claim with all that its verdict rests on; the ledger names what it refers to."""
     names = (
-        {name: Named(e.entry.title) for name, e in ledger.equations.items()}
+        {name: Named(e.title) for name, e in ledger.equations.items()}
         | {f"{INFERRED}{name}": Named(e.title, "", quantity(number(e.nominal), e.unit))
            for name, e in ledger.inferred.items()}
         | {name: Named(c.title, "", quantity(c.shown, c.unit))
@@ -139,5 +139,5 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
 
 def ledger_table(claims: Iterable[Claim], width: int) -> str:
     """The ledger, a line for each claim."""
-    rows = [(c.id, quantity(c.shown, c.unit), c.entry.kind, str(c.place)) for c in claims]
+    rows = [(c.id, quantity(c.shown, c.unit), c.kind, str(c.place)) for c in claims]
     return columns(rows, width)

@@ -95,7 +95,17 @@ def read_source(name: str, value: Any) -> Source:
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3})
     Spaced(first=1e-06, last=5e-06, count=3, log=False)
     """
-    source = _of_table(name, value) if isinstance(value, dict) else _listed(name, value)
+    source: Source
+    if not isinstance(value, dict):
+        source = _listed(name, value)
+    elif "distribution" in value:
+        source = _random(name, value)
+    elif "from" in value:
+        source = _spaced(name, value)
+    elif "average_mass" in value:
+        source = _by_mass(name, value)
+    else:
+        raise ValueError("wants from, to, points; or distribution; or, by Eq. 1, average_mass")
     if not isinstance(source, ByMass):
         for number in source.values if isinstance(source, Listed) else source.bounds:
             check({name: number})
@@ -107,16 +117,6 @@ def _listed(name: str, value: Any) -> Listed:
     if not values:
         raise ValueError("the list is empty: give one value or more")
     return Listed(tuple(_read(item, INPUTS[name]) for item in values))
-
-
-def _of_table(name: str, table: Table) -> Source:
-    if "distribution" in table:
-        return _random(name, table)
-    if "from" in table:
-        return _spaced(name, table)
-    if "average_mass" in table:
-        return _by_mass(name, table)
-    raise ValueError("wants from, to, points; or distribution; or, by Eq. 1, average_mass")
 
 
 def _spaced(name: str, table: Table) -> Spaced:

@@ -43,7 +43,7 @@ def workbook_plan(
         sheets.append(audit.sheet(ledger, findings))
         cells = {sheet.name: sheet.cells for sheet in sheets}
         for claim in audit.computed_claims(ledger):
-            name, address = place_of(str(claim.entry.workbook))
+            name, address = place_of(str(claim.workbook))
             cell = cells.get(name, {}).get(address)
             if cell is None or not cell.formula:
                 raise ValueError(

@@ -50,7 +50,7 @@ _HEAD_ROW = 11
 
 def computed_claims(ledger: Ledger) -> list[Claim]:
     """The claims that a cell of the workbook computes."""
-    return [claim for claim in ledger.claims.values() if claim.entry.workbook]
+    return [claim for claim in ledger.claims.values() if claim.workbook]
 
 
 def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
@@ -98,12 +98,12 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
         "J": text(str(claim.place), "unit"),
         "L": text(findings.explanations[claim.id], "unit"),
     }
-    if not claim.entry.workbook:
+    if not claim.workbook:
         return cells | {"F": text("–", "text")}
     # Fixed decimals for most, powers of ten where those would be long.
     size = 0 if claim.printed is None else abs(claim.printed.value)
     shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
-    key, place, interval = f"audit.{claim.id}", place_of(claim.entry.workbook), claim.interval()
+    key, place, interval = f"audit.{claim.id}", place_of(claim.workbook), claim.interval()
     for column, end in (("H", interval.lower), ("I", interval.upper)):
         if end is not None:
             cells[column] = Cell(
@@ -115,7 +115,7 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
             transcendental=True,  # it may hand on a value that is
         ),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
-        "K": text(claim.entry.workbook, "link", link=place),
+        "K": text(claim.workbook, "link", link=place),
     }  # fmt: skip
 
 

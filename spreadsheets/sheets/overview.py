@@ -121,8 +121,8 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
             cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
-            if claim.entry.workbook:
-                there = "='{}'!{}".format(*place_of(claim.entry.workbook))
+            if claim.workbook:
+                there = "='{}'!{}".format(*place_of(claim.workbook))
                 shown = "0.0" if ledger.value(name) > 100 else "0.0000"
                 cells["C"] = formula(
                     f"overview.{name}", there, "result", number_format=shown, transcendental=True

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from replication.audit.record import schema
+
 Command = Callable[..., tuple[int, str, str]]
 
 
@@ -101,6 +103,9 @@ def test_audit_writes_its_files_and_a_summary_of_one_screen(
     assert {"workbook.xlsx", "audit.md", "audit.json", "audit.csv"} <= names(folder)
     assert len(out.splitlines()) <= 40
     assert "3 not reproduced" in out
+    assert "audit.html" in out
+    assert "\x1b" not in out
+    assert json.loads(coldspray("audit", "--schema")[1]) == schema()
 
 
 def names(folder: Path) -> set[str]:
@@ -137,10 +142,7 @@ WRONG = {
     "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
     "no command": ([], "required: COMMAND"),
     "too many rows": (["sheet", "--step", "1e-18"], "takes more than 1,000,000 steps of 1e-18 s"),
-    "one point": (
-        ["history", "--points", "1"],
-        "a whole number from 2 to 1,000,000 is wanted",
-    ),
+    "one point": (["history", "--points", "1"], "a whole number from 2 to 1,000,000 is wanted"),
     "before the impact": (
         ["history", "--times", "0,-1 ns"],
         r"--times, value 2: '-1 ns' is not from 0 to 1e250 s: times such as \"0 ns,5 ns\"",
@@ -151,6 +153,13 @@ WRONG = {
     "two forms": (["history", "--json", "--csv"], "--csv: not allowed with argument --json"),
     "two forms of a sheet": (["sheet", "--csv", "--json"], "--json: not allowed with argument --c"),
     "points and times": (["history", "--points", "3", "--times", "0"], "not allowed with"),
+    "unknown scheme": (["sheet", "--scheme", "upwind"], "no scheme 'upwind': choose one of publ"),
+    "unknown ladder": (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of"),
+    "one step": (["converge", "--steps", "1 ns"], "two steps or more"),
+    "one level": (["converge", "--levels", "1"], "--levels: a whole number from 2 to 40 is wanted"),
+    "no step": (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
+    "too many digits": (["converge", "--digits", "6"], "lower the stop velocity"),
+    "no random cases": (["stability", "--random", "0"], "whole number from 1 to 10,000,000 is"),
     "folder for a file": (["workbook", "-o", "."], "is a folder; a file is wanted"),
     "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
     "file for a folder": (["audit", "--out", "taken"], "taken: is no folder"),
@@ -184,6 +193,7 @@ BAD_FILES = {
     "bad value": ('[impact]\nradius = "x"', "radius: 'x' is no finite number"),
     "bad kind": ("[impact]\nradius = [1]", "radius"),
     "bad sign": ("[impact]\nradius = -1.0", r"radius is -1\.0"),
+    "binary": ("\udcff\udcfe\0", "is no TOML file"),
 }
 
 
@@ -191,19 +201,11 @@ BAD_FILES = {
 def test_bad_case_files_name_the_file(problem: str, tmp_path: Path, coldspray: Command) -> None:
     text, message = BAD_FILES[problem]
     file = tmp_path / "case.toml"
-    file.write_text(text)
+    file.write_bytes(text.encode(errors="surrogateescape"))
     status, out, err = coldspray("depth", "--case-file", file)
     assert (status, out) == (2, "")
     assert re.search(rf"case\.toml.*{message}", err)
     assert len(err.splitlines()) == 1
-
-
-def test_a_binary_case_file_is_no_toml(tmp_path: Path, coldspray: Command) -> None:
-    file = tmp_path / "case.toml"
-    file.write_bytes(b"\xff\xfe\x00")
-    status, _, err = coldspray("depth", "--case-file", file)
-    assert status == 2
-    assert "is no TOML file" in err
 
 
 def test_a_closed_pipe_is_no_error() -> None:

@@ -208,13 +208,13 @@ SAID = {
 STEPS = {"at the stop velocity": 1, "below the stop velocity": 0}
 
 
-@pytest.mark.parametrize("case", hard_cases.HARD_CASES, ids=lambda case: case.name)
-def test_hard_case(case: hard_cases.HardCase) -> None:
+@pytest.mark.parametrize("name", hard_cases.HARD_CASES)
+def test_hard_case(name: str) -> None:
     """The closed form holds; the sheet holds, warns, or is refused with the reason."""
-    outcome = hard_cases.outcome(case)
+    outcome = hard_cases.outcome(name, hard_cases.HARD_CASES[name])
     said = (outcome.refused, outcome.sheet_refused, *outcome.warnings)
-    assert SAID.get(case.name, "") in " ".join(said)
-    assert outcome.steps == STEPS.get(case.name, outcome.steps)
+    assert SAID.get(name, "") in " ".join(said)
+    assert outcome.steps == STEPS.get(name, outcome.steps)
     if outcome.refused:
         assert outcome.closed_form is None
         assert re.search("must be|nothing would bring|doubles carry", outcome.refused)
@@ -264,25 +264,6 @@ def test_texts_for_reading(coldspray: Command) -> None:
     record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
     assert len(record["cases"]) == len(hard_cases.HARD_CASES)
     assert record["random"]["cases"] == 500
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of published"),
-        (["converge", "--steps", "1 ns"], "two steps or more"),
-        (["converge", "--levels", "1"], "--levels: a whole number from 2 to 40 is wanted"),
-        (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
-        (["converge", "--digits", "6"], "lower the stop velocity"),
-        (["sheet", "--scheme", "upwind"], "no scheme 'upwind'"),
-        (["stability", "--random", "0"], "--random: a whole number from 1 to 10,000,000 is wanted"),
-    ],
-)
-def test_bad_input(arguments: list[str], message: str, coldspray: Command) -> None:
-    status, out, err = coldspray(*arguments)
-    assert (status, out) == (2, "")
-    assert message in err
-    assert len(err.splitlines()) == 1
 
 
 def test_a_sheet_that_reverses_says_so(coldspray: Command) -> None:

@@ -80,3 +80,11 @@ def test_a_finding_whose_evidence_is_misprinted_no_longer_holds(name: str) -> No
     finding = with_misprints()[name]
     assert not finding.holds
     assert not all(part.holds for part in finding.evidence)
+
+
+def test_a_formula_that_a_misprint_leaves_without_a_value_ends_no_audit() -> None:
+    spoiled = audit(load().misprint("fz-resistance-rha", "0"))
+    assert spoiled.claim("frank-zook-rha").verdict == "not reproduced"
+    assert {f.id for f in spoiled.findings if not f.holds} >= {"equation-16", "frank-zook-values"}
+    armor = [a for a in spoiled.approaches if a.claim == "frank-zook-rha"]
+    assert [a.computed for a in armor] == [None, None]

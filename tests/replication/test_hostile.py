@@ -15,6 +15,7 @@ import zipfile
 from collections.abc import Callable, Iterable
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from replication.cases import INPUTS
-from replication.cli import COMMANDS, main
+from replication.cli import main
 from spreadsheets.safely import write_folder
 
 LONGEST = 400
@@ -192,8 +193,7 @@ LIGHT = ("depth", "sheet", "history", "claims")
 def flags(command: str) -> tuple[str, ...]:
     """The options of a command, as it declares them."""
     parser = argparse.ArgumentParser(add_help=False)
-    module = next(m for m in COMMANDS if m.__name__.endswith(f".{command}"))
-    module.options(parser)
+    import_module(f"replication.cli.{command}").options(parser)
     return tuple(flag for action in parser._actions for flag in action.option_strings)
 
 

@@ -6,7 +6,6 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 from base64 import b64encode
 from collections import Counter
 from collections.abc import Sequence
@@ -14,21 +13,19 @@ from hashlib import sha256
 from itertools import pairwise
 from math import inf, nextafter
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import html5lib
-import jsonschema
 import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.ledger import load
-from replication.audit.record import Record, schema
-from replication.cli import main
+from replication.audit.record import Record
+from replication.audit.verdict import OPEN
 from replication.report import terminal
-from replication.report.facts import OPEN, between
+from replication.report.facts import between
 from replication.report.figures import draw
 from replication.report.prose import Named, Prose
 from replication.report.render import check, contents, page, write
@@ -180,14 +177,11 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 # The other files
 
 
-def test_json_is_the_record_and_fits_its_schema(files: dict[str, bytes], record: Record) -> None:
+def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
     document = json.loads(files["audit.json"])
-    jsonschema.validate(document, schema())
     digest = document["provenance"]["sha256"].pop("workbook.xlsx")
     assert digest == sha256(BESIDE["workbook.xlsx"]).hexdigest()
     assert document == json.loads(msgspec.json.encode(record))
-    with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(document | {"counts": None}, schema())
 
 
 def test_every_claim_is_a_line_of_the_csv_with_all_digits(
@@ -252,29 +246,6 @@ def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], w
     text = terminal.columns(rows, width)
     assert max(map(len, text.split("\n"))) <= width
     assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
-
-
-def test_commands_print_what_they_promise(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    workbook = ModuleType("replication.workbook")
-    book = SimpleNamespace(to_bytes=lambda: BESIDE["workbook.xlsx"])
-    workbook.build = lambda record: book  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "replication.workbook", workbook)
-    assert main(["audit", "--out", str(tmp_path / "new" / "one"), "--exit-code"]) == 1
-    printed = capsys.readouterr().out
-    assert "audit.html" in printed
-    assert "\x1b" not in printed
-    assert main(["audit", "--schema"]) == 0
-    assert json.loads(capsys.readouterr().out) == schema()
-    assert main(["audit", "--out", str(tmp_path / "new" / "one" / "audit.md")]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
-    assert main(["claims"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == len(load().claims)
-    assert main(["claims", "depth-beta-5", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["verdict"] == "reproduced"
-    assert main(["claims", "depth-beta"]) == 2
-    assert "depth-beta-5" in capsys.readouterr().err
 
 
 # Numbers and sentences

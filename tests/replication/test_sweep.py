@@ -517,16 +517,6 @@ def test_a_draft_is_on_the_disk_before_it_has_its_name(
     assert names(tmp_path) == ["out.csv"]
 
 
-def test_a_killed_sweep_is_started_again(tmp_path: Path) -> None:
-    sweep = started(tmp_path)
-    sweep.kill()
-    sweep.communicate(timeout=60)
-    assert not (tmp_path / "out.csv").exists()
-    assert len(drafts(tmp_path)) == 1
-    write(plan_of(tmp_path, STREAM.format(samples=50)), tmp_path / "out.csv")
-    assert names(tmp_path) == ["out.csv", "plan.toml"]
-
-
 def started(folder: Path) -> "subprocess.Popen[bytes]":
     """A sweep of many blocks, once the first of them is in its draft."""
     plan_of(folder, STREAM.format(samples=4000 * BLOCK))

@@ -147,10 +147,10 @@ THROUGH_PRINT = {
 
 def test_each_address_in_the_ledger_computes_its_claim() -> None:
     """In its unit; its value prints as the claim does exactly where the audit says so."""
-    addressed = [claim for claim in LEDGER.claims.values() if claim.entry.workbook]
+    addressed = [claim for claim in LEDGER.claims.values() if claim.workbook]
     assert len(addressed) > 50
     for claim in addressed:
-        place = place_of(str(claim.entry.workbook))
+        place = place_of(str(claim.workbook))
         cell, value = PLAN.cell(place), BOOK.values[PLAN.cell(place).key]
         assert cell.formula
         assert cell.unit == claim.unit, claim.id
@@ -163,16 +163,15 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 
 def test_a_wrong_address_is_refused() -> None:
     claim = LEDGER.claims["depth-beta-5"]
-    entry = msgspec.structs.replace(claim.entry, workbook="Sheet beta 5!A1")
-    claims = {**LEDGER.claims, claim.id: replace(claim, entry=entry)}
-    wrong = msgspec.structs.replace(LEDGER, claims=claims)
+    moved = msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
+    wrong = msgspec.structs.replace(LEDGER, claims={**LEDGER.claims, claim.id: moved})
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
 
 
 def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
     for claim in LEDGER.claims.values():
-        if claim.entry.workbook and claim.by_scheme:
+        if claim.workbook and claim.by_scheme:
             values = BOOKS["centered"].values
             assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
     cells = dict(BOOKS["centered"].plan.cells())

@@ -77,7 +77,7 @@ class Page:
 
     @property
     def computed(self) -> list[str]:
-        return [claim.id for claim in load().claims.values() if claim.entry.workbook]
+        return [claim.id for claim in load().claims.values() if claim.workbook]
 
     @property
     def errors(self) -> Iterator[tuple[str, str, Value]]:
