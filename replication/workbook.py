@@ -572,7 +572,7 @@ class _Builder:
 
 def _label(impact: Impact) -> str:
     """What tells a case from the other, spelled as spreadsheet programs join a number to a text."""
-    return "R_t as given" if impact.beta is None else f"β = {impact.beta:.15g}"
+    return "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
 
 
 def _flags(impact: Impact) -> list[str]:

@@ -175,7 +175,9 @@ def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
     cells["I1"] = text(case.label, "title")
     if not case.resistance_given:
         beta = case.named("beta")
-        label = f'="β = "&{beta}'
+        # Programs join a number to a text with 15 digits or 17; Gnumeric, even a rounded one, with
+        # those of a long double.
+        label = f'="β = "&IF(ISNUMBER({beta}),ROUND({beta},6),{beta})'
         renamed = f'=IF(ISNUMBER({beta}),IF(I1="{case.label}","","{KEPT_NAME}"),"")'
         cells["I1"] = formula(f"{case.part}.label", label, "title")
         cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
