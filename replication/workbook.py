@@ -105,7 +105,8 @@ def build(
         from replication.audit.audit import audit
 
         record = audit()
-    return builder.workbook(_findings(record, scheme) if builder.report and record else None)
+    findings = _findings(record, scheme, builder.ledger) if builder.report and record else None
+    return builder.workbook(findings)
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -132,11 +133,15 @@ def rounding_bound(sheet: Sheet) -> float:
     return 4 * (2 * n + 41) * max(1.0, stretch) * 2.0**-53
 
 
-def _findings(record: "Record", scheme: str) -> Findings:
+def _findings(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under its scheme."""
     from replication.audit.verdict import Verdict
 
     verdicts = {claim.id: str(claim.verdict) for claim in record.claims}
+    explanations = {claim.id: claim.explanation for claim in record.claims}
+    for name in explanations if scheme != SCHEMES[0] else ():
+        if ledger.claims[name].by_scheme:
+            explanations[name] = f"With the {SCHEMES[0]} scheme: {explanations[name]}"
     for claim in record.claims:
         for judged in claim.otherwise:
             usual = judged.rounding, judged.choices, judged.header, judged.scheme
@@ -147,7 +152,7 @@ def _findings(record: "Record", scheme: str) -> Findings:
         headline=record.headline,
         counts={verdict: counts[verdict] for verdict in record.summary},
         verdicts=verdicts,
-        explanations={claim.id: claim.explanation for claim in record.claims},
+        explanations=explanations,
         failing=[name for name, verdict in verdicts.items() if Verdict(verdict).is_failure],
         differing=[name for name, verdict in verdicts.items() if verdict == Verdict.DIFFERS],
     )
@@ -282,7 +287,8 @@ class _Builder:
         longer = ["coldspray workbook", *([] if self.report else _flags(self.written["case"]))]
         longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
         longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
-        more: dict[str, Any] = {"rows": self.rows, "longer": " ".join(longer)}
+        command = " ".join(longer) if self.rows < steps.MAX_ROWS else ""
+        more: dict[str, Any] = {"rows": self.rows, "longer": command}
         cases, coarse = (
             [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
             for runs in (self.sheets, self.coarse)
@@ -327,7 +333,8 @@ class _Builder:
             parts[slug] = self._sheet(slug, sheet)
         for slug, sheet in self.coarse.items():
             fine = self.sheets[slug].final_depth * 1e6
-            against = {"fine_depth_um": fine, "over_fine": sheet.final_depth * 1e6 / fine}
+            over = sheet.final_depth * 1e6 / fine if fine else lines.NOT_COMPUTED
+            against = {"fine_depth_um": fine, "over_fine": over}
             parts[f"{slug}_coarse"] = self._sheet(slug, sheet) | against
         for part, held in parts.items():
             for what, value in dict(held).items():
@@ -364,7 +371,9 @@ class _Builder:
         for slug, sheet in self.sheets.items():
             yield f"{slug}.depth_um", sheet.final_depth * 1e6
             yield f"{slug}.normalized_depth", sheet.normalized_depth
-            yield f"{slug}.message", _state(sheet)[1]
+            same = _label(sheet.impact) == _label(self.written[slug])
+            label = "" if same else f"{_label(sheet.impact)}: "
+            yield f"{slug}.message", label + _state(sheet)[1]
 
     def _table(self) -> dict[str, Any]:
         sheet, given = list(self.sheets.values())[-1], _given(self.last)
@@ -383,7 +392,6 @@ class _Builder:
             same = _label(impact) == _label(self.written[slug])
             held |= {"label": _label(impact), "renamed": "" if same else steps.KEPT_NAME}
         return held | {
-            "state": message,
             "message": message,
             "trust": trust,
             "stopped": 1,
@@ -564,7 +572,7 @@ class _Builder:
 
 def _label(impact: Impact) -> str:
     """What tells a case from the other, spelled as spreadsheet programs join a number to a text."""
-    return "R_t as given" if impact.beta is None else f"β = {impact.beta:.15g}"
+    return "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
 
 
 def _flags(impact: Impact) -> list[str]:
@@ -599,8 +607,8 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
     kinds = [doubt.kind for doubt in doubts_about(sheet)]
     trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
-    state = (steps.DOUBTFUL, steps.WARNED, steps.STOPPED)[trust]
-    return trust, state + "".join(steps.DOUBTS[kind] for kind in kinds)
+    message = (steps.DOUBTFUL, steps.REVERSED, steps.COMPLETE)[trust]
+    return trust, message if sheet.steps else steps.NO_STEPS
 
 
 def _cubed(volume: float) -> float:

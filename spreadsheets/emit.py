@@ -152,6 +152,11 @@ def _sealed(content: bytes) -> bytes:
     app = re.sub(r"<AppVersion>.*?</AppVersion>", "", app)
     core = re.sub(r"<dcterms:(created|modified).*?</dcterms:\1>", "", core)
     parts |= {"docProps/app.xml": app.encode(), "docProps/core.xml": core.encode()}
+    for name, part in parts.items():
+        if name.startswith("xl/charts/"):
+            # Where nothing is said, LibreOffice draws a smooth curve through the points.
+            straight = b'</c:yVal><c:smooth val="0"/>'
+            parts[name] = part.replace(b"</c:yVal>", straight)
     seal = _digest(parts).encode()
     parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), seal)
     return _packed(parts)

@@ -26,9 +26,6 @@ def run(options: argparse.Namespace) -> int:
 
     sheet = run(shared.case(options), options.scheme)
     doubts = [warning.text for warning in warnings(sheet)]
-    if sheet.steps == 0:
-        slow, least = sheet.impact.velocity, sheet.impact.stop_velocity
-        doubts = [f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"]
     if options.json:
         record = {
             "inputs": inputs_of(sheet.impact),

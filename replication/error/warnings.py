@@ -16,7 +16,7 @@ unit of the third is at least that much."""
 
 
 class Doubt(NamedTuple):
-    """What is wrong: "reversed", "coarse" or "deep", and a sentence that says by how much."""
+    """What is wrong: "no steps", "reversed", "coarse" or "deep", and a sentence with figures."""
 
     kind: str
     text: str
@@ -28,6 +28,7 @@ class Doubt(NamedTuple):
 def warnings(sheet: Sheet) -> list[Doubt]:
     """The warnings about a sheet.
 
+    "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
     "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
     more than `COARSE` R; "deep": its depth is more than `DEEP` beyond the exact one at rest.
 
@@ -38,6 +39,10 @@ def warnings(sheet: Sheet) -> list[Doubt]:
     ['reversed', 'coarse', 'deep']
     """
     impact, last = sheet.impact, sheet.rows[-1]
+    if sheet.steps == 0:
+        slow, least = impact.velocity, impact.stop_velocity
+        text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
+        return [Doubt("no steps", text)]
     found = []
     if last.velocity_final is not None and last.velocity_final < -impact.stop_velocity:
         share = 100 * -last.velocity_final / impact.velocity

@@ -68,7 +68,7 @@ def workbook_plan(
 
 _SAID = {
     "Inputs": "Every physical number: yours and the report’s, unit, check, limits, name",
-    "Table A-1": "The five rows that the report’s appendix prints, cell for cell",
+    "Table A-1": "The first rows of the scheme, laid out as the report’s appendix prints them",
     "Table A-1 check": "Printed, computed in full, and the difference in the last digit",
     "Figure 3": "Depth against time, with its chart",
     "Figure 5": "Normalized depth against velocity, with its chart (section 4)",
@@ -79,5 +79,5 @@ _SAID = {
     "Audit": "Every printed number: what prints like it, computed value, verdict, its cell",
 }
 _SHEET = "All rows of the scheme down to the stop, and its final depth (appendix)"
-_COARSE = "The same with the coarser time step, and what that changes (section 3)"
+_COARSE = "The same with the time step of the comparison, and what that changes (section 3)"
 """What each sheet shows, for the first of them; those of the cases apart."""

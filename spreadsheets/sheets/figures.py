@@ -172,7 +172,9 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         names.append(case.named("R_t"))
         cells |= _levels(case, columns, first)
         size = columns[3]
-        series.append(Series((case.name, "I1"), f"B{first}:B{last}", f"{size}{first}:{size}{last}"))
+        # Called as it was when it was computed: the head of its columns.
+        whose = "Convergence", f"{columns[0]}{first - 3}"
+        series.append(Series(whose, f"B{first}:B{last}", f"{size}{first}:{size}{last}"))
     cells |= _same_inputs(names, last + 4)
     chart = Chart(
         at=f"A{last + 4}",

@@ -51,7 +51,7 @@ def title(words: str) -> dict[str, Cell]:
 
 def notes(row: int, *texts: str, width: int = 165, column: str = "A") -> dict[str, Cell]:
     """Texts from `row` down, broken into lines that fit a page."""
-    lines = [line for words in texts for line in wrap(words, width)]
+    lines = [line for words in texts for line in wrap(words, width, break_on_hyphens=False)]
     return {f"{column}{at}": text(line, "note") for at, line in enumerate(lines, row)}
 
 

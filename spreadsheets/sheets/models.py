@@ -21,7 +21,7 @@ def crater(ledger: Ledger) -> SheetPlan:
         Line("volume", "PV", "particle volume", "=4/3*pi_*R_p*R_p*R_p", "m^3", "Eq. 3", shown=_SI),
         Line("volume_um3", "PV", "the same", _cubed("volume"), "um^3", claim="particle-volume",
              shown="0.00"),
-        "Crater of the least CV/PV",
+        "Crater of the observed CV/PV",
         *_crater("least", "CV_PV", "observed-depth-ratio", "observed-depth", "volume-ratio"),
         "Line of Figure 1: CV in proportion to PV",
         Line("on_line", "CV", "crater volume on the line, at this PV", "=CV_PV_line*{volume_um3}",
@@ -118,7 +118,7 @@ def resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
                  "Eq. 6; by Eq. 5 the least strength of a rigid particle", shown=_SI),
             Line(f"{key}.over_copper", "Σ/Y_p", "over the yield strength of annealed copper",
                  f"={{{key}_centerline_stress}}/Y_copper",
-                 source="a rigid particle must be so many times stronger", shown="0.0"),
+                 source="a rigid particle is at least so many times as strong", shown="0.0"),
         ]
     lines += [
         "Strain rate",
@@ -139,7 +139,7 @@ def frank_zook(ledger: Ledger) -> SheetPlan:
     for which, head, r_t, given, depth in (
         ("rha", "Rolled homogeneous armor (Eq. 17)", "R_t_RHA",
          "fz-resistance-rha", "frank-zook-rha"),
-        ("lower", "The lower target resistance", "R_t_lower",
+        ("lower", "Stainless steel", "R_t_lower",
          "fz-resistance-stainless", "frank-zook-stainless"),
     ):
         inertia = "({length_ratio}*rho_p/rho_t+k_1)/(2*k_t)"

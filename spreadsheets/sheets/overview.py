@@ -74,7 +74,7 @@ def sheet(
         widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0},
         rules=tuple(rules),
         print_area=f"A1:F{page.row - 1}",
-        page_break=first_page,
+        page_break=first_page if findings is not None else None,
     )
 
 
@@ -93,7 +93,12 @@ def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> list[Ru
             ("F", "message", "state", {}),
         ):
             key = f"overview.{case.slug}.{what}"
-            cells[column] = formula(key, f"={case.result(what)}", style, **more)
+            shown = f"={case.result(what)}"
+            if column == "F" and not case.resistance_given:
+                # Beside the name of a sheet for another beta: the beta in use.
+                there = f"'{case.name}'!"
+                shown = f'=IF({there}I2="","",{there}I1&": ")&{shown[1:]}'
+            cells[column] = formula(key, shown, style, **more)
         if case.depth_claim:
             cells["C"] = printed(ledger, case.depth_claim, "um")
             cells["E"] = printed(ledger, case.ratio_claim)

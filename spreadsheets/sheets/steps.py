@@ -128,14 +128,16 @@ _COLUMNS = {
 is that of the centered scheme."""
 
 _RESULTS = "IJKLMN"
-_WIDTHS = (7.0, 33.0, 13.0, 7.0, 24.0, 26.0)
+_WIDTHS = (8.0, 33.0, 13.0, 7.0, 24.0, 26.0)
 
 
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
     centered = case.scheme == "centered"
     columns = "ABCDEFGH" if centered else "ABCDEFG"
-    cells = _head(case, columns) | _results(ledger, case)
+    results = _results(ledger, case)
+    cells = _head(case, columns) | results
+    last = max(FIRST_ROW + case.steps, *(int(address[1:]) for address in results))
     for step in range(case.rows + 1):
         cells |= _row(step, case)
     widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, "H": 13.0 if centered else 3.0}
@@ -146,7 +148,7 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         widths=widths | dict(zip(_RESULTS, _WIDTHS, strict=True)),
         frozen=f"A{FIRST_ROW}",
         repeated_rows=(FIRST_ROW - 2, FIRST_ROW - 1),
-        print_area=f"A1:M{FIRST_ROW + max(case.steps, _RESULT_ROWS)}",
+        print_area=f"A1:M{last}",
         rules=(
             Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
             Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
@@ -158,19 +160,25 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
 def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
     """The title with the live β, the state of the run, notes, and the heads of the columns."""
     top = FIRST_ROW - 2
+    more = f"; for more: {case.longer}" if case.longer else ", and no workbook takes more."
     cells = title("Rigid-body penetration, row by row") | notes(
         4,
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
         f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
         "The run stops with the first row below v_stop; printed pages end with the last row as "
-        f"written. {case.rows} rows are prepared; for more: {case.longer}",
-        width=140,
+        f"written. {case.rows} rows are prepared{more}",
+        width=205,
     )
-    cells["A3"] = formula(f"{case.part}.state", f"={case.result('message')}", "message")
+    cells["A3"] = formula(
+        f"{case.part}.message", _message(case), "message", name=case.result("message")
+    )
     cells["I1"] = text(case.label, "title")
     if not case.resistance_given:
-        label = f'="β = "&{case.named("beta")}'
-        renamed = f'=IF(I1="{case.label}","","{KEPT_NAME}")'
+        beta = case.named("beta")
+        # Programs join a number to a text with 15 digits or 17; Gnumeric, even a rounded one, with
+        # those of a long double.
+        label = f'="β = "&IF(ISNUMBER({beta}),ROUND({beta},6),{beta})'
+        renamed = f'=IF(ISNUMBER({beta}),IF(I1="{case.label}","","{KEPT_NAME}"),"")'
         cells["I1"] = formula(f"{case.part}.label", label, "title")
         cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
     cells |= heads(top, columns, _HEADS[: len(columns)], columns)
@@ -244,28 +252,29 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
 
 # The block beside the rows
 
-_RESULT_ROWS = 42
-
 KEPT_NAME = "The sheet keeps the name with which it was written."
 YES_NO = '"yes";;"no"'
 """Shows 1 and 0; a truth value would show as TRUE in one program and as 1 in another."""
 
-STOPPED = "Stopped: the run is complete."
-WARNED = "Stopped, with a warning."
-INVALID = "NOT COMPUTED: an input cannot be used, see the sheet Inputs."
-OUT_OF_ROWS = "OUT OF ROWS: the rows end before the particle stops. See the note below."
-DOUBTFUL = "DO NOT TRUST THIS RUN."
-DOUBTS = {
-    "reversed": " The last step reverses the velocity.",
-    "coarse": " One step passes too much of the radius.",
-    "deep": " The depth is beyond the exact one.",
-}
-"""What is said of a run whose time step is too long, by kind."""
+COMPLETE = "Complete: the velocity is below v_stop."
+REVERSED = "Complete, but the last step reverses the velocity."
+DOUBTFUL = "DO NOT TRUST THIS RUN: the time step is too long."
+NO_STEPS = "NO STEPS: the impact velocity is below v_stop."
+OUT_OF_ROWS = "OUT OF ROWS: the rows end before the particle stops."
+INVALID = "NOT COMPUTED: an input cannot be used, see Inputs."
+"""What is said of a run: `Overview` prints at most 60 letters, some of them for β."""
+
+
+def _message(case: CaseSheet) -> str:
+    stopped, steps, trust = (case.result(what) for what in ("stopped", "steps", "trust"))
+    run = f'IF({trust}=2,"{COMPLETE}",IF({trust}=1,"{REVERSED}","{DOUBTFUL}"))'
+    run = f'IF({stopped}=1,IF({steps}=0,"{NO_STEPS}",{run}),"{OUT_OF_ROWS}")'
+    return f'=IF(ISNUMBER({stopped}),{run},"{INVALID}")'
 
 
 def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
     lines: list[Line | str] = [
-        "Inputs of this sheet",
+        "",  # no title here, since every printed page repeats this row
         *_inputs(case),
         "Result of the sheet",
         *_result(case),
@@ -276,11 +285,12 @@ def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
     ]
     if case.coarse:
         fine = case.named("depth_um")
+        over = f'=IF({fine}>0,{{depth_um}}/{fine},"{NOT_COMPUTED}")'
         lines += [
             "Against the sheet with the step dt_s",
             Line("fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
                  claim=case.depth_claim),
-            Line("over_fine", "", "depth of this sheet over that", f"={{depth_um}}/{fine}",
+            Line("over_fine", "", "depth of this sheet over that", over,
                  claim="coarse-step-remark", shown="0.00%"),
         ]  # fmt: skip
     return place(ledger, case.part, lines, FIRST_ROW - 2, _RESULTS)
@@ -362,25 +372,15 @@ def _exact(case: CaseSheet) -> list[Line]:
 
 
 def _doubts(case: CaseSheet) -> list[Line]:
-    """What tells that the time step is too long for the motion, and the message."""
-    signs = {
-        "reversed": "{final_velocity}<-v_stop",
-        "coarse": "{travel}>travel_most",
-        "deep": "{over_exact}>1+excess_most",
-    }
-    said = "&".join(f'IF({sign},"{DOUBTS[kind]}","")' for kind, sign in signs.items())
-    serious = "IF({coarse},1,IF({deep},1,0))".format_map(signs)
-    trust = f"IF({serious}=1,0,IF({signs['reversed']},1,2))"
-    stopped = f'IF({{trust}}=2,"{STOPPED}",IF({{trust}}=1,"{WARNED}","{DOUBTFUL}")&{said})'
-    message = f'IF({{stopped}}=1,{stopped},"{OUT_OF_ROWS}")'
+    """What tells that the time step is too long for the motion."""
+    serious = "IF({travel}>travel_most,1,IF({over_exact}>1+excess_most,1,IF({steps}=0,1,0)))"
+    trust = f"IF({serious}=1,0,IF({{final_velocity}}<-v_stop,1,2))"
     return [
         Line("travel", "Δt V/R", "radii passed in one step at V",
-             f"={case.step_name}*V_impact/R_p", source="warning above travel_most"),
+             f"={case.step_name}*V_impact/R_p", source="too long above travel_most"),
         Line("over_exact", "", "depth over the depth at rest",
              "=IF({stopped}=1,{normalized_depth}/{exact_normalized_depth},"
-             f'"{NOT_COMPUTED}")', source="warning above 1 + excess_most", guard=False),
+             f'"{NOT_COMPUTED}")', source="too long above 1 + excess_most", guard=False),
         Line("trust", "", "2 sound, 1 with a warning, 0 do not use",
              f"=IF({{stopped}}=1,{trust},0)", shown="0", name=case.result("trust"), guard=False),
-        Line("message", "", "", f'=IF(ISNUMBER({{stopped}}),{message},"{INVALID}")',
-             style="message", name=case.result("message"), guard=False),
     ]  # fmt: skip

@@ -89,8 +89,9 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         cells |= _beside(ledger, claims)
     cells |= notes(
         14,
-        "Table A-1, rigid body penetration. Columns A to F are live, with the inputs of "
-        f"{case.name}." + (" Columns H to M are the report’s text." if report else ""),
+        f"Table A-1, rigid body penetration. Columns A to {'G' if centered else 'F'} are live, "
+        f"with the inputs of {case.name}."
+        + (" Columns H to M are the report’s text." if report else ""),
         "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
     )
     cells["A18"] = title("")["A2"]

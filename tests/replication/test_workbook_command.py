@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from workbooks import Fake, stored
 
 from replication import workbook
 from spreadsheets.engines import Engine
+from spreadsheets.sheets import steps
 
 Run = Callable[..., tuple[int, str, str]]
 OWN = ("--step", "1 ns")
@@ -46,12 +48,16 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     assert path.read_bytes() == first
 
 
+def note(cells: dict[str, Any]) -> str:
+    """What stands above the rows of a sheet."""
+    return " ".join(str(cells.get(f"A{row}", "")) for row in range(4, 8)).strip()
+
+
 def test_rows_and_the_command_that_the_sheet_advises(run: Run, tmp_path: Path) -> None:
     """A case of one's own is named in full; the command that is named writes a longer sheet."""
     run(*OWN, "--beta", "4")
     cells = stored(tmp_path / "workbook.xlsx")["Sheet beta 4"]
-    note = " ".join(str(cells[f"A{row}"]) for row in range(4, 8))
-    (command,) = re.findall(r"for more: coldspray workbook (.*)$", note)
+    (command,) = re.findall(r"for more: coldspray workbook (.*)$", note(cells))
     assert command == "--case beta-5 --beta 4.0 --step 1e-09 --rows 2000"
     status, _, _ = run(*command.split(), "-o", "longer.xlsx")
     assert status == 0
@@ -65,10 +71,36 @@ def test_the_reports_workbook_advises_its_own_command(run: Run, tmp_path: Path) 
     assert run("--scheme", "centered", "-o", "r.xlsx")[0] == 0
     values = stored(tmp_path / "r.xlsx")
     for sheet in ("Sheet beta 3", "Sheet beta 5", "Sheet beta 5 coarse"):
-        note = " ".join(str(values[sheet][f"A{row}"]) for row in range(4, 8))
-        assert note.endswith("for more: coldspray workbook --scheme centered --rows 4000")
+        assert note(values[sheet]).endswith(
+            "for more: coldspray workbook --scheme centered --rows 4000"
+        )
     assert run("--scheme", "centered", "--rows", "400", "-o", "s.xlsx")[0] == 0
     assert (tmp_path / "r.xlsx").read_bytes() == (tmp_path / "s.xlsx").read_bytes()
+
+
+def test_the_longest_command_is_advised_whole(run: Run, tmp_path: Path) -> None:
+    given = {
+        "velocity": 512.3456789012345,
+        "radius": 7.345678901234567e-06,
+        "particle-density": 8765.432109876543,
+        "target-density": 7654.321098765432,
+        "beta": 4.567890123456789,
+        "flow-stress": 765432109.8765432,
+        "step": 1.234567890123456e-09,
+        "stop-velocity": 2.345678901234567,
+    }
+    options = [f"--{name} {value!r}" for name, value in given.items()]
+    asked = ("--scheme", "centered", "--rows", "1234", "-o", "long.xlsx")
+    assert run(*" ".join(options).split(), *asked)[0] == 0
+    command = " ".join(["--case beta-5", *options, "--scheme centered --rows 12340"])
+    assert note(stored(tmp_path / "long.xlsx")["Sheet beta 4.568"]).endswith(f"workbook {command}")
+
+
+def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(steps, "MAX_ROWS", 200)
+    book = workbook.build([replace(workbook.BETA_5, step=1e-9)], rows=200)
+    said = note(book.cells["Sheet beta 5"])
+    assert said.endswith("200 rows are prepared, and no workbook takes more.")
 
 
 @pytest.mark.parametrize(
@@ -97,6 +129,7 @@ def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:
     assert all(w.startswith("coldspray workbook: warning: Sheet beta 5: ") for w in warnings)
     assert "reverses the velocity to -861.9 m/s" in err
     assert run("--step", "40 ns", "--quiet") == (0, "", "")
+    assert "0.5 m/s is below the stop velocity 1.0 m/s: no steps" in run("--velocity", "0.5")[2]
 
 
 # Verification

@@ -167,7 +167,8 @@ def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
     assert len(charts) == 3
     for text in charts:
         assert "<c:numCache>" in text
-        assert text.count("<c:strRef>") == text.count("<c:ser>")  # the live names of the curves
+        assert text.count("<c:strRef>") == text.count("<c:ser>")  # the names of the curves
+        assert text.count('</c:yVal><c:smooth val="0"/>') == text.count("<c:ser>")  # straight lines
     drawings = [text for name, text in parts.items() if "drawings/drawing" in name]
     assert all('descr="Line chart' in text for text in drawings)
     (audit,) = (sheet for sheet in emitted.book.plan.sheets if sheet.name == "Audit")

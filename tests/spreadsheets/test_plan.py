@@ -176,6 +176,9 @@ def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
             assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
     cells = dict(BOOKS["centered"].plan.cells())
     assert "centered" in cells["Overview", "A2"].text
+    told = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
+    by_scheme = [claim.by_scheme for claim in LEDGER.claims.values()]
+    assert [text.startswith("With the published scheme: ") for text in told[1:]] == by_scheme
 
 
 def test_every_claim_stands_once_on_the_audit_sheet() -> None:
@@ -279,6 +282,8 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         (chart,) = SHEETS[name].charts
         assert words in chart.description
         assert all("[" in title for title in (chart.x_title, chart.y_title))
+        for sheet, at in (series.name for series in chart.series):
+            assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
         for cells in (cells for series in chart.series for cells in (series.x, series.y)):
             first, last = cells.split(":")
             rows = range(int(first[1:]), int(last[1:]) + 1)

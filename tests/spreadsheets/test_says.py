@@ -21,13 +21,13 @@ from spreadsheets.sheets.figures import CURRENT, STALE
 from spreadsheets.sheets.inputs import INPUTS, MESSAGES
 from spreadsheets.sheets.lines import NOT_COMPUTED
 from spreadsheets.sheets.steps import (
+    COMPLETE,
     DOUBTFUL,
-    DOUBTS,
     INVALID,
     KEPT_NAME,
+    NO_STEPS,
     OUT_OF_ROWS,
-    STOPPED,
-    WARNED,
+    REVERSED,
 )
 
 TYPED: dict[str, dict[str, Any]] = {
@@ -46,14 +46,17 @@ TYPED: dict[str, dict[str, Any]] = {
     "long step": {"dt_s": 40.0},
     "half a long step": {"dt_s": 12.0},
     "another stop": {"v_stop": 2.0},
+    "too slow": {"V_impact": 0.5},
+    "as slow as the stop": {"V_impact": 1.0},
+    "no beta": {"beta_high": "four"},
     "another beta": {"beta_high": 4.0},
     "report": {"from": "report", "V_impact": 600.0, "rho_t": 0.0, "beta_high": 4.0},
 }
 """Name -> what is typed, by the name of the input and in its unit."""
 
 FOR_ALL = (
-    "nothing", "no velocity", "a text", "no hardness", "few rows", "long step", "another beta",
-    "report",
+    "nothing", "no velocity", "a text", "no hardness", "few rows", "long step", "too slow",
+    "another beta", "report",
 )  # fmt: skip
 """What every program is given; the fastest is given all."""
 
@@ -162,7 +165,7 @@ def a_run_that_is_not_computed_says_why_beside_result_chart_and_in_front(
     said = {**dict.fromkeys(NOTHING, INVALID), "few rows": OUT_OF_ROWS}
     for name in said.keys() & pages.keys():
         page, message = pages[name], said[name]
-        for key in ("high.message", "high.state", "overview.high.message"):
+        for key in ("high.message", "overview.high.message"):
             assert page[key] == message, (name, key)
         assert str(page["figure_3.high.message"]).endswith(message)
         assert page["high.trust"] == 0
@@ -181,13 +184,24 @@ def warnings_are_those_of_the_command(pages: dict[str, Page]) -> None:
     for name in said.keys() & pages.keys():
         kinds, page, step = said[name], pages[name], float(TYPED[name].get("dt_s", 0.2)) / 1e9
         assert [doubt.kind for doubt in warnings(run(replace(BETA_5, step=step)))] == kinds
-        head = WARNED if kinds == ["reversed"] else DOUBTFUL
-        message = head + "".join(DOUBTS[kind] for kind in kinds)
-        for key in ("high.message", "high.state", "overview.high.message"):
+        message = REVERSED if kinds == ["reversed"] else DOUBTFUL
+        for key in ("high.message", "overview.high.message"):
             assert page[key] == message
         assert page["figure_3.high.message"] == f"β = 5: {message}"
         assert page["high.trust"] == (1 if kinds == ["reversed"] else 0)
-    assert (pages["nothing"]["low.message"], pages["nothing"]["low.trust"]) == (STOPPED, 2)
+    assert (pages["nothing"]["low.message"], pages["nothing"]["low.trust"]) == (COMPLETE, 2)
+
+
+def a_run_without_steps_is_not_called_complete(pages: dict[str, Page]) -> None:
+    page = pages["too slow"]
+    for key in ("low.message", "high.message", "high_coarse.message", "overview.high.message"):
+        assert page[key] == NO_STEPS
+    assert page["figure_3.high.message"] == f"β = 5: {NO_STEPS}"
+    assert (page["high.steps"], page["high.final_depth"], page["high.trust"]) == (0, 0, 0)
+    assert page["high_coarse.over_fine"] == NOT_COMPUTED
+    if "as slow as the stop" in pages:
+        page = pages["as slow as the stop"]
+        assert (page["high.steps"], page["overview.high.message"]) == (1, COMPLETE)
 
 
 def the_ladder_says_whose_it_is(pages: dict[str, Page]) -> None:
@@ -206,6 +220,10 @@ def names_follow_beta(pages: dict[str, Page]) -> None:
     assert page["low.label"] == "β = 3"
     assert page["low.renamed"] == ""
     assert str(page["figure_3.high.message"]).startswith("β = 4: ")
+    assert str(page["overview.high.message"]).startswith("β = 4: ")
+    if "no beta" in pages:
+        assert pages["no beta"]["overview.high.message"] == INVALID
+        assert pages["no beta"]["high.renamed"] == ""
     assert page["inputs.changed"] == page["overview.inputs_changed"] == 1
     assert page["inputs.beta_high.check"] == "yours"
     assert page["inputs.message"] == MESSAGES["changed"]
@@ -230,6 +248,7 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
     inputs_that_cannot_be_used_are_named(pages)
     a_run_that_is_not_computed_says_why_beside_result_chart_and_in_front(pages)
     warnings_are_those_of_the_command(pages)
+    a_run_without_steps_is_not_called_complete(pages)
     the_ladder_says_whose_it_is(pages)
     names_follow_beta(pages)
     the_switch_brings_the_reports_inputs_back(pages)

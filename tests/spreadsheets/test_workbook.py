@@ -39,6 +39,7 @@ CASES: dict[str, tuple[tuple[Impact, ...], str]] = {
     "no step at all": ((replace(BETA_5, stop_velocity=600.0),), "centered"),
     "too long a step": ((replace(BETA_5, step=4e-8),), "published"),
     "numbers that no unit makes round": ((ODD,), "centered"),
+    "beta of sixteen digits": ((replace(BETA_5, beta=4.567890123456789, step=1e-9),), "published"),
 }
 
 
@@ -81,8 +82,8 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
             radius=draw(1e-6, 2e-5),
             particle_density=draw(1e3, 2e4),
             target_density=draw(1e3, 2e4),
-            # A label joins beta to a text, for which programs keep 15 digits, and Gnumeric those of
-            # a long double: eighths are the same in all.
+            # A label joins beta to a text, where Gnumeric may show digits of a long double: eighths
+            # are the same in all.
             beta=round(draw(8, 64)) / 8,
             flow_stress=draw(1e8, 2e9),
             stop_velocity=draw(0.0, 20.0),
