@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     own = options.case is not None or options.case_file is not None or shared.given(options)
     cases = [shared.case(options)] if own else workbook.REPORT
     book = workbook.build(cases, options.scheme, options.rows)
-    said, checks = [f"Written: {options.output}"], []
+    said, checks = [f"Written: {name_of(options.output)}"], []
     if options.verify:
         checks = workbook.write_verified(options.output, book, force=options.force)
         said += ["", _text(checks, book.rounding)]

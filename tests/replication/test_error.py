@@ -271,11 +271,11 @@ def test_texts_for_reading(coldspray: Command) -> None:
     [
         (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of published"),
         (["converge", "--steps", "1 ns"], "two steps or more"),
-        (["converge", "--levels", "1"], "--levels: a whole number from 2 to 40 is wanted"),
-        (["converge", "--steps", "1 ns,x"], "'x' is no finite number"),
+        (["converge", "--levels", "1"], "--levels: give a whole number from 2 to 40,"),
+        (["converge", "--steps", "1 ns,x"], "--steps, value 2: 'x' is no finite number"),
         (["converge", "--digits", "6"], "lower the stop velocity"),
         (["sheet", "--scheme", "upwind"], "no scheme 'upwind'"),
-        (["stability", "--random", "0"], "--random: a whole number from 1 to 10,000,000 is wanted"),
+        (["stability", "--random", "0"], "--random: give a whole number from 1 to 10,000,000,"),
     ],
 )
 def test_bad_input(arguments: list[str], message: str, coldspray: Command) -> None:

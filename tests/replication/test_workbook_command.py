@@ -74,7 +74,7 @@ def test_the_reports_workbook_advises_its_own_command(run: Run, tmp_path: Path) 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--rows", "20"), "20 rows do not do: the case needs 26 to 20,000"),
+        (("--rows", "20"), "20 rows will not do: give 26 to 20,000"),
         (("--rows", "30000"), "to 20,000"),
         (("--scheme", "best"), "no scheme 'best'"),
         (("--resistance", "1"), "takes 100,000 to 1e+15 Pa for the target resistance, given"),
