@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from replication.cli import COMMANDS
+
 Command = Callable[..., tuple[int, str, str]]
 
 
@@ -221,6 +223,10 @@ def test_a_closed_pipe_is_no_error() -> None:
 def test_version_and_help(coldspray: Command) -> None:
     assert re.fullmatch(r"coldspray \d+\.\d+\.\d+\n", coldspray("--version")[1])
     assert "COMMAND" in coldspray("--help")[1]
+    for command in COMMANDS:
+        said = coldspray(command.__name__.rpartition(".")[2], "--help")[1]
+        assert "--json" in said
+        assert "--quiet" in said
 
 
 def test_a_proof_names_its_cell_and_its_findings(coldspray: Callable[..., tuple]) -> None:
