@@ -36,7 +36,7 @@ VERDICTS = {
     Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
     "agree",
     Verdict.AGREES: "the report does not derive it; a public source prints it",
-    Verdict.DIFFERS: "the report does not derive it; public sources print something else",
+    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
     Verdict.REMARK: "words, no number, with the figures to judge them by",
     Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
 }
