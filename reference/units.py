@@ -190,6 +190,9 @@ def quantity(text: str, unit: str) -> Fraction:
     value, own = Fraction(match["number"]), match["unit"]
     if not own:
         return value
+    if own[0] == ",":
+        raise ValueError(f"{text!r}: write the decimal comma as a point")
     if not same_dimension(own, unit):
-        raise UnitError(f"{text!r}: {own} does not measure what {unit} does")
+        problem = f"{own} does not measure what {unit} does" if unit != "1" else "give no unit"
+        raise UnitError(f"{text!r}: {problem}")
     return value * to_si(own)

@@ -68,13 +68,14 @@ def _displaced(from_file: Mapping[str, str], given: Mapping[str, str]) -> dict[s
 
 
 def _file(path: Path) -> dict[str, str]:
+    content = read_file(path)
     try:
-        document = parse_toml(read_file(path))
+        document = parse_toml(content)
     except ValueError as error:
         raise ValueError(f"{name_of(path)} {error}") from error
     table = document.get("impact")
     if not isinstance(table, dict) or set(document) != {"impact"}:
-        raise ValueError(f"{name_of(path)}: wants one table, [impact], of inputs such as velocity")
+        raise ValueError(f"{name_of(path)}: give one table, [impact], of inputs such as velocity")
     if unknown := sorted(set(table) - set(INPUTS)):
         known = ", ".join(INPUTS)
         raise ValueError(

@@ -62,8 +62,12 @@ def read_file(path: Path, largest: int = _SIZE) -> bytes:
     mode = path.stat().st_mode
     if stat.S_ISCHR(mode):
         raise ValueError(f"{name_of(path)} is a device, not a file")
-    with _waiting(path) if stat.S_ISFIFO(mode) else nullcontext(), path.open("rb") as file:
-        content = file.read(largest + 1)
+    try:
+        with _waiting(path) if stat.S_ISFIFO(mode) else nullcontext(), path.open("rb") as file:
+            content = file.read(largest + 1)
+    except OSError as error:
+        error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
+        raise
     if len(content) > largest:
         raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
     return content
@@ -110,8 +114,11 @@ def parse_toml(content: bytes) -> dict[str, Any]:
         return tomllib.loads(content.decode("utf-8-sig"), parse_float=_Float)
     except UnicodeDecodeError as error:
         raise ValueError("is no TOML file: it is not UTF-8 text") from error
-    except ValueError as error:
+    except tomllib.TOMLDecodeError as error:
         raise ValueError(f"is no TOML file: {one_line(str(error), 200)}") from error
+    except ValueError as error:
+        most = sys.get_int_max_str_digits()
+        raise ValueError(f"holds a whole number of more than {most} digits") from error
 
 
 def read_number(text: str, unit: str) -> float:

@@ -18,7 +18,7 @@ def check_target(path: Path) -> Path:
         path.stat()  # a link that leads to itself
     target = path.resolve()
     if target.is_dir():
-        raise IsADirectoryError(EISDIR, "is a folder; a file is wanted", str(path))
+        raise IsADirectoryError(EISDIR, "is a folder; give a file", str(path))
     if target.exists() and not target.is_file():
         raise OSError(EINVAL, "is no regular file", str(path))
     if not target.parent.is_dir():
@@ -73,7 +73,7 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
     for path in (folder / name for name in names):
         there = _existing(path.parent)
         if not there.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is no folder; a folder is wanted", str(there))
+            raise NotADirectoryError(ENOTDIR, "is no folder; give a folder", str(there))
         if path.parent.is_dir():
             check_target(path)
     with _beside(folder):
@@ -105,11 +105,15 @@ def _beside(folder: Path) -> Iterator[Path]:
         drafts = there / f".{name}.{os.getpid()}.part"
         drafts.mkdir()
     except OSError as error:
-        raise type(error)(error.errno, "cannot be written to", str(there)) from error
+        problem = f"cannot be written to: {error.strerror}"
+        raise type(error)(error.errno, problem, str(there)) from error
     try:
         yield drafts
     except FileNotFoundError as error:
         raise OSError(EBUSY, "another run is writing to this folder", str(folder)) from error
+    except OSError as error:
+        error.filename = error.filename or str(folder)  # a full disk is told without a name
+        raise
     finally:
         shutil.rmtree(drafts, ignore_errors=True)
 

@@ -1,6 +1,7 @@
 """The audit: a verdict with its proof for every number that the report prints.
 
-`replication.audit` names a function to users, and this package: so it can be called.
+`replication.audit` is this package and, called, the finished audit as a `Record`: its claims with
+their verdicts, its findings and tables. Nothing is written.
 
 >>> from replication import audit
 >>> print(audit().claim("depth-beta-5").verdict)

@@ -500,7 +500,8 @@ def _rigid_strength(known: Known) -> Evidence:
         "multiple_3": sigma[3] / copper,
         "pressure": pressure,
         "fast": fast,
-        "short": sigma[5] / fast,
+        "short_5": sigma[5] / fast,
+        "short_3": sigma[3] / fast,
     }
 
 
@@ -648,7 +649,7 @@ def _times(known: Known, words: str) -> Fraction:
 def _minimum_velocity(known: Known) -> Evidence:
     return {
         "section_2": _times(known, "be higher than 403 m/s, but less than 521 m/s"),
-        "section_4": _times(known, "only faster-than-average particles were adhering"),
+        "section_4": _times(known, "suggesting that only faster-than-average particles were"),
     }
 
 

@@ -176,7 +176,7 @@ def sources(records: Sequence[SourceRecord]) -> str:
         texts[record.agrees].append(f"{quantity(record.says, record.unit)} ({record.title})")
     agreeing, others = "; ".join(texts[True]), "; ".join(texts[False])
     if not agreeing:
-        return f"The report names no source. It agrees with no public one: {others}."
+        return f"The report names no source. No public source at hand prints it: {others}."
     but = f", not with {others}" if others else ""
     return f"The report names no source. It agrees with {agreeing}{but}."
 
@@ -198,7 +198,7 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
         if constant.verdict is Verdict.NOT_REPRODUCED:
             needed = " or ".join(str(value) for value in constant.needed)
             printed = ledger.claims[constant.claim]
-            text += f" With {needed} for {printed.shown} ({printed.title}) it would follow."
+            text += f" With {needed} for {printed.shown} ({printed.title}) it follows."
     return text
 
 

@@ -179,7 +179,7 @@ def bench(
     from replication.models import arrays
 
     if repeat < 1:
-        raise ValueError(f"{repeat} repeats: one or more are wanted")
+        raise ValueError(f"{repeat} repeats: give one or more")
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
     results = []

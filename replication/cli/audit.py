@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from replication.cli import options as shared
+from replication.reading import name_of
 
 HELP = "audit every number the report prints"
 
@@ -57,5 +58,5 @@ def _audit(options: argparse.Namespace) -> int:
         from replication.report.terminal import summary
 
         print(summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
-        print(f"Written to {options.out}/; start with audit.html")
+        print(f"Written to {name_of(options.out)}/; start with audit.html")
     return 1 if options.exit_code and record.counts.failing else 0

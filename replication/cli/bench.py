@@ -56,8 +56,15 @@ def _effort(options: argparse.Namespace) -> dict[str, Any]:
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
     return {
         "repeat": repeat if options.repeat is None else options.repeat,
-        "limit": limit if options.limit is None else read_number(options.limit, "s"),
+        "limit": limit if options.limit is None else _limit(options.limit),
     }
+
+
+def _limit(text: str) -> float:
+    try:
+        return read_number(text, "s")
+    except ValueError as error:
+        raise ValueError(f"--limit: {error}") from error
 
 
 def _watch(options: argparse.Namespace) -> "Watch":

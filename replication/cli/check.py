@@ -1,10 +1,13 @@
 """`coldspray check`: somebody's own workbook of the scheme, against the report's sheet."""
 
 import argparse
+import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
+from replication.reading import name_of
 
 if TYPE_CHECKING:
     from replication.check.findings import Difference
@@ -27,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
-    check_files(options)
+    check_files(options, options.file)
     from replication.check.findings import KINDS
     from replication.check.record import check_record
     from replication.check.workbook import check
@@ -55,13 +58,16 @@ def finding_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--quiet", action="store_true", help="print nothing; the status tells")
 
 
-def check_files(options: argparse.Namespace) -> None:
-    """Raise OSError or ValueError, before any work, where a file could not be written."""
+def check_files(options: argparse.Namespace, *workbooks: Path) -> None:
+    """Raise OSError or ValueError, before any work, where a file cannot or must not be written."""
     from spreadsheets.safely import check_target
 
     targets = [check_target(file) for file in (options.html, options.junit) if file is not None]
     if len(set(targets)) < len(targets):
         raise ValueError(f"--html and --junit both name {targets[0]}: give each its own file")
+    for file in workbooks:
+        if os.path.realpath(file) in map(str, targets):  # unlike resolve(), no error for a loop
+            raise ValueError(f"{name_of(file)} is read: give --html and --junit another file")
 
 
 def put(

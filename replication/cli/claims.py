@@ -12,7 +12,7 @@ HELP = "list the claims, or prove one"
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("id", nargs="?", metavar="ID", help="prove this claim")
-    command.add_argument("--json", action="store_true", help="print JSON")
+    shared.output_options(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -54,8 +54,14 @@ def run(options: argparse.Namespace) -> int:
 def _steps(text: str) -> list[float]:
     texts = text.split(",")
     if len(texts) > MOST_STEPS:
-        raise ValueError(f"--steps wants at most {MOST_STEPS} steps, not {len(texts)}")
-    return [read_number(step.strip(), "s") for step in texts]
+        raise ValueError(f"--steps takes at most {MOST_STEPS} steps, not {len(texts)}")
+    steps = []
+    for place, step in enumerate(texts, 1):
+        try:
+            steps.append(read_number(step.strip(), "s"))
+        except ValueError as error:
+            raise ValueError(f"--steps, value {place}: {error}") from error
+    return steps
 
 
 def _record(result: "Convergence", digits: "StepForDigits | None") -> dict[str, Any]:
@@ -76,11 +82,11 @@ def _record(result: "Convergence", digits: "StepForDigits | None") -> dict[str, 
 
 _WHY = {
     "published": (
-        "The published scheme is first order: it takes a row's deceleration at the middle depth, "
+        "The published scheme is first order: it takes a row's deceleration at the middle depth,\n"
         "but at the initial velocity, and drag depends on velocity."
     ),
     "centered": (
-        "The centered scheme is second order: it takes a row's deceleration at the middle depth "
+        "The centered scheme is second order: it takes a row's deceleration at the middle depth\n"
         "and at the middle velocity."
     ),
 }

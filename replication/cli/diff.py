@@ -31,7 +31,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare, and say what was found: 1 if anything differs."""
-    check_files(options)
+    check_files(options, options.first, options.second)
     from replication.check.diff import KINDS, Tolerance, diff
     from replication.check.record import diff_record
 
@@ -46,5 +46,5 @@ def _share(text: str) -> float:
     except ValueError:
         number = -1.0
     if not 0 <= number <= 1:
-        raise argparse.ArgumentTypeError(f"a number from 0 to 1 is wanted, not {quoted(text)}")
+        raise argparse.ArgumentTypeError(f"give a number from 0 to 1, not {quoted(text)}")
     return number

@@ -86,7 +86,7 @@ def _time(place: int, text: str) -> float:
         if not 0 <= time <= 1e250:
             raise ValueError(f"{quoted(text.strip())} is not from 0 to 1e250 s")
     except ValueError as error:
-        wanted = 'times such as "0 ns,5 ns" are wanted'
+        wanted = 'give times such as "0 ns,5 ns"'
         raise ValueError(f"--times, value {place}: {error}: {wanted}") from error
     return time
 

@@ -16,7 +16,7 @@ from replication.reading import one_line, quoted
 def path(text: str) -> Path:
     """A path from the command line; an unset variable must not mean this folder."""
     if not text or "\0" in text:
-        raise argparse.ArgumentTypeError(f"a path is wanted, not {quoted(text)}")
+        raise argparse.ArgumentTypeError(f"give a path, not {quoted(text)}")
     return Path(text)
 
 
@@ -34,7 +34,7 @@ def whole(least: int, most: int) -> Callable[[str], int]:
             if least <= number <= most:
                 return number
         raise argparse.ArgumentTypeError(
-            f"a whole number from {least:,} to {most:,} is wanted, not {quoted(text)}"
+            f"give a whole number from {least:,} to {most:,}, not {quoted(text)}"
         )
 
     return read

@@ -42,5 +42,5 @@ def run(options: argparse.Namespace) -> int:
         record = {"file": str(output), "cases": plan.count, "columns": units}
         shared.print_json(record | provenance(plan))
     elif not options.quiet:
-        print(f"Written: {output} ({plan.count} cases)")
+        print(f"Written: {name_of(output)} ({plan.count} cases)")
     return 0

@@ -33,7 +33,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
     )
-    command.add_argument("--json", action="store_true", help="with --verify: print JSON")
+    command.add_argument("--json", action="store_true", help="print JSON")
     command.add_argument(
         "--scheme", metavar="NAME", default="published", help="published (default) or centered"
     )
@@ -45,15 +45,13 @@ def run(options: argparse.Namespace) -> int:
     from replication import workbook
     from spreadsheets import emit
 
-    if options.json and not options.verify:
-        raise ValueError("--json is for what --verify finds: give both")
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{name_of(options.output)}: a workbook's name ends in .xlsx")
     own = options.case is not None or options.case_file is not None or shared.given(options)
     cases = [shared.case(options)] if own else workbook.REPORT
     book = workbook.build(cases, options.scheme, options.rows)
-    said, checks = [f"Written: {options.output}"], []
+    said, checks = [f"Written: {name_of(options.output)}"], []
     if options.verify:
         checks = workbook.write_verified(options.output, book, force=options.force)
         said += ["", _text(checks, book.rounding)]
@@ -64,14 +62,15 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(
             {
                 "file": str(options.output),
-                "passed": passed,
+                "passed": passed if options.verify else None,
                 "long_double_bound": book.rounding,
                 "engines": [_engine_record(check) for check in checks],
+                "warnings": list(book.warnings),
             }
         )
     elif not options.quiet:
         print(*said, sep="\n")
-    shared.warn(options, book.warnings)
+        shared.warn(options, book.warnings)
     return 0 if passed else 1
 
 

@@ -45,6 +45,15 @@ class ElementError(InputError):
         return f"{self.name}{place} {self.problem}"
 
 
+_DOC = """
+
+Inputs are in SI units: velocity V [m/s], radius R [m], densities rho_p and rho_t [kg/m^3], target
+resistance R_t [Pa]. Each is a number, an array, a pandas Series, or an xarray or dask array; they
+broadcast, and the result is of their kind. Raises ValueError, naming the first element that is out
+of range, where the model by itself would give NaN.
+"""
+
+
 def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
     """The model for whatever holds numbers; it gives NaN where an input exceeds what it may."""
     signature = inspect.signature(model)
@@ -70,6 +79,7 @@ def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
         _require_finite(result, numbers, bounded, at_most)
         return result
 
+    function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
 
 
@@ -91,10 +101,11 @@ def history(
     target_density: Any,
     resistance: Any,
 ) -> Any:
-    """Depth [m] and velocity [m/s] at times [s] after touch; time broadcasts against the cases.
+    """Depth [m] and velocity [m/s] of Eqs. 12-13 at times [s] after touch.
 
-    Both are within 1e-14 of the final depth and of the impact velocity; from the stop time on they
-    are the final depth and 0. Raises ValueError naming the first element that is out of range.
+    Inputs are those of `final_depth`; time broadcasts against them. Both are within 1e-14 of
+    the final depth and of the impact velocity; from the stop time on they are the final depth and
+    0. Raises ValueError naming the first element that is out of range.
 
     >>> depth, speed = history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
     >>> [f"{x * 1e6:.4f}" for x in depth], [f"{v:.2f}" for v in speed]
@@ -156,9 +167,10 @@ def run_many(
     stop_velocity: Any = 1.0,
     scheme: str = "published",
 ) -> Any:
-    """Final depth X [m] and number of steps of the sheet, for cases that broadcast.
+    """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
-    The same doubles as `sheet.run`, case by case. Raises ValueError naming the first element that
+    Inputs are those of `final_depth`, and step [s], stop_velocity [m/s], scheme as for `run`. The
+    same doubles as `run`, case by case. Raises ValueError naming the first element that
     is out of range or needs more than `sheet.MAX_STEPS` rows.
 
     >>> depth, steps = run_many(500.0, 11e-6, 8900.0, 7850.0, [2.1e9, 3.5e9])
@@ -224,7 +236,7 @@ def _real(name: str, value: Any) -> Any:
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
     array = np.asarray(value)
     if array.dtype.kind == "c":
-        raise TypeError(f"{name} is complex: real numbers are wanted")
+        raise TypeError(f"{name} is complex: it must be real")
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 
@@ -471,7 +483,7 @@ def _pandas(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
 
     series = [value for value in inputs.values() if isinstance(value, pd.Series)]
     if not series:
-        raise TypeError("of pandas a Series is wanted for each input: take columns of a DataFrame")
+        raise TypeError("a DataFrame is no input: give its columns, each a Series")
     index = series[0].index
     try:
         results = within(*(_matched(name, value, index) for name, value in inputs.items()))

@@ -39,7 +39,7 @@ def final_depth(
     target_density: float,
     resistance: float,
 ) -> float:
-    """Penetration depth at rest [m]: R times `normalized_depth`; radius R [m].
+    """Penetration depth at rest, X [m], exact for Eqs. 12-13: R times `normalized_depth`.
 
     >>> f"{final_depth(500.0, 11e-6, 8900.0, 7850.0, 2.1e9) * 1e6:.2f}"
     '10.04'
@@ -77,7 +77,7 @@ def velocity_at_depth(
 ) -> float:
     """Velocity [m/s] at a depth [m]; NaN beyond the final one.
 
-    Close to rest the velocity is the root of the depth that is left, whose last digits count.
+    Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.
 
     >>> f"{velocity_at_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9):.3f}"
     '353.533'

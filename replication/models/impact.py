@@ -53,7 +53,7 @@ class Impact:
     def __post_init__(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)
         if self.resistance is not None and any(product):
-            raise ValueError("resistance stands instead of beta and flow_stress: give one or other")
+            raise ValueError("resistance is beta times flow_stress: give it or those two")
         if self.resistance is None and not all(product):
             raise ValueError("give either resistance, or both beta and flow_stress")
         given = {field.name: getattr(self, field.name) for field in fields(self)}
@@ -116,8 +116,8 @@ zero
             if value == 0 and name == "resistance":
                 problem = "is 0.0: nothing would bring the particle to rest"
                 raise InputError("target resistance", problem)
-            least = "zero or more" if name in MAY_BE_ZERO else "greater than zero"
-            raise InputError(name, f"is {value!r}: it must be a finite number {least}")
+            least = ", zero or more" if name in MAY_BE_ZERO else " greater than zero"
+            raise InputError(name, f"is {value!r}: it must be a finite number{least}")
 
 
 def check_range(

@@ -88,7 +88,7 @@ def time_to_depth(
 ) -> float:
     """Time [s] from touch to a depth [m]; NaN beyond the final one.
 
-    Close to rest the time left is the root of the depth that is left, whose last digits count.
+    Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.
 
     >>> f"{time_to_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.6f}"
     '11.192312'

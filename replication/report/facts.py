@@ -28,8 +28,8 @@ VERDICTS = {
     "what is computed from it; nothing new is shown",
     Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
     "agree",
-    Verdict.AGREES: "the report derives it from nothing; a public source prints it",
-    Verdict.DIFFERS: "the report derives it from nothing; public sources print something else",
+    Verdict.AGREES: "the report does not derive it; a public source prints it",
+    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
     Verdict.REMARK: "words, no number, with the figures to judge them by",
     Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
 }
@@ -157,7 +157,7 @@ def failing(record: r.Record) -> Table:
         shortened = f"#.{significant(claim.printed)}g"
         computed = "" if claim.computed is None else format(claim.computed, shortened)
         if claim.id in needed:
-            computed = f"{' or '.join(needed[claim.id])} would follow"
+            computed = f"derived: {' or '.join(needed[claim.id])}"
         otherwise = {reading.name: f"{reading.computed:{shortened}}" for reading in claim.readings}
         others = (otherwise.get(name, "") for name in names)
         rows.append((f"`{claim.id}`", printed(claim), computed, *others))

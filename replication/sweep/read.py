@@ -59,7 +59,7 @@ def _base(settings: Table) -> dict[str, float]:
 def _extras(settings: Table) -> tuple[str, ...]:
     asked = settings.get("outputs", [])
     if not isinstance(asked, list) or any(name not in EXTRAS for name in asked):
-        raise ValueError(f"outputs wants a list of {', '.join(EXTRAS)}; the depths always come")
+        raise ValueError(f"outputs must be a list of {', '.join(EXTRAS)}; the depths always come")
     return tuple(name for name in EXTRAS if name in asked)
 
 
@@ -105,7 +105,7 @@ def read_source(name: str, value: Any) -> Source:
     elif "average_mass" in value:
         source = _by_mass(name, value)
     else:
-        raise ValueError("wants from, to, points; or distribution; or, by Eq. 1, average_mass")
+        raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
     if not isinstance(source, ByMass):
         for number in source.values if isinstance(source, Listed) else source.bounds:
             check({name: number})
@@ -126,7 +126,7 @@ def _spaced(name: str, table: Table) -> Spaced:
         raise ValueError(f"scale is {scale!r}: choose linear or log")
     first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
     if scale == "log" and min(first, last) <= 0:
-        raise ValueError("a log scale wants from and to greater than zero")
+        raise ValueError("a log scale needs from and to greater than zero")
     points = _whole_number("points", table["points"], 2, MAX_CASES)
     return Spaced(first, last, points, scale == "log")
 

@@ -109,7 +109,7 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     if wanted is None:
         return min(-(-max(2 * steps, steps + SPARE_ROWS) // 100) * 100, MAX_ROWS)
     if not max(steps, 1) <= wanted <= MAX_ROWS:
-        raise ValueError(f"{wanted:,} rows do not do: the case needs {steps:,} to {MAX_ROWS:,}")
+        raise ValueError(f"{wanted:,} rows will not do: give {steps:,} to {MAX_ROWS:,}")
     return wanted
 
 

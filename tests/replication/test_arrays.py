@@ -165,11 +165,11 @@ def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1e-9])
 def test_a_bad_time_of_a_single_history_is_named(bad: float) -> None:
-    with pytest.raises(ValueError, match=rf"^time\[1\] is {bad}: it must be a finite number zero"):
+    with pytest.raises(ValueError, match=rf"^time\[1\] is {bad}: it must be a finite number, zero"):
         history(np.array([0.0, bad]), *CASE)
     with pytest.raises(ValueError, match=r"^radius is -1\.0: it must be a finite number greater"):
         history(np.array([0.0, 1e-9]), CASE[0], -1.0, *CASE[2:])
-    with pytest.raises(TypeError, match=r"^time is complex: real numbers are wanted"):
+    with pytest.raises(TypeError, match=r"^time is complex: it must be real"):
         history(np.array([0.0, 1j]), *CASE)
 
 
@@ -262,8 +262,8 @@ def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
     ("value", "message"),
     [
         (np.ma.masked_greater([400.0, 500.0], 450.0), "^velocity is a masked array: give the"),
-        (np.array([400.0 + 1j]), "^velocity is complex: real numbers are wanted"),
-        (500 + 0j, "^velocity is complex: real numbers are wanted"),
+        (np.array([400.0 + 1j]), "^velocity is complex: it must be real"),
+        (500 + 0j, "^velocity is complex: it must be real"),
         (pint.UnitRegistry().Quantity([400.0], "m/s"), "^velocity has units: give its magnitude"),
     ],
 )
@@ -330,7 +330,7 @@ def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
         (velocity, [1e-5], TypeError, r"^radius is a list of shape \(1,\): beside a Series give"),
         (velocity, radius.to_frame(), TypeError, r"^radius is a DataFrame of shape \(2, 1\): be"),
         (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
-        (velocity.to_frame(), 1e-5, TypeError, "a Series is wanted for each input: take columns"),
+        (velocity.to_frame(), 1e-5, TypeError, "a DataFrame is no input: give its columns"),
     ]
     for first, second, kind, message in refusals:
         with pytest.raises(kind, match=message):
@@ -447,3 +447,10 @@ def test_public_names_are_there_and_loaded_when_used() -> None:
     assert all(hasattr(replication, name) for name in replication.__all__)
     with pytest.raises(AttributeError, match="no attribute 'final_dept'"):
         replication.final_dept  # noqa: B018
+
+
+def test_public_functions_say_units_and_errors() -> None:
+    for name in ("final_depth", "velocity_at_depth", "time_to_depth", "stop_time"):
+        said = getattr(replication, name).__doc__
+        assert "[Pa]" in said
+        assert "Raises ValueError" in said

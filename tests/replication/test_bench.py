@@ -306,7 +306,7 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     ("arguments", "message"),
     [
         (["--case", "beta-4"], f"no case 'beta-4' to time: choose of {', '.join(CASES)}"),
-        (["--repeat", "0"], "--repeat: a whole number from 1 to 10,000 is wanted"),
+        (["--repeat", "0"], "--repeat: give a whole number from 1 to 10,000,"),
         (["--limit=-1 s"], "a limit of -1 s: it must be greater than zero"),
         (["--limit", "3 m"], "m"),
         (["--json", "--csv"], "argument --csv: not allowed with argument --json"),

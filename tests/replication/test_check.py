@@ -481,13 +481,20 @@ def test_a_junit_file_has_a_test_for_each_kind(coldspray: Run, evil: Path, tmp_p
 def test_files_are_written_whole_or_not_at_all(
     coldspray: Run, spoiled: Path, tmp_path: Path
 ) -> None:
+    before = spoiled.read_bytes()
+    link = tmp_path / "link.xml"
+    link.symlink_to(spoiled)
     for arguments in (
         ["--html", tmp_path / "no" / "page.html", "--junit", tmp_path / "a.xml"],
         ["--html", tmp_path / "same", "--junit", tmp_path / "same"],
         ["--html", tmp_path, "--junit", tmp_path / "a.xml"],
+        ["--html", spoiled],
+        ["--junit", link],
     ):
         status, out, err = coldspray("check", spoiled, *arguments)
         assert (status, out, err.count("\n")) == (2, "", 1)
+    link.unlink()
+    assert spoiled.read_bytes() == before
     (tmp_path / "junk.xlsx").write_bytes(b"junk")
     assert coldspray("check", tmp_path / "junk.xlsx", "--html", tmp_path / "b.html")[0] == 2
     assert sorted(p.name for p in tmp_path.iterdir()) == ["french.xlsx", "junk.xlsx"]

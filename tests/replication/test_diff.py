@@ -156,7 +156,7 @@ def test_a_tolerance_that_is_none_is_explained(
     status, out, err = coldspray("diff", a, a, *option)
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert option[0] in err
-    assert "is wanted" in err
+    assert "give a" in err
 
 
 def test_text_page_and_junit_are_those_of_check(coldspray: Run, tmp_path: Path) -> None:
@@ -164,6 +164,7 @@ def test_text_page_and_junit_are_those_of_check(coldspray: Run, tmp_path: Path) 
     a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
     f.put("Données", "C8", 450)
     b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
+    assert coldspray("diff", a, b, "--html", b)[0] == 2
     page, junit = tmp_path / "d.html", tmp_path / "d.xml"
     status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
     assert status == 1

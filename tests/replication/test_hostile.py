@@ -396,7 +396,7 @@ def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
         preexec_fn=limited,
     )
     assert (done.returncode, done.stdout) == (2, "")
-    assert re.fullmatch(rf"coldspray {arguments[0]}: .*File too large\n", done.stderr)
+    assert re.fullmatch(rf"coldspray {arguments[0]}: \S+: File too large\n", done.stderr)
     assert state(tmp_path) == before
 
 

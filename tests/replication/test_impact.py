@@ -32,7 +32,7 @@ def test_zero_resistance_is_refused() -> None:
 
 
 def test_one_resistance_must_be_given_and_only_one() -> None:
-    with pytest.raises(ValueError, match="instead of beta and flow_stress"):
+    with pytest.raises(ValueError, match="is beta times flow_stress"):
         replace(BETA_5, resistance=1e9)
     with pytest.raises(ValueError, match="either resistance, or both"):
         replace(BETA_5, beta=None)
@@ -95,7 +95,7 @@ def test_units_are_understood_without_rounding_twice(name: str, text: str, value
         ({"velocity": "nan"}, "velocity: .nan. is no finite number"),
         ({"resistance": "0 Pa"}, "resistance is 0.0"),
         ({"radius": "-11 um"}, "radius is -1.1e-05"),
-        ({"resistance": "1e9", "beta": "3"}, "resistance stands instead"),
+        ({"resistance": "1e9", "beta": "3"}, "resistance is beta times"),
     ],
 )
 def test_what_is_wrong_is_said(given_inputs: dict[str, str], message: str) -> None:

@@ -207,7 +207,7 @@ def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -
     with pytest.raises(OSError, match="figures"):
         write(record, tmp_path, BESIDE)
     assert [path.name for path in tmp_path.iterdir()] == ["figures"]
-    with pytest.raises(NotADirectoryError, match="a folder is wanted"):
+    with pytest.raises(NotADirectoryError, match="give a folder"):
         check(tmp_path / "figures" / "deeper")
 
 

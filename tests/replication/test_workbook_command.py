@@ -106,11 +106,10 @@ def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.Monk
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--rows", "20"), "20 rows do not do: the case needs 26 to 20,000"),
+        (("--rows", "20"), "20 rows will not do: give 26 to 20,000"),
         (("--rows", "30000"), "to 20,000"),
         (("--scheme", "best"), "no scheme 'best'"),
         (("--resistance", "1"), "takes 100,000 to 1e+15 Pa for the target resistance, given"),
-        (("--json",), "--json is for what --verify finds: give both"),
     ],
 )
 def test_what_it_cannot_do_is_status_2(
@@ -120,6 +119,13 @@ def test_what_it_cannot_do_is_status_2(
     assert (status, out) == (2, "")
     assert message in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_json_without_verifying_has_the_warnings(run: Run) -> None:
+    status, out, err = run("--step", "40 ns", "--json")
+    record = json.loads(out)
+    assert (status, err, record["passed"], record["engines"]) == (0, "", None, [])
+    assert any("reverses the velocity" in warning for warning in record["warnings"])
 
 
 def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:

@@ -243,7 +243,7 @@ def reachable(step: float) -> list[float]:
 
 
 def test_a_workbook_too_short_for_the_case_is_refused() -> None:
-    with pytest.raises(ValueError, match="100 rows do not do: the case needs 131 to 20,000"):
+    with pytest.raises(ValueError, match="100 rows will not do: give 131 to 20,000"):
         workbook.build([BETA_5], rows=100)
     with pytest.raises(ValueError, match="needs 711 steps, and the workbook has 400"):
         workbook.build([replace(case, step=5e-11) for case in REPORT])
