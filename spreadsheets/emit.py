@@ -105,7 +105,7 @@ def check(path: Path, *, force: bool = False) -> None:
     """
     target = check_target(path)
     if target.exists() and not force and not is_own(target):
-        problem = "this file is not as coldspray wrote it; take another name, or --force"
+        problem = "this file is not as coldspray wrote it; rename it, or --force"
         raise FileExistsError(EEXIST, problem, str(path))
 
 

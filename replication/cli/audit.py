@@ -19,6 +19,9 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
     )
+    command.add_argument(
+        "--force", action="store_true", help="write over a workbook.xlsx that was changed, too"
+    )
     command.add_argument("--json", action="store_true", help="print audit.json instead of text")
     command.add_argument("--schema", action="store_true", help="print the schema of audit.json")
     command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
@@ -39,8 +42,12 @@ def run(options: argparse.Namespace) -> int:
 
 def _audit(options: argparse.Namespace) -> int:
     from replication.report import render
+    from spreadsheets import emit
 
     render.check(options.out)
+    workbook = options.out / "workbook.xlsx"
+    if workbook.exists():
+        emit.check(workbook, force=options.force)
     from replication.audit.audit import audit
     from replication.error import hard_cases
     from replication.workbook import build

@@ -118,6 +118,10 @@ def test_audit_exit_code_json_and_quiet(tmp_path: Path, coldspray: Command) -> N
     assert status == 1
     assert json.loads(out) == json.loads((tmp_path / "audit.json").read_text("utf-8"))
     assert coldspray("audit", "--out", tmp_path, "--quiet") == (0, "", "")
+    (tmp_path / "workbook.xlsx").write_text("changed")
+    assert coldspray("audit", "--out", tmp_path)[0] == 2
+    assert (tmp_path / "workbook.xlsx").read_text() == "changed"
+    assert coldspray("audit", "--out", tmp_path, "--quiet", "--force")[0] == 0
 
 
 def test_workbook_of_the_report_and_of_a_case(tmp_path: Path, coldspray: Command) -> None:

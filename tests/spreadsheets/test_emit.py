@@ -104,7 +104,7 @@ def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path)
     path = tmp_path / "w.xlsx"
     path.write_bytes(content)
     assert content != OURS
-    with pytest.raises(FileExistsError, match="not as coldspray wrote it; take another name"):
+    with pytest.raises(FileExistsError, match="not as coldspray wrote it; rename it"):
         emit.write(path, OURS)
     assert path.read_bytes() == content
     emit.write(path, OURS, force=True)
