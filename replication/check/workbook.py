@@ -180,6 +180,10 @@ def _nothing(calculation: Calculation) -> str:
     wrong = [place for place in calculation.formulas if calculation.error(place)]
     if wrong:
         first = min(wrong, key=calculation.order.__getitem__)
+        read = {calculation.source(area.corner) for area in calculation.areas(first)}
+        for place in sorted(read & calculation.spoiling):
+            text = str(calculation.values[place])[:40]
+            nothing += f"; {address(place, True)} holds {text!r}, which is no number"
         return (
             f"{nothing}; {count(len(wrong), 'formula')} give errors, "
             f"{address(first, True)} first: {calculation.error(first)}"
