@@ -26,6 +26,7 @@ def each_cell(f: Verdict) -> None:
     odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
     areas = (area for place in f.table.places for area in f.calculation.areas(place))
     read = {area.corner for area in areas if area.cells == 1}
+    wrong = _beside(f, odd.keys() - f.table.places.keys())
     accused, before = f.accused, len(f.differences)
     for role, column in f.setting.rows.columns.items():
         for k in range(f.table.steps + 1):
@@ -36,7 +37,9 @@ def each_cell(f: Verdict) -> None:
                     kind, text = "odd formula", f"{text}; it gives {error}"
                 elif reason := f.calculation.uncomputed.get(place):
                     kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-            elif place not in accused and _fails(f, role, k, expected, place in read):
+            elif place in accused or any(a.corner in wrong for a in f.calculation.areas(place)):
+                continue
+            elif _fails(f, role, k, expected, place in read):
                 kind, text = _lone(f, role, k, expected)
             else:
                 continue
@@ -47,6 +50,16 @@ def each_cell(f: Verdict) -> None:
     for place, (kind, text) in odd.items():
         f.add(kind, [place], None, text)
     f.differences[before:] = joined(f.differences[before:], f.table.across)
+
+
+def _beside(f: Verdict, wrong: set[Position]) -> set[Position]:
+    """Wrong cells beside the table, and those beside it that read them, through others or not."""
+    order = f.calculation.order
+    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
+    for place in sorted(cells & order.keys(), key=order.__getitem__):
+        if any(area.corner in wrong for area in f.calculation.areas(place)):
+            wrong = wrong | {place}
+    return wrong
 
 
 _WHAT = {str: "a text", bool: "a truth value"}
@@ -166,13 +179,17 @@ def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) ->
         needed = 0 < k < max(column, default=0) or (read and k > 0)
         wrong = needed or _text(f, place) or f.calculation.error(place)
         return bool(wrong) and not _passed_on(f, place)
-    if expected is None:
+    numbered = role == "time" and math.isclose(found, k * f.case.step, rel_tol=NEAR)
+    if expected is None or numbered:  # by the number of the row, not from the time before
         return False
     size = abs(expected)
     if role.startswith("velocity"):
         size = max(size, abs(f.setting.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    own = f.setting.follows("brake", REPORT.brake, k) if role == "deceleration" and k == 1 else None
-    return not own and abs(found - expected) > NEAR * size
+    if abs(found - expected) <= NEAR * size:
+        return False
+    # A first row that is the report's may be unlike the others, which follow another rule.
+    part = {"deceleration": "brake", "velocity_final": "end"}.get(role)
+    return not (part and k == 1 and f.setting.follows(part, getattr(REPORT, part), 1))
 
 
 def _text(f: Verdict, place: Position) -> bool:
@@ -233,7 +250,8 @@ def order(f: Verdict) -> None:
     for role in ("depth", "deceleration", "velocity_final"):
         column = f.setting.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
-                and f.table.place(role, k) in f.calculation.formulas]  # fmt: skip
+                and f.table.place(role, k) in f.calculation.formulas
+                and not _fails(f, role, k, _expected(f, role, k), False)]  # fmt: skip
         others = [
             [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
             for case in cases

@@ -571,6 +571,8 @@ def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
     for tried, how, rules, fed in _hypotheses(setting, unknown, typed, feeding):
         case, intended = setting.case, setting.intended
         for role, value in tried.items():
+            if value == getattr(case, role):
+                continue  # and the mass stays that of its cell
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)

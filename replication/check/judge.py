@@ -83,7 +83,8 @@ def _other_inputs(f: Verdict) -> None:
         if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
     }
     for role, own in off.items():
-        nearest = min(report[role], key=lambda value: abs(value - own.si))
+        alike = [value for value in report[role] if power_of_ten(own.si / value) is not None]
+        nearest = min(alike or report[role], key=lambda value: abs(value - own.si))
         text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
         if role == "target_density":
             text += ", inferred, since the report prints none"
@@ -192,6 +193,16 @@ def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Inpu
 
 def _typed_inputs(f: Verdict) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
+    for own in f.setting.unread:
+        used = f.setting.inputs.get(own.role)
+        if used is None or used.place or own.place is None or min(used.si, own.si) <= 0:
+            continue
+        if not math.isclose(used.si, own.si, rel_tol=1e-6):
+            text = f"{title(own.role)} here is {quantity(own.si, own.role)}, but the rows take {quantity(used.si, own.role)}: they do not read this cell"  # noqa: E501
+            f.add("typed constant", [own.place], None, text)
+            change = partial(_scaled_input, role=own.role)
+            f.spoils[own.place] = partial(change, value=used.si, by=used.si / own.si)
+            f.intend(change(f.intended, value=own.si, by=own.si / used.si))
     accused = f.accused
     typed = {role: f.literals(line) for role, line in f.table.lines.items()}
     for own in (*f.setting.unread, *f.setting.inputs.values()):
@@ -221,7 +232,8 @@ def _typed_in(f: Verdict, own: Input, role: str, k: int, place: Position) -> boo
         return types(formula, own, f.calculation)
     # The impact velocity typed into the first row, while its own cell is read by nothing.
     first = own.role == "velocity" and role.startswith("velocity") and k <= 1
-    return first and own in f.setting.unread and f.calculation.number(place) is not None
+    value = f.setting.rows.columns[role].get(k)
+    return first and own in f.setting.unread and value is not None and _near(value, own.si)
 
 
 # ---- which scheme the table follows, rule by rule, by what most of its rows do

@@ -435,6 +435,108 @@ def test_other_inputs_that_are_no_fault_are_said(tmp_path: Path) -> None:
     assert list(said(A2=None, B2=None, B3=5.1e-11)) == ["Sheet1B3"]
 
 
+def test_a_labelled_input_that_nothing_reads_is_no_silent_one(tmp_path: Path) -> None:
+    f = in_column(by_hand(B6=2.1e9, G1=None, G2=None, H1=None, H2=None), "E", "$B$6", "3.5E9")
+    found = check(written(f, tmp_path))
+    assert (found.first.place, found.first.kind) == (("Sheet1", 6, 2), "typed constant")
+    assert "is 2100000000 Pa, but the rows take 3500000000 Pa" in found.first.explanation
+    (verdict,) = found.verdicts
+    assert verdict.right_depth == pytest.approx(midpoint.run(BETA_3).final_depth)
+    assert found.first.effect == pytest.approx(verdict.final_depth)
+
+
+def test_an_impact_velocity_that_differs_from_its_cell_is_one_fault(tmp_path: Path) -> None:
+    (cause,) = check(written(by_hand(C8=450.0, C9=450.0), tmp_path)).causes
+    assert cause.place == ("Sheet1", 5, 2)
+    (cause,) = check(written(by_hand(C8=500.0, C9=500.0), tmp_path)).causes
+    assert (cause.place, cause.expected) == (("Sheet1", 8, 3), "B5")
+
+
+def test_another_target_density_is_no_misprint(tmp_path: Path) -> None:
+    found = check(written(by_hand(E1=8000.0), tmp_path))
+    assert (found.first, found.held) == (None, ())
+    assert found.summary.keys() == {"other input", "not calculated"}
+
+
+def test_a_resistance_a_power_of_ten_off_has_a_wrong_unit(tmp_path: Path) -> None:
+    blank = {"G1": None, "G2": None, "H1": None, "H2": None}
+    first = check(written(by_hand(**blank, B6="=5*700*10^3"), tmp_path)).first
+    assert (first.place, first.kind, first.expected) == (("Sheet1", 6, 2), "unit", 3.5e9)
+
+
+def test_what_reads_a_wrong_cell_beside_the_table_follows_from_it(tmp_path: Path) -> None:
+    f = layouts.no_time(BETA_5)
+    f.cells["impact", 60, 5] = 1.2e-10
+    (cause,) = check(written(f, tmp_path)).causes
+    assert cause.place == ("impact", 60, 5)
+
+
+def test_a_time_by_the_number_of_its_row_is_right_after_a_wrong_one(tmp_path: Path) -> None:
+    f = layouts.one_velocity(BETA_5)
+    f.cells[f.where[TIME, 50]] = 1.0
+    (cause,) = check(written(f, tmp_path)).causes
+    assert cause.place == f.where[TIME, 50]
+
+
+def test_a_mass_of_constants_keeps_its_last_digits(tmp_path: Path) -> None:
+    f = by_hand(
+        A1=None, B1=None, A2=None, B2=None, B3="=4/3*PI()*0.000011^3*8900", B4="=2*0.000011"
+    )
+    assert check(written(f, tmp_path)).first is None
+
+
+@pytest.mark.parametrize(
+    ("column", "formula", "name"),
+    [
+        ("D", "=D{p}+C{p}*$E$2", "explicit Euler"),
+        ("D", "=D{p}+(C{p}+F{p})/2*$E$2", "mean velocity of the row before"),
+        ("D", "=D{p}+C{r}*$E$2/2", "half steps throughout"),
+        ("E", "=(0*$E$1*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3", "no drag"),
+        ("E", "=($E$1*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3", "drag without 1/2"),
+        ("E", "=(0.5*$E$1*$B$5^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3", "drag at impact velocity"),
+        ("E", "=(0.5*$E$1*C{p}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3", "drag at the row before"),
+        ("E", "=(0.5*$E$1*C{r}^2+$B$6)*PI()*$B$4*D{r}/$B$3", "area without x²"),
+        ("E", "=(0.5*$E$1*C{r}^2+$B$6)*PI()*($B$1*D{r}-D{r}^2)/$B$3", "area with R for D"),
+        ("E", "=(0.5*$E$1*C{r}^2+$B$6)*PI()*$B$1^2/$B$3", "area of the whole sphere"),
+        ("F", "=C{r}-E{r}*$E$2/2", "half a step"),
+        ("F", "=SQRT(C{r}^2-2*E{r}*(D{r}-D{p}))", "by energy"),
+    ],
+)
+def test_another_scheme_is_named_where_it_begins(
+    tmp_path: Path, column: str, formula: str, name: str
+) -> None:
+    f = by_hand()
+    for r in range(10, 140):
+        f.put("Sheet1", f"{column}{r}", formula.format(r=r, p=r - 1))
+    first = check(written(f, tmp_path)).first
+    assert (first.place, first.kind) == (layouts.place("Sheet1", f"{column}10"), "other scheme")
+    assert first.explanation.startswith(f"{name}: ")
+
+
+def test_a_wrong_velocity_in_the_first_row_is_told_with_the_right_one(tmp_path: Path) -> None:
+    first = check(written(by_hand(C9=400.0), tmp_path)).first
+    assert (first.place, first.expected) == (("Sheet1", 9, 3), 500.0)
+
+
+def test_beta_without_its_flow_stress_is_no_fault(tmp_path: Path) -> None:
+    found = check(written(by_hand(G2=None, H2=None, B6="=H1*7E8"), tmp_path))
+    assert found.first is None
+
+
+def test_a_sheet_gone_wrong_is_known_by_its_formulas(tmp_path: Path) -> None:
+    first = check(written(by_hand(E2=2e-4), tmp_path)).first
+    assert (first.place, first.kind) == (("Sheet1", 2, 5), "unit")
+    heads = {f"{letter}7": None for letter in "ACDEF"}
+    first = check(written(by_hand(**heads, E14="abc"), tmp_path)).first
+    assert (first.place, first.kind) == (("Sheet1", 14, 5), "typed number")
+
+
+def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -> None:
+    rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
+    found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
+    assert found.verdicts[0].setting.inputs["step"].place == ("Sheet1", 2, 5)
+
+
 def test_the_report_s_coarse_step_is_no_other_input(tmp_path: Path) -> None:
     coarse = replace(BETA_5, step=5e-10)
     found = check(written(by_hand(midpoint.run(coarse).steps, E2=5e-10), tmp_path))
