@@ -43,6 +43,14 @@ class Calculation:
             return None if value == "#N/A" else value
         return None
 
+    @cached_property
+    def spoiling(self) -> set[Position]:
+        """The cells with a typed text, be it a blank, for which formulas give #VALUE!."""
+        wrong = (place for place in self.formulas if self.error(place) == "#VALUE!")
+        areas = (area for place in wrong for area in self.areas(place) if area.cells == 1)
+        read = {self.source(area.corner) for area in areas} - self.formulas.keys()
+        return {cell for cell in read if isinstance(self.values.get(cell), str)}
+
     def areas(self, place: Position | None) -> tuple[Area, ...]:
         """What a cell's formula refers to; nothing for a number, or a formula of numbers alone."""
         formula = self.formulas.get(place) if place else None

@@ -24,6 +24,9 @@ from spreadsheets.references import Formula
 def each_cell(f: Verdict) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
     odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
+    areas = (area for place in f.table.places for area in f.calculation.areas(place))
+    read = {area.corner for area in areas if area.cells == 1}
+    wrong = _beside(f, odd.keys() - f.table.places.keys())
     accused, before = f.accused, len(f.differences)
     for role, column in f.setting.rows.columns.items():
         for k in range(f.table.steps + 1):
@@ -34,7 +37,9 @@ def each_cell(f: Verdict) -> None:
                     kind, text = "odd formula", f"{text}; it gives {error}"
                 elif reason := f.calculation.uncomputed.get(place):
                     kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-            elif place not in accused and _fails(f, role, k, expected):
+            elif place in accused or any(a.corner in wrong for a in f.calculation.areas(place)):
+                continue
+            elif _fails(f, role, k, expected, place in read):
                 kind, text = _lone(f, role, k, expected)
             else:
                 continue
@@ -45,6 +50,19 @@ def each_cell(f: Verdict) -> None:
     for place, (kind, text) in odd.items():
         f.add(kind, [place], None, text)
     f.differences[before:] = joined(f.differences[before:], f.table.across)
+
+
+def _beside(f: Verdict, wrong: set[Position]) -> set[Position]:
+    """Wrong cells beside the table, and those beside it that read them, through others or not."""
+    order = f.calculation.order
+    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
+    for place in sorted(cells & order.keys(), key=order.__getitem__):
+        if any(area.corner in wrong for area in f.calculation.areas(place)):
+            wrong = wrong | {place}
+    return wrong
+
+
+_WHAT = {str: "a text", bool: "a truth value"}
 
 
 def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
@@ -72,7 +90,7 @@ def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, 
             if shapes[place] != usual:
                 yield place, _odd(formulas[place], pattern, calculation)
         elif (typed := calculation.values.get(place)) is not None:
-            what = "a text" if isinstance(typed, str) else "a number"
+            what = _WHAT.get(type(typed), "a number")
             stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
             yield place, ("typed number", stand)
 
@@ -142,8 +160,8 @@ def _expected(f: Verdict, role: str, k: int) -> float | None:
     """What a cell should hold by the rules that its table follows."""
     rows = f.setting.rows
     if role == "time":
-        before = rows.columns["time"].get(k - 1, (k - 1) * f.case.step)
-        return before + f.case.step if k else None
+        before = rows.columns["time"].get(k - 1, 0.0 if k == 1 else None)
+        return None if before is None else before + f.case.step
     if role == "velocity_final" and k == 0:
         return f.case.velocity
     if role.startswith("velocity") and k > (role == "velocity_initial"):
@@ -153,35 +171,40 @@ def _expected(f: Verdict, role: str, k: int) -> float | None:
     return f.rules.value(role, rows, k)
 
 
-def _fails(f: Verdict, role: str, k: int, expected: float | None) -> bool:
-    """Whether a cell is not what it should hold."""
+def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) -> bool:
+    """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
     column, place = f.setting.rows.columns[role], f.table.place(role, k)
     found = column.get(k)
     if found is None:
-        inside = bool(column) and min(column) < k < max(column)
-        return _text(f, place) or _breaks(f, place) or (inside and not f.calculation.error(place))
-    if expected is None:
+        needed = 0 < k < max(column, default=0) or (read and k > 0)
+        wrong = needed or _text(f, place) or f.calculation.error(place)
+        return bool(wrong) and not _passed_on(f, place)
+    numbered = role == "time" and math.isclose(found, k * f.case.step, rel_tol=NEAR)
+    if expected is None or numbered:  # by the number of the row, not from the time before
         return False
     size = abs(expected)
     if role.startswith("velocity"):
         size = max(size, abs(f.setting.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    return abs(found - expected) > NEAR * size
+    if abs(found - expected) <= NEAR * size:
+        return False
+    # A first row that is the report's may be unlike the others, which follow another rule.
+    part = {"deceleration": "brake", "velocity_final": "end"}.get(role)
+    return not (part and k == 1 and f.setting.follows(part, getattr(REPORT, part), 1))
 
 
 def _text(f: Verdict, place: Position) -> bool:
-    """Whether a text is typed into a cell of the table, below its heads."""
+    """Whether a text or a truth value is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
-    typed = k > 0 and place not in f.calculation.formulas
-    return typed and isinstance(value, str) and bool(value.strip())
+    typed = (k > 0 and value != "") or place in f.calculation.spoiling
+    return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
 
 
-def _breaks(f: Verdict, place: Position) -> bool:
-    """Whether a cell gives an error that comes from no other cell of the table."""
+def _passed_on(f: Verdict, place: Position) -> bool:
+    """Whether a formula gives no number because another cell of the table holds none."""
     areas = (area for area in f.calculation.areas(place) if area.cells == 1)
-    others = (area.corner for area in areas if area.corner != place)
-    broken = any(f.calculation.error(cell) or _text(f, cell) for cell in others)
-    return f.calculation.error(place) is not None and not broken
+    others = (area.corner for area in areas if area.corner in f.table.places.keys() - {place})
+    return any(isinstance(f.calculation.values.get(cell), str | bool) for cell in others)
 
 
 def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, str]:
@@ -195,17 +218,21 @@ def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, s
         text = f"{title(role)} of row {k} gives {error}, as do all cells that read it"
         return "odd formula", text
     if found is None and _text(f, place):
-        return alone, f"{title(role)} of row {k} is a text, not a number"
+        is_typed = _WHAT[type(f.calculation.values[place])]
+        return alone, f"{title(role)} of row {k} is {is_typed}, not a number"
     if found is None:
-        return alone, f"no number in {title(role)} of row {k}"
+        blank = ": the cell is blank" if typed else ""
+        return "odd formula", f"no number in {title(role)} of row {k}{blank}"
     if role == "time" and k == 1 and found == 0:
         return "other scheme", "the times are those at the beginning of the rows"
+    if power := power_of_ten(found / expected) if expected else None:
+        return "unit", f"{what}: a factor of 1e{abs(power)}"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
-    if role == "deceleration" and f.setting.follows("brake", BEYOND, k):
+    beyond = (f.setting.rows("depth", k) or 0.0) >= f.case.radius
+    if role == "deceleration" and beyond and f.setting.follows("brake", BEYOND, k):
         return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
-    power = power_of_ten(found / expected) if expected else None
-    return ("unit", f"{what}: a factor of 1e{abs(power)}") if power else (alone, what)
+    return alone, what
 
 
 def order(f: Verdict) -> None:
@@ -223,7 +250,8 @@ def order(f: Verdict) -> None:
     for role in ("depth", "deceleration", "velocity_final"):
         column = f.setting.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
-                and f.table.place(role, k) in f.calculation.formulas]  # fmt: skip
+                and f.table.place(role, k) in f.calculation.formulas
+                and not _fails(f, role, k, _expected(f, role, k), False)]  # fmt: skip
         others = [
             [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
             for case in cases

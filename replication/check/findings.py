@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from replication.check.inputs import Setting
 from replication.check.scheme import REPORT, Case
-from replication.check.table import runs
+from replication.check.table import Line, runs
 from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
 
@@ -109,8 +109,8 @@ class Verdict:
         What is `found` is what that cell holds, unless something else is given.
         """
         held = self.calculation.values.get(cells[0])
-        if found is None and isinstance(held, float | str):
-            found = held
+        if found is None and held is not None:
+            found = str(held).upper() if isinstance(held, bool) else held
         if isinstance(expected, float) and not math.isfinite(expected):
             expected = None
         order = rank(cells[0], self.setting)
@@ -138,9 +138,9 @@ class Verdict:
         sign = -1.0 if role == "deceleration" and self.setting.negative else 1.0
         return sign * scaled(value, Fraction(10) ** -self.setting.powers[role])
 
-    def literals(self, role: str) -> set[float]:
+    def literals(self, line: Line) -> set[float]:
         """The numbers typed into a column's formulas."""
-        formulas = (self.calculation.formulas.get(place) for place in self.cells(role, 0))
+        formulas = (line.formula(self.table.zero + k) for k in range(self.table.steps + 1))
         return {abs(number) for formula in formulas if formula for number in formula.literals}
 
 

@@ -268,7 +268,7 @@ def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
         value = calculation.values.get((sheet, row + down, column + right))
         return value.strip() if isinstance(value, str) else ""
 
-    beside = (text(0, 1), text(-1, 0), text(1, 0))
+    beside = (text(0, 1), text(0, -1), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
@@ -404,7 +404,12 @@ def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
     inputs = _completed(table, chosen, columns)
     for own in inputs.values():
         if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
-            where = "its rows" if own.place is None else address(own.place, True)
+            place = own.place
+            if own.role == "velocity" and place is None:
+                line = next(table.lines[role] for role in columns if "velocity" in role)
+                zeros = (at for at in range(line.first, line.last + 1) if not line.at(at))
+                place = table.calculation.source(line.place(next(zeros, line.first)))
+            where = "its rows" if place is None else address(place, True)
             raise ValueError(
                 f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
                 f"zero; if another cell is meant, give --map {own.role}=CELL"
@@ -566,6 +571,8 @@ def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
     for tried, how, rules, fed in _hypotheses(setting, unknown, typed, feeding):
         case, intended = setting.case, setting.intended
         for role, value in tried.items():
+            if value == getattr(case, role):
+                continue  # and the mass stays that of its cell
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)

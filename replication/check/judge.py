@@ -25,8 +25,9 @@ from replication.check.scheme import (
     Rules,
     march,
 )  # fmt: skip
-from replication.check.table import address
+from replication.check.table import Line, address
 from replication.check.words import (
+    INPUTS,
     power_of_ten,
     quantity,
     scaled,
@@ -72,20 +73,24 @@ def _units(f: Verdict) -> None:
 
 def _other_inputs(f: Verdict) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
-    report = report_inputs()
+    report, density = report_inputs(), f.setting.inputs["particle_density"]
+    lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
     off = {
         role: own
         for role, own in f.setting.inputs.items()
-        if role in report and role != "mass" and own.how not in ("report", "assumed", "follows")
+        if role in report and own.how not in ("report", "assumed", "follows")
+        if role != "mass" or lone_mass
         if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
     }
     for role, own in off.items():
-        nearest = min(report[role], key=lambda value: abs(value - own.si))
+        alike = [value for value in report[role] if power_of_ten(own.si / value) is not None]
+        nearest = min(alike or report[role], key=lambda value: abs(value - own.si))
         text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
-        if role == "radius" and math.isclose(own.si, 2 * nearest, rel_tol=1e-9):
-            text += ", whose diameter this is"
         if role == "target_density":
             text += ", inferred, since the report prints none"
+        for name, values in report.items():
+            if INPUTS[name] == INPUTS[role] and any(_near(own.si, value) for value in values):
+                text += f"; {quantity(own.si, role)} is {title(name)} there"
         if own.how == "rows":
             text += "; no cell holds it, it is solved back from the rows"
         place = own.place or f.table.place("depth", 1)
@@ -188,8 +193,18 @@ def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Inpu
 
 def _typed_inputs(f: Verdict) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
+    for own in f.setting.unread:
+        used = f.setting.inputs.get(own.role)
+        if used is None or used.place or own.place is None or min(used.si, own.si) <= 0:
+            continue
+        if not math.isclose(used.si, own.si, rel_tol=1e-6):
+            text = f"{title(own.role)} here is {quantity(own.si, own.role)}, but the rows take {quantity(used.si, own.role)}: they do not read this cell"  # noqa: E501
+            f.add("typed constant", [own.place], None, text)
+            change = partial(_scaled_input, role=own.role)
+            f.spoils[own.place] = partial(change, value=used.si, by=used.si / own.si)
+            f.intend(change(f.intended, value=own.si, by=own.si / used.si))
     accused = f.accused
-    typed = {role: f.literals(role) for role in f.table.lines}
+    typed = {role: f.literals(line) for role, line in f.table.lines.items()}
     for own in (*f.setting.unread, *f.setting.inputs.values()):
         if own.place is None:
             continue
@@ -217,7 +232,8 @@ def _typed_in(f: Verdict, own: Input, role: str, k: int, place: Position) -> boo
         return types(formula, own, f.calculation)
     # The impact velocity typed into the first row, while its own cell is read by nothing.
     first = own.role == "velocity" and role.startswith("velocity") and k <= 1
-    return first and own in f.setting.unread and f.calculation.number(place) is not None
+    value = f.setting.rows.columns[role].get(k)
+    return first and own in f.setting.unread and value is not None and _near(value, own.si)
 
 
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
@@ -255,9 +271,13 @@ def _scheme(f: Verdict) -> None:
     f.rules = replace(REPORT, **chosen)
     for part in unknown:
         role, first = _column(f, part), PARTS[part][1]
-        wanted = getattr(REPORT, part)(f.setting.rows, first)
-        kind, text = _cause(f, part, role)
-        f.add(kind, f.cells(role, first), f.shown(role, wanted), text)
+        wanted = getattr(REPORT, part)(f.setting.rows, first) if role == PARTS[part][0] else None
+        kind, text, line = _cause(f, part, role)
+        cells = f.cells(role, first + (role == "velocity_initial"))
+        if line != f.table.lines[role]:  # a column beside it, which it reads
+            rows, wanted = range(first, f.table.steps + 1), None
+            cells = [*(line.place(f.table.zero + k) for k in rows), *cells]
+        f.add(kind, cells, f.shown(role, wanted), text)
     _named(f)
 
 
@@ -268,6 +288,7 @@ def _named(f: Verdict) -> None:
         rows = range(first, f.table.steps)
         first = next((k for k in rows if not f.setting.follows(part, own, k)), first)
         wanted = own(f.setting.rows, first) if role == fills else None
+        first += role == "velocity_initial"  # which shows the row before
         cells = f.cells(role, first, first if part == "start" else None)
         f.add("other scheme", cells, f.shown(role, wanted), f"{rule.name}: {rule.says}")
 
@@ -278,23 +299,24 @@ def _column(f: Verdict, part: str) -> str:
     return next(role for role in candidates if role in f.table.lines)
 
 
-def _cause(f: Verdict, part: str, role: str) -> tuple[str, str]:
-    """What else explains a column that follows no rule known here: a constant factor."""
+def _cause(f: Verdict, part: str, role: str) -> tuple[str, str, Line]:
+    """What else explains a column that follows no rule known here: a constant factor, and where."""
+    own = f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [found / wanted for found, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
-        return "other scheme", "these cells follow no scheme that this program knows"
+        return "other scheme", "these cells follow no scheme that this program knows", own
     what, base, constant = (
         ("force", math.pi, "pi") if part == "brake" else ("step", f.case.step, "the time step")
     )
     if power := power_of_ten(ratio):
-        return "unit", f"every {what} is {times_too(power)}: a unit is not converted"
-    for number in f.literals(role):
-        if _near(number / base, ratio):
-            return "typed constant", f"{constant} is typed as {number:g}"
+        return "unit", f"every {what} is {times_too(power)}: a unit is not converted", own
+    for line in (own, *f.table.helpers):
+        if any(_near(number / base, ratio) for number in f.literals(line)):
+            return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
     named = next((name for value, name in _FACTORS if _near(value, ratio)), f"{ratio:.6g}")
-    return "other scheme", f"every {what} is {named} times that of the report's scheme"
+    return "other scheme", f"every {what} is {named} times that of the report's scheme", own
 
 
 def _near(a: float, b: float) -> bool:

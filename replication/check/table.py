@@ -133,7 +133,8 @@ class Line:
         """Whether it looks like a velocity: positive at first, and rarely rising."""
         pairs = self._pairs
         falling = sum(b <= a for a, b in pairs)
-        return pairs[0][0] > 0 and falling >= 0.9 * len(pairs) and pairs[-1][1] < pairs[0][0]
+        ends_lower = bool(pairs) and pairs[0][0] > max(0.0, pairs[-1][1])
+        return ends_lower and falling >= 0.9 * len(pairs)
 
     @cached_property
     def rises(self) -> bool:
@@ -145,7 +146,12 @@ class Line:
 
     @cached_property
     def _pairs(self) -> list[tuple[float, float]]:
-        return list(pairwise(value for value in self.values if value is not None))
+        return list(pairwise(self.numbers))
+
+    @cached_property
+    def numbers(self) -> list[float]:
+        """Its values, without the cells that have none."""
+        return [value for value in self.values if value is not None]
 
     def headed(self) -> "Line":
         """The line with the head above it (or at its left), and its unit."""
@@ -211,8 +217,9 @@ def lines(calculation: Calculation) -> Iterator[Line]:
         numbers: dict[int, dict[int, float | None]] = {}
         for (number, at), value in values.items():
             held = value if isinstance(value, float) and math.isfinite(value) else None
-            # An error is part of a line that has gone wrong.
-            if held is not None or calculation.error(places[number, at]):
+            # An error is part of a line that has gone wrong, and so is the text that it comes from.
+            place = places[number, at]
+            if held is not None or calculation.error(place) or place in calculation.spoiling:
                 at -= sum(before < at for before in blank)
                 numbers.setdefault(number, {})[at] = held
         filled = Counter(at for line in numbers.values() for at in line)
@@ -220,7 +227,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             line = Line(calculation, sheet, across, blank, number)
             for first, last in _runs(sorted(own), filled, line):
                 run = tuple(own.get(at) for at in range(first, last + 1))
-                if sum(value is not None for value in run) >= LEAST:
+                if len(run) >= LEAST:
                     yield replace(line, first=first, values=run).headed()
 
 
@@ -303,7 +310,8 @@ class Table:
 
     def area(self, role: str) -> str:
         """The cells of a role, as an address."""
-        rows = [k for k in range(self.steps + 1) if self.number(role, k) is not None]
+        every = range(self.steps + 1)
+        rows = [k for k in every if self.number(role, k) is not None] or every
         return area_of(self.place(role, rows[0]), self.place(role, rows[-1]))
 
     @cached_property
@@ -338,6 +346,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
                 "what --map names belongs to no table of depth and velocity: name both, with as "
                 "many rows"
             )
+    taken = {line for table in found for line in table.lines.values()}
+    found = [replace(t, helpers=tuple(h for h in t.helpers if h not in taken)) for t in found]
     own = [table for table in found if not _viewed(table, found)]
     sheets = list(calculation.book.sheets)
     return sorted(own, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
@@ -345,7 +355,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
 
 def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Depths with their velocities, the surest first."""
-    longest = sorted(known, key=lambda line: (not line.roles, -len(line.values)))
+    able = [line for line in known if len(line.numbers) >= LEAST]
+    longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
     depths = [x for x in longest if "depth" in x.roles or (x.rises and not x.roles)]
     speeds = [v for v in longest if v.is_speed or (v.falls and not v.roles)]
     scored = [
@@ -369,8 +380,7 @@ def _score(depth: Line, speed: Line) -> float:
     grows = depth.reads(depth, 1)
     given = (depth.given is not None) + (speed.given is not None)
     # A velocity that ends higher than it began is the axis of a curve.
-    held = [value for value in speed.values if value is not None]
-    if not grows and not given and (fit < 0.5 or held[-1] > held[0]):
+    if not grows and not given and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
         return 0.0
     named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
@@ -418,11 +428,7 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
     zeros = [at for at in range(depth.first, min(depth.first + 4, last)) if depth.at(at) == 0]
     zero = zeros[-1] if zeros else first - 1
     last = _end(depth, speed, zero, last)
-    ordered = {
-        role: roles[role]
-        for role in COLUMNS
-        if role in roles and any(roles[role].at(at) is not None for at in range(zero, last + 1))
-    }
+    ordered = {role: roles[role] for role in COLUMNS if role in roles and roles[role].first <= last}
     if "depth" not in ordered or not any(role.startswith("velocity") for role in ordered):
         return None
     helpers = tuple(line for line in beside if line not in roles.values())
@@ -467,7 +473,7 @@ def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
     if role == "deceleration":
         fit = _braking(line, speed, initial) + 0.5 * _braking(line, speed, initial, 1e-9)
         return named + fit * (not line.falls)
-    steps = [b - a for a, b in pairwise(value for value in line.values if value is not None)]
+    steps = [b - a for a, b in pairwise(line.numbers)] or [0.0]
     counts = all(step == 1 for step in steps)  # the rows, unless its head says time
     return named + _constant((step, 1.0) for step in steps) * (not counts and min(steps) > 0)
 
@@ -478,7 +484,7 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
         x, v = depth.at(at), speed.at(at)
         held = x == depth.at(at - 1) and v == speed.at(at - 1)
         if x is None or v is None or not (held or x == v == 0):
-            fastest = max(abs(value) for value in speed.values if value is not None)
+            fastest = max(map(abs, speed.numbers))
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             return at if at < last - 1 and ended else last
     return last

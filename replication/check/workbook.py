@@ -180,6 +180,10 @@ def _nothing(calculation: Calculation) -> str:
     wrong = [place for place in calculation.formulas if calculation.error(place)]
     if wrong:
         first = min(wrong, key=calculation.order.__getitem__)
+        read = {calculation.source(area.corner) for area in calculation.areas(first)}
+        for place in sorted(read & calculation.spoiling):
+            text = str(calculation.values[place])[:40]
+            nothing += f"; {address(place, True)} holds {text!r}, which is no number"
         return (
             f"{nothing}; {count(len(wrong), 'formula')} give errors, "
             f"{address(first, True)} first: {calculation.error(first)}"
@@ -198,6 +202,10 @@ _HEADER = {
     "radius": "a1-radius", "particle_density": "a1-density", "mass": "a1-mass",
     "diameter": "a1-diameter", "velocity": "a1-initial-velocity", "resistance": "a1-resistance",
 }  # fmt: skip
+_GIVEN = (
+    "velocity", "radius", "particle_density", "target_density", "step", "stop_velocity",
+)  # fmt: skip
+"""With other inputs than the report's nothing is as it prints."""
 _CASES = ("beta-5", "beta-3")
 """The cases by their claims, in the order of the report's inputs; Table A-1 is the first."""
 _ROWS = 5
@@ -210,8 +218,9 @@ def _held(verdict: Verdict, alone: bool) -> Iterator[Held]:
     `alone`: it is the only table, so labelled results are its own.
     """
     setting, table, report = verdict.setting, verdict.setting.table, report_inputs()
-    given = [(setting.inputs[role].si, report[role][0])
-             for role in ("velocity", "radius", "particle_density", "step")]  # fmt: skip
+    given = [
+        (setting.inputs[role].si, report[role][0]) for role in _GIVEN if role in setting.inputs
+    ]
     cases = [(setting.case.resistance, resistance) for resistance in report["resistance"]]
     alike = [math.isclose(*pair, rel_tol=1e-9) for pair in cases]
     if not any(alike) or not all(math.isclose(*pair, rel_tol=1e-9) for pair in given):
