@@ -85,8 +85,7 @@ def tests_of(module: Path) -> list[list[Path]]:
     name = module_of(module)
     files = sorted((ROOT / "tests").rglob("test_*.py"))
     importers = {module_of(path) for path in EVERY if name in ours(path)}
-    names = (module.stem, module.parent.name)
-    own = [path for path in files if path.stem[5:].removesuffix("_rates") in names]
+    own = [path for path in files if path.stem[5:] in (module.stem, module.parent.name)]
     near = [path for path in files if name in ours(path) and path not in own]
     far = [path for path in files if importers & ours(path) and path not in own + near]
     return [tests for tests in ([module, *own], near, far) if tests]
