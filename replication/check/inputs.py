@@ -27,6 +27,7 @@ from replication.check.words import (
     titles,
     unit_in,
 )  # fmt: skip
+from replication.models import crater
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -525,8 +526,7 @@ def _completed(
     add("velocity", speeds[min(speeds)], "rows")
     add("radius", report["radius"][0], "report")
     if "mass" in inputs:
-        r = inputs["radius"].si
-        volume = 4 / 3 * math.pi * r * r * r
+        volume = crater.volume(inputs["radius"].si)
         density = inputs["mass"].si / volume if volume else 0.0
         add("particle_density", density, "follows", "mass", "radius")
     if "step" not in inputs:

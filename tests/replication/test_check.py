@@ -25,6 +25,7 @@ from replication.check.scheme import BRAKES, REPORT, Case, march
 from replication.check.show import safe
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
+from replication.models import crater
 from replication.models import sheet as midpoint
 from replication.models.impact import Impact
 
@@ -483,6 +484,12 @@ def test_a_mass_of_constants_keeps_its_last_digits(tmp_path: Path) -> None:
         A1=None, B1=None, A2=None, B2=None, B3="=4/3*PI()*0.000011^3*8900", B4="=2*0.000011"
     )
     assert check(written(f, tmp_path)).first is None
+
+
+def test_the_density_follows_from_the_mass(tmp_path: Path) -> None:
+    f = by_hand(A2=None, B2=None, B3=crater.volume(11e-6) * 8000)
+    density = check(written(f, tmp_path)).verdicts[0].setting.inputs["particle_density"]
+    assert (density.si, density.how) == (pytest.approx(8000, rel=1e-15), "follows")
 
 
 @pytest.mark.parametrize(
