@@ -290,6 +290,8 @@ def test_a_wrong_input_is_the_one_fault_and_the_right_depth_is_without_it(
     found = check(written(by_hand(**{**changes, address: formula}), tmp_path))
     (cause,) = found.causes
     assert (cause.place, cause.kind) == (layouts.place("Sheet1", address), kind)
+    right = {"B1": 11e-6, "B3": BETA_5.mass, "B4": 22e-6, "B6": 3.5e9, "H2": 7e8}
+    assert cause.expected == pytest.approx(right[address], rel=1e-15)
     (verdict,) = found.verdicts
     assert verdict.right_depth == pytest.approx(midpoint.run(BETA_5).final_depth, rel=1e-12)
     record = check_record(found)
