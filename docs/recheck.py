@@ -46,13 +46,8 @@ def interval(claim: Table, rounding: str = ROUNDINGS[0]) -> Ends:
     low, high = exact(claim["interval_exact"])
     text = claim["interval_text"]
     closed = (text[0] != "(", text[-1] != ")")
-    digits = DECIMAL.fullmatch(claim["printed"])
-    if (
-        rounding == ROUNDINGS[0]
-        or low == high
-        or digits is None
-        or claim["kind"] == "approximation"
-    ):
+    digits = _digits(claim)
+    if rounding == ROUNDINGS[0] or low == high or digits is None:
         return (low, high, *closed)
     value, unit = decimal(digits)
     if rounding == ROUNDINGS[2]:
