@@ -424,6 +424,23 @@ def test_of_tables_side_by_side_each_tells_of_its_own_cells(tmp_path: Path) -> N
     assert (first.kind, first.expected) == ("typed number", pytest.approx(right))
 
 
+@pytest.mark.parametrize(
+    ("layout", "lengths", "speeds", "brakes"),
+    [(layouts.natural_units, 1e6, 1e-3, 1e-12), (layouts.centimetres, 1e2, 1e2, 1e2)],
+)
+def test_what_is_expected_is_told_in_the_units_of_its_column(
+    tmp_path: Path, layout: Callable[..., Foreign], lengths: float, speeds: float, brakes: float
+) -> None:
+    row = midpoint.run(BETA_5).rows[40]
+    expected = {DEPTH: row.depth * lengths, START: row.velocity_initial * speeds,
+                BRAKE: row.deceleration * brakes}  # fmt: skip
+    for part, number in expected.items():
+        f = layout(BETA_5)
+        f.cells[f.where[part, 40]] = 1.0
+        first = check(written(f, tmp_path)).first
+        assert (first.place, first.expected) == (f.where[part, 40], pytest.approx(number, 1e-12))
+
+
 def test_other_inputs_that_are_no_fault_are_said(tmp_path: Path) -> None:
     def said(**changes: str | float | None) -> dict[str, str]:
         found = check(written(by_hand(**changes), tmp_path))
