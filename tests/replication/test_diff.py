@@ -130,6 +130,26 @@ def test_sheets_come_go_and_change_their_names(diff: Diff) -> None:
     assert kinds(diff(lambda f: f.put("Notes", "A1", "hello"))[1]) == [("added", "A1", 1)]
 
 
+def test_sheets_that_are_gone_renamed_and_new_come_in_their_order(
+    coldspray: Run, tmp_path: Path
+) -> None:
+    f, g = layouts.table_a1(BETA_5), layouts.table_a1(BETA_5)
+    for book, sheets in ((f, ("Gone", "Before")), (g, ("After", "New"))):
+        for name, text in zip(
+            sheets, ("this", "that") if book is f else ("that", "else"), strict=True
+        ):
+            for row in range(1, 20):
+                book.put(name, f"A{row}", f"{text} {row}")
+    a, b = (writers.with_openpyxl(x, tmp_path / f"{n}.xlsx") for x, n in ((f, "a"), (g, "b")))
+    record = json.loads(coldspray("diff", a, b, "--json")[1])
+    said = [(d["sheet"], d["explanation"]) for d in record["differences"]]
+    assert said == [
+        ("Gone", "the sheet is gone"),
+        ("After", "the sheet is renamed"),
+        ("New", "the sheet is new"),
+    ]
+
+
 def test_tolerances(diff: Diff) -> None:
     def nudge(f: Foreign) -> None:
         f.put("Sheet1", "B1", 1.1e-5 * (1 + 1e-14))
