@@ -161,6 +161,13 @@ def test_every_printed_number_is_judged_by_its_interval(tmp_path: Path) -> None:
     assert len(found.held) == 30
 
 
+def test_in_typed_digits_the_first_row_is_checked_too(tmp_path: Path) -> None:
+    f = layouts.printed_digits(BETA_5)
+    f.cells[f.where[END, 1]] = 497.0
+    first = check(written(f, tmp_path)).first
+    assert (first.place, first.expected) == (f.where[END, 1], 500.0)
+
+
 @pytest.mark.parametrize("saved_by", ["us", "LibreOffice"])
 def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
     from replication import workbook
