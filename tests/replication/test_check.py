@@ -403,6 +403,15 @@ def test_a_constant_is_named_in_the_column_that_has_it(tmp_path: Path) -> None:
     (cause,) = check(written(f, tmp_path)).causes
     assert (cause.place, cause.kind) == (("impact", 6, 5), "typed constant")
     assert cause.explanation == "pi is typed as 3.14"
+    for cell, formula, said in (
+        ("D67", "=D66+C67*2E-10", "2e-10 is typed where its column reads a cell: "),
+        ("E67", "=(0.5*7850*C67^2+3500000000)*PI()*($B$4*D67-D67^2)/$B$3", "7850 and 3.5e+09 are "),
+    ):
+        first = check(written(by_hand(**{cell: formula}), tmp_path)).first
+        assert (layouts.letters(first.place[2]) + str(first.place[1]), first.kind) == (
+            cell, "typed constant",
+        )  # fmt: skip
+        assert first.explanation.startswith(said)
 
 
 def test_a_velocity_of_the_next_row_is_named_there(tmp_path: Path) -> None:
