@@ -457,6 +457,13 @@ def test_what_is_expected_is_told_in_the_units_of_its_column(
         assert (first.place, first.expected) == (f.where[part, 40], pytest.approx(number, 1e-12))
 
 
+def test_a_unit_lost_in_the_first_row_is_told_as_one(tmp_path: Path) -> None:
+    first = check(written(by_hand(D9="=D8+C9*$E$2/2*1000"), tmp_path)).first
+    assert (first.place, first.kind) == (layouts.place("Sheet1", "D9"), "unit")
+    assert first.expected == pytest.approx(5e-8)
+    assert first.explanation.endswith("a factor of 1e3")
+
+
 def test_other_inputs_that_are_no_fault_are_said(tmp_path: Path) -> None:
     def said(**changes: str | float | None) -> dict[str, str]:
         found = check(written(by_hand(**changes), tmp_path))
