@@ -21,7 +21,8 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-uno: Any = importlib.import_module("uno")
+if __name__ == "__main__":  # tests and documentation import this file under another Python
+    uno: Any = importlib.import_module("uno")
 
 START_LIMIT_S = 60
 RESTART = 81  # how soffice leaves when it has set up a new profile and wants to start again
