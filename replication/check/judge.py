@@ -349,18 +349,26 @@ def _run(f: Verdict, rules: Rules) -> dict[str, dict[int, float]]:
     return march(f.case, rules, steps=f.table.steps)
 
 
-def _misprints(f: Verdict, rules: Rules, digits: int) -> Iterator[tuple[Position, float, str]]:
-    """Numbers that do not round as a scheme's do."""
+def _misprints(
+    f: Verdict, rules: Rules, digits: int
+) -> Iterator[tuple[Position, float | None, str]]:
+    """Numbers that do not round as a scheme's do, and what they should be if that is finite."""
     run = _run(f, rules)
     for role in set(run) & set(f.table.lines):
         for k, value in run[role].items():
             found, wanted = f.table.number(role, k), f.shown(role, value)
             if found is None or wanted is None or (k == 0 and role == "velocity_final"):
                 continue
-            last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits) if wanted else 0.0
-            if abs(found - wanted) > last * (0.5 + 1e-9):
+            bounded = math.isfinite(wanted)
+            expected = float(f"{wanted:.{digits}g}") if bounded else None
+            last = (
+                10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
+                if wanted and bounded
+                else 0.0
+            )
+            if not abs(found - wanted) <= last * (0.5 + 1e-9):
                 text = f"{title(role)} of row {k} is not what the scheme gives"
-                yield f.table.place(role, k), float(f"{wanted:.{digits}g}"), text
+                yield f.table.place(role, k), expected, text
 
 
 # ---- the stop, and all of it together
