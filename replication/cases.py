@@ -7,7 +7,7 @@ from typing import Any
 
 from reference.ledger import claims_of_case, load
 from replication.models.impact import Impact
-from replication.reading import name_of, parse_toml, quoted, read_file, read_number
+from replication.reading import name_of, parse_toml, place, quoted, read_file, read_number
 
 INPUTS = {
     "velocity": "m/s",
@@ -45,10 +45,8 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     places = {**dict.fromkeys(from_file, f"{name_of(file)}: "), **dict.fromkeys(given, "")}
     values: dict[str, Any] = {}
     for key, text in {**from_file, **given}.items():
-        try:
+        with place(f"{places[key]}{key}"):
             values[key] = read_number(text, INPUTS[key])
-        except ValueError as error:
-            raise ValueError(f"{places[key]}{key}: {error}") from error
     if "resistance" in values:
         values = {"beta": None, "flow_stress": None, **values}
     try:

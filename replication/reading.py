@@ -74,6 +74,21 @@ def read_file(path: Path, largest: int = _SIZE) -> bytes:
 
 
 @contextmanager
+def place(name: str) -> Iterator[None]:
+    """Say where it was that something was wrong.
+
+    >>> with place("--step"):
+    ...     read_number("x", "s")
+    Traceback (most recent call last):
+    ValueError: --step: 'x' is no finite number with or without a unit, such as '1 s'
+    """
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
+
+
+@contextmanager
 def _waiting(path: Path) -> Iterator[None]:
     """Say what is waited for, if it takes long."""
     note = f"coldspray: waiting for a program to write to {name_of(path)}\n"

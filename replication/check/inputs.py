@@ -13,7 +13,7 @@ from functools import cache
 from itertools import islice, product
 from statistics import median
 
-from reference.ledger import load
+from reference.ledger import claims_of_case, load
 from reference.units import to_si
 from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact
 from replication.check.table import Table, address
@@ -47,19 +47,19 @@ _FOLLOWS = {
 @cache
 def report_inputs() -> dict[str, tuple[float, ...]]:
     """The report's inputs in SI, for both betas and steps; its target density as inferred."""
+    five, three = claims_of_case(5), claims_of_case(3)
+    names = {role: (claim,) for role, claim in five.items()} | {
+        "diameter": ("a1-diameter",),
+        "mass": ("a1-mass",),
+        "beta": (five["beta"], three["beta"]),
+        "step": (five["step"], "coarse-step"),
+    }
     ledger = load()
-    names = {
-        "velocity": ("a1-initial-velocity",), "radius": ("a1-radius",),
-        "diameter": ("a1-diameter",), "particle_density": ("a1-density",), "mass": ("a1-mass",),
-        "beta": ("depth-beta-5-beta", "depth-beta-3-beta"), "flow_stress": ("flow-stress",),
-        "step": ("a-step", "coarse-step"), "stop_velocity": ("a-stop-velocity",),
-    }  # fmt: skip
-    values = {}
-    for role, claims in names.items():
-        printed = [(claim.printed, claim.si) for claim in map(ledger.claims.__getitem__, claims)]
-        values[role] = tuple(float(number.value * si) for number, si in printed if number)
+    values = {
+        role: tuple(float(ledger.value(claim)) for claim in claims)
+        for role, claims in names.items()
+    }
     values["resistance"] = tuple(beta * values["flow_stress"][0] for beta in values["beta"])
-    values["target_density"] = (float(ledger.inferred["target-density"].nominal),)
     return values
 
 

@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
-from replication.reading import read_number
+from replication.reading import place, read_number
 
 if TYPE_CHECKING:
     from replication.bench.run import Trial, Watch
@@ -54,17 +54,13 @@ def run(options: argparse.Namespace) -> int:
 def _effort(options: argparse.Namespace) -> dict[str, Any]:
     """Repeats and limit: as given, or as much as a quick or a full run takes."""
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
+    if options.limit is not None:
+        with place("--limit"):
+            limit = read_number(options.limit, "s")
     return {
         "repeat": repeat if options.repeat is None else options.repeat,
-        "limit": limit if options.limit is None else _limit(options.limit),
+        "limit": limit,
     }
-
-
-def _limit(text: str) -> float:
-    try:
-        return read_number(text, "s")
-    except ValueError as error:
-        raise ValueError(f"--limit: {error}") from error
 
 
 def _watch(options: argparse.Namespace) -> "Watch":

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from replication.cases import inputs_of
 from replication.cli import options as shared
-from replication.reading import read_number
+from replication.reading import place, read_number
 from replication.text import aligned, number
 
 if TYPE_CHECKING:
@@ -56,11 +56,9 @@ def _steps(text: str) -> list[float]:
     if len(texts) > MOST_STEPS:
         raise ValueError(f"--steps takes at most {MOST_STEPS} steps, not {len(texts)}")
     steps = []
-    for place, step in enumerate(texts, 1):
-        try:
+    for at, step in enumerate(texts, 1):
+        with place(f"--steps, value {at}"):
             steps.append(read_number(step.strip(), "s"))
-        except ValueError as error:
-            raise ValueError(f"--steps, value {place}: {error}") from error
     return steps
 
 

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from replication.cli import options as shared
-from replication.reading import name_of
+from replication.reading import name_of, place
 
 HELP = "many cases by a TOML plan, to CSV or Parquet"
 
@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
     from replication.sweep.output import check_output, provenance, write
-    from replication.sweep.read import place, read_plan
+    from replication.sweep.read import read_plan
 
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")

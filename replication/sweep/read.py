@@ -2,14 +2,13 @@
 
 import hashlib
 import math
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 from replication.cases import CASES, INPUTS
 from replication.models.impact import check
-from replication.reading import name_of, parse_toml, quoted, read_file, read_number
+from replication.reading import name_of, parse_toml, place, quoted, read_file, read_number
 from replication.sweep.plan import EXTRAS, MAX_CASES, Plan
 from replication.sweep.sources import ByMass, Listed, Random, Source, Spaced
 
@@ -37,15 +36,6 @@ def read_plan(path: Path) -> Plan:
         with place("[sweep]"):
             samples, seed = _sampling(settings, sources)
         return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
-
-
-@contextmanager
-def place(name: str) -> Iterator[None]:
-    """Say where it was that something was wrong."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from error
 
 
 def _base(settings: Table) -> dict[str, float]:
