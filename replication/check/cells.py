@@ -178,7 +178,8 @@ def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) ->
     if found is None:
         needed = 0 < k < max(column, default=0) or (read and k > 0)
         wrong = needed or _text(f, place) or f.calculation.error(place)
-        return bool(wrong) and not _passed_on(f, place)
+        beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
+        return bool(wrong) and not beyond and not _passed_on(f, place)
     numbered = role == "time" and math.isclose(found, k * f.case.step, rel_tol=NEAR)
     if expected is None or numbered:  # by the number of the row, not from the time before
         return False
@@ -201,10 +202,18 @@ def _text(f: Verdict, place: Position) -> bool:
 
 
 def _passed_on(f: Verdict, place: Position) -> bool:
-    """Whether a formula gives no number because another cell of the table holds none."""
-    areas = (area for area in f.calculation.areas(place) if area.cells == 1)
-    others = (area.corner for area in areas if area.corner in f.table.places.keys() - {place})
-    return any(isinstance(f.calculation.values.get(cell), str | bool) for cell in others)
+    """Whether a formula gives no number because another cell of the table holds none.
+
+    It may read that cell through others beside the table, which come before it.
+    """
+    order = f.calculation.order
+    cells = {area.corner for area in f.calculation.areas(place) if area.cells == 1} - {place}
+    if any(
+        isinstance(f.calculation.values.get(p), str | bool) for p in cells & f.table.places.keys()
+    ):
+        return True
+    beside = (p for p in cells if any(line.covers(p) for line in f.table.helpers))
+    return any(_passed_on(f, p) for p in beside if order.get(p, math.inf) < order.get(place, 0))
 
 
 def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, str]:

@@ -439,8 +439,9 @@ def _digits(table: Table) -> int | None:
 def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], dict[str, int]]:
     """The power of ten of each column, and by how much the units of some heads contradict it.
 
-    The rows tie the units together: dx = v dt and dv = a dt. Of the powers that satisfy both, those
-    that contradict the fewest units named, then those nearest to the report's numbers.
+    The rows tie the units together: dx = v dt and dv = a dt. Of the powers that may be meant, those
+    that contradict the fewest units named, then the fewest of these ties, then those nearest to the
+    report's numbers.
     """
     report = report_inputs()
     speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
@@ -464,7 +465,7 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
     start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
     impact = inputs["velocity"].si if "velocity" in inputs else 0.0
     impact = impact if impact > 0 else report["velocity"][0]
-    speeds = {named[speed], _round(impact / start)} - {None}
+    speeds = {named[speed] or 0, _round(impact / start)}
     steps = [inputs["step"].si] if "step" in inputs else []
     if step and named.get("time") is not None:
         steps.append(step * 10.0 ** (named["time"] or 0))
@@ -484,8 +485,9 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
             for role in table.lines
         }
         against = sum(named[role] not in (None, power) for role, power in powers.items())
+        untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
         far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
-        options.append(((against, far), powers))
+        options.append(((against, untied, far), powers))
     powers = min(options, key=lambda option: option[0])[1]
     off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
     return powers, {role: power for role, power in off.items() if power}

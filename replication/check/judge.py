@@ -246,8 +246,10 @@ _FACTORS = (
 
 def _scheme(f: Verdict) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
-    starts = KNOWN["start"]
-    chosen = {"start": next((r for r in starts if f.setting.follows("start", r, 1)), starts[0])}
+    chosen = {"start": REPORT.start}
+    if f.setting.follows("start", REPORT.start, 1) is False:  # None if there is no velocity
+        starts = (rule for rule in KNOWN["start"] if f.setting.follows("start", rule, 1))
+        chosen["start"] = next(starts, REPORT.start)
     unknown = []
     for part in ("advance", "brake", "end"):
         if part == "end" and "deceleration" not in f.table.lines:

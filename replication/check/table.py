@@ -426,7 +426,8 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
             if fits[best] >= 0.9:
                 roles[role] = best
     zeros = [at for at in range(depth.first, min(depth.first + 4, last)) if depth.at(at) == 0]
-    zero = zeros[-1] if zeros else first - 1
+    touch = [at for at in zeros if "time" in roles and roles["time"].at(at) == 0]
+    zero = (touch or zeros or [first - 1])[-1]
     last = _end(depth, speed, zero, last)
     ordered = {role: roles[role] for role in COLUMNS if role in roles and roles[role].first <= last}
     if "depth" not in ordered or not any(role.startswith("velocity") for role in ordered):
