@@ -14,8 +14,8 @@ from typing import Any
 from flint import arb, ctx
 
 from replication.cases import BETA_5
-from replication.error.budget import exact_motion
-from replication.error.warnings import warnings
+from replication.error import warnings
+from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run
