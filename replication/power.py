@@ -16,9 +16,8 @@ import msgspec
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
 from replication.audit.edits import edits_of
-from replication.audit.equations import assess_equation
-from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import OPEN, Verdict
+from replication.audit.explain import Screen, dependents
+from replication.audit.verdict import OPEN, Verdict, assess_equation
 
 
 @dataclass(frozen=True, slots=True)

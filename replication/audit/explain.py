@@ -1,19 +1,88 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 
+from reference.arithmetic import Floats
 from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
-from reference.printed import parse
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, Slip
+from reference.printed import Interval, parse
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
-from replication.audit.equations import follows
 from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
-from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import Judge
+from replication.audit.verdict import Judge, follows, restates
+
+# A quick look
+
+_FLOATS = Floats()
+_CLOSE = Fraction(1, 10**9)
+"""How near to exact text, such as 2/3, a double must come."""
+
+
+class Screen:
+    """Which claims of a ledger agree, its inferred inputs at given values (SI)."""
+
+    def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
+        self.ledger, self.assumed = ledger, assumed
+        self._prepared = cache(self._prepare)
+
+    def agrees(
+        self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
+    ) -> bool:
+        """Whether a claim with a computation agrees, with some entries changed (SI)."""
+        if claim.computations[reading].restates:
+            return restates(self.ledger, claim, changed or {})
+        function, values, target = self._prepared(claim, reading)
+        if changed:
+            values = {name: float(changed.get(name, value)) for name, value in values.items()}
+        try:
+            value = Fraction(function(_FLOATS, **values))
+        except (ArithmeticError, ValueError, TypeError):
+            return False  # no such input has a result, or only a complex one
+        if target.is_point and target.lower is not None:
+            return abs(value - target.lower) <= _CLOSE * abs(target.lower)
+        return target.contains(value)
+
+    def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
+        """What an agreement takes that no change of an entry changes."""
+        known = self.assumed
+        values = {
+            name: float(known[name] if name in known else self.ledger.value(name))
+            for name in claim.entries
+        }
+        return self.ledger.function(claim, reading=reading), values, claim.target()
+
+    def failing(self, names: Iterable[str]) -> set[str]:
+        """Those of the claims that do not agree."""
+        claims = (self.ledger.claims[name] for name in names)
+        return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
+
+
+def dependents(ledger: Ledger, name: str) -> set[str]:
+    """The claims whose verdict may change with an entry or an equation, itself among them.
+
+    Claims that depend on an inferred input depend on its evidence, and on all that this rests on;
+    an input that others show to be right depends on them.
+    """
+    within = ledger.claims[name].within if name in ledger.claims else name
+    direct = {
+        claim.id
+        for claim in ledger.claims.values()
+        if claim.id == name
+        or name in claim.entries
+        or claim.against == name
+        or within in claim.uses
+    }
+    for key, inferred in ledger.inferred.items():
+        if direct & set(inferred.evidence):
+            unknown = INFERRED + key
+            direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+    return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
+
+
+# Explanations
 
 
 @dataclass(frozen=True, slots=True)

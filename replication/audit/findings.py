@@ -12,9 +12,8 @@ from reference.enclosure import enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.printed import Interval
 from reference.units import to_si
-from replication.audit.equations import assess_equation
 from replication.audit.explain import BackSolved, Explainer
-from replication.audit.verdict import Assessment, Judge, Reading, Verdict
+from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact
 

@@ -1,4 +1,4 @@
-"""The verdict on one claim: whether the printed number follows from what the report prints."""
+"""The verdicts: whether a printed number or equation follows from what the report prints."""
 
 from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
@@ -10,13 +10,14 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
+from reference.derivations import Check, Sides, derive
 from reference.enclosure import Box, enclose, explore
-from reference.equations import EquationError
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.equations import EquationError, dimension
+from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Ledger
 from reference.printed import Interval, Rounding
+from reference.units import DimensionError
 from replication.audit.inference import Inference, infer
 from replication.audit.replica import replica
-from replication.audit.screen import restates
 
 _REALS, _RATIONALS = Reals(50), Rationals()
 
@@ -100,6 +101,24 @@ class Assessment:
     verdict: Verdict
     readings: tuple[Reading, ...] = ()
     reason: str = ""
+
+
+def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
+    """Whether a claim that only repeats or counts agrees with what it repeats or counts.
+
+    It does if some value prints like both texts and, of a bound, satisfies it. `changed` gives the
+    repeated number another value (SI).
+    """
+    assert claim.computation is not None
+    if claim.computation.name == "count":
+        return claim.target().contains(Fraction(len(claim.inputs)))
+    (name,) = claim.inputs["value"]
+    # A choice or an exact number has one value; a bound or an "about" has its own interval.
+    loose = claim.bound is not None or claim.kind == "approximation"
+    own = claim.target() if loose else claim.as_input(Convention())
+    if name in changed:
+        return own.contains(changed[name])
+    return own.meets(ledger.claims[name].as_input(Convention()))
 
 
 class Judge:
@@ -349,3 +368,150 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     choices_exact = (True, False) if chosen and not whole_sheet else (True,)
     for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)
+
+
+# Equations, and the constants in them
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """What the checks of its equation say of one printed constant.
+
+    `needed` are the values, of those tried, with which every check holds; `settled` says that no
+    other value than the printed one passes, or that another one must stand there.
+    """
+
+    claim: str
+    verdict: Verdict
+    needed: tuple[Fraction, ...]
+
+    @property
+    def settled(self) -> bool:
+        """Whether the checks decide it."""
+        return self.verdict is not Verdict.NOT_CHECKABLE
+
+
+@dataclass(frozen=True, slots=True)
+class EquationAssessment:
+    """The verdict on an equation with the checks that it comes from.
+
+    `factor` is the number by which the printed equation differs from the derived one, None where it
+    does not, or differs in more than a number.
+    """
+
+    equation: Equation
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    constants: Mapping[str, Constant]
+
+    @property
+    def factor(self) -> Fraction | None:
+        """Printed over derived, where that is a number other than 1."""
+        return next((check.factor for check in self.checks if check.factor is not None), None)
+
+
+def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
+    """The verdict on one equation, and, if they are asked for, on its constants.
+
+    One that the report derives must pass every check; of one that it takes over only dimensions,
+    limits and signs can be checked, and it stays "not checkable" where they hold.
+
+    >>> from reference.ledger import load
+    >>> assess_equation(load(), "eq16").factor
+    Fraction(1, 2)
+    """
+    equation = ledger.equations[name]
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError as error:
+        check = Check(str(error), holds=False)
+        return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
+    sides = ledger.sides
+    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
+    holds = all(check.holds for check in checks)
+    passed, failed = {
+        "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
+        "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
+        "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
+    }[equation.kind]
+    judged = _constants(ledger, name, sides, holds) if constants else {}
+    return EquationAssessment(equation, passed if holds else failed, checks, judged)
+
+
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check: no more of its verdict, in less time."""
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError:
+        return False
+    return _follows(ledger, name, ledger.sides)
+
+
+def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
+    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
+    derived = all(check.holds for check in _derivation(ledger, name, sides))
+    return derived and _dimensions(ledger, name, sides).holds
+
+
+def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
+    exponents = {
+        key: ledger.value(symbol.value)
+        for key, symbol in ledger.symbols.items()
+        if symbol.value is not None
+    }
+    says = "both sides have the same dimensions"
+    try:
+        own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+    except (DimensionError, EquationError) as error:
+        return Check(f"{says}: {error}", holds=False)
+    return Check(says, all(unit == own[0] for unit in own))
+
+
+def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    try:
+        yield from derive(name, sides, ledger.symbols)
+    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
+        yield Check(f"it can be derived: {error}", holds=False)
+
+
+def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, Constant]:
+    claims = ledger.constants_of(name)
+
+    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
+        """The values of a constant with which every check holds, another one given."""
+        return tuple(
+            value
+            for value in _candidates(ledger.value(claim))
+            if _follows(ledger, name, mended({**given, claim: value}))
+        )
+
+    def mended(constants: Mapping[str, Fraction]) -> Sides:
+        return {**sides, name: ledger.read(ledger.printed_text(name, constants))}
+
+    needed = {claim: passing(claim, {}) for claim in claims}
+    repairs = [] if holds else [claim for claim, values in needed.items() if values]
+    if len(repairs) == 1:
+        # The others are judged with the one number put right.
+        (culprit,) = repairs
+        right = {culprit: needed[culprit][0]}
+        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
+    constants = {}
+    for claim, values in needed.items():
+        if values == (ledger.value(claim),):
+            verdict = Verdict.REPRODUCED
+        elif values and ledger.value(claim) not in values:
+            verdict = Verdict.NOT_REPRODUCED
+        elif not values:
+            verdict = Verdict.UNDECIDED
+        else:
+            verdict = Verdict.NOT_CHECKABLE
+        constants[claim] = Constant(claim, verdict, values)
+    return constants
+
+
+_USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))
+"""Constants that equations of physics have; a printed one is told apart from all of these."""
+
+
+def _candidates(printed: Fraction) -> list[Fraction]:
+    return sorted({*_USUAL, printed, 2 * printed, printed / 2})

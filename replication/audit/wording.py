@@ -6,9 +6,15 @@ from fractions import Fraction
 from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
-from replication.audit.equations import Constant, EquationAssessment
 from replication.audit.record import SourceRecord
-from replication.audit.verdict import Judge, Judgement, Reading, Verdict
+from replication.audit.verdict import (
+    Constant,
+    EquationAssessment,
+    Judge,
+    Judgement,
+    Reading,
+    Verdict,
+)
 from replication.text import inward, number, outward
 
 

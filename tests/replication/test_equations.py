@@ -7,8 +7,8 @@ import pytest
 from reference.derivations import DERIVATIONS, derive
 from reference.ledger import Ledger, load
 from replication.audit.edits import equation_edits
-from replication.audit.equations import assess_equation, follows
-from replication.audit.screen import Screen
+from replication.audit.explain import Screen
+from replication.audit.verdict import assess_equation, follows
 
 LEDGER = load()
 ASSUMED = {f"inferred:{name}": entry.nominal for name, entry in LEDGER.inferred.items()}
