@@ -24,7 +24,6 @@ from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.explain import BackSolved
 from replication.audit.findings import EVIDENCE, Known, case
 from replication.audit.verdict import Assessment, Judgement, Reading, Verdict
 from replication.models import sheet
@@ -146,10 +145,7 @@ class Audit(Known):
             ),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
-            back_solved=[
-                self._back_solved(solved)
-                for solved in (self.explainer.back_solved(claim) if fails and first else [])
-            ],
+            back_solved=self.explainer.back_solved(claim) if fails and first else [],
             repairs=self.repairs(claim.id) if fails else [],
             slips=self.explainer.slips(claim) if fails and first else [],
         )
@@ -271,33 +267,6 @@ class Audit(Known):
             if name in source.claims
         ]
 
-    # Explanations
-
-    def _back_solved(self, solved: BackSolved) -> r.BackSolvedRecord:
-        si, solutions = to_si(self.ledger.unit(solved.entry)), solved.solutions
-        proof = "proven inside, and none beyond"
-        if not solutions.outer:
-            proof = "proven: none in the range does"
-        elif not solutions.inner:
-            proof = "undecided"
-        elif solutions.reaches_an_end:
-            proof = "proven, up to an end of the range"
-
-        def in_unit(ends: tuple[Fraction, Fraction]) -> tuple[float, float]:
-            return float(ends[0] / si), float(ends[1] / si)
-
-        return _record(
-            r.BackSolvedRecord,
-            solved,
-            title=self.ledger.title(solved.entry),
-            unit=self.ledger.unit(solved.entry),
-            printed=float(self.judge.value(solved.entry) / si),
-            intervals=[in_unit(ends) for ends in solutions.inner],
-            search=in_unit(solutions.search),
-            search_reason=solved.reason,
-            proof=proof,
-        )
-
     # Equations and findings
 
     def _equation(self, name: str) -> r.EquationRecord:
@@ -315,10 +284,7 @@ class Audit(Known):
             mathml=_math("<mo>=</mo>".join(sides)),
             factor=None if assessed.factor is None else str(assessed.factor),
             checks=[_record(r.CheckRecord, check) for check in assessed.checks],
-            constants=[
-                _record(r.ConstantRecord, c, needed=[str(value) for value in c.needed])
-                for c in assessed.constants.values()
-            ],
+            constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=repairs,
         )

@@ -1,7 +1,6 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 
@@ -10,8 +9,9 @@ from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, Slip
 from reference.printed import Interval, parse
+from reference.units import to_si
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
-from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
+from replication.audit.record import BackSolvedRecord, CulpritRecord, RepairRecord, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
 # A quick look
@@ -85,26 +85,12 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
 # Explanations
 
 
-@dataclass(frozen=True, slots=True)
-class BackSolved:
-    """The values of one entry, the others as printed, for which a claim would agree; in SI.
-
-    `prints_alike` says that some of them print like the entry does.
-    """
-
-    reading: str
-    entry: str
-    solutions: Solutions
-    reason: str
-    prints_alike: bool
-
-
 class Explainer:
     """Explanations for the failing claims of one ledger."""
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
-        self._solved: dict[str, list[BackSolved]] = {}
+        self.solutions = cache(self._solutions)
         self._repairs_by = cache(lambda name, entry: list(self._repairs(name, entry)))
         self.slips = cache(self._slips)
 
@@ -125,33 +111,56 @@ class Explainer:
 
     # Single inputs
 
-    def back_solved(self, claim: Claim) -> list[BackSolved]:
-        """Each entry that the claim rests on, alone, for every reading of the claim."""
-        if claim.id not in self._solved:
-            self._solved[claim.id] = [
-                self._back_solved(claim, reading, name)
-                for reading in claim.computations
-                for name in claim.entries
-                if self._may_vary(name)
-            ]
-        return self._solved[claim.id]
+    def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
+        """For every reading of a claim, the values of each entry alone with which it agrees."""
+        return [
+            self._back_solved(claim, reading, name)
+            for reading in claim.computations
+            for name in claim.entries
+            if name.startswith(INFERRED) or self._may_vary(self.ledger.claims[name])
+        ]
 
-    def _may_vary(self, name: str) -> bool:
-        if name.startswith(INFERRED):
-            return True
-        claim = self.ledger.claims[name]
+    @staticmethod
+    def _may_vary(claim: Claim) -> bool:
         return not claim.is_exact or claim.quantity is not None
 
-    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
-        low, high, reason = self.ledger.search(name)
-        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = holding(self.ledger.function(claim, reading=reading), others)
-        solutions = solve(function, name, (low, high), claim.target(), _BUDGET)
+    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
+        unit, solutions = self.ledger.unit(name), self.solutions(claim, reading, name)
+        proof = "proven inside, and none beyond"
+        if not solutions.outer:
+            proof = "proven: none in the range does"
+        elif not solutions.inner:
+            proof = "undecided"
+        elif solutions.reaches_an_end:
+            proof = "proven, up to an end of the range"
         alike = False
         if not name.startswith(INFERRED):
             own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
             alike = any(not own.excludes(*part) for part in solutions.inner)
-        return BackSolved(reading, name, solutions, reason, alike)
+        si = to_si(unit)
+        intervals, (search,) = (
+            [(float(low / si), float(high / si)) for low, high in parts]
+            for parts in (solutions.inner, [solutions.search])
+        )
+        return BackSolvedRecord(
+            reading=reading,
+            entry=name,
+            title=self.ledger.title(name),
+            unit=unit,
+            printed=float(self.judge.value(name) / si),
+            intervals=intervals,
+            search=search,
+            search_reason=self.ledger.search(name)[2],
+            proof=proof,
+            prints_alike=alike,
+        )
+
+    def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
+        """The values of an entry (SI), the others as printed, with which a reading agrees."""
+        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = holding(self.ledger.function(claim, reading=reading), others)
+        low, high, _ = self.ledger.search(name)
+        return solve(function, name, (low, high), claim.target(), _BUDGET)
 
     def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
         """The least and greatest value of an entry, around the printed one, that suits some claims.
@@ -242,17 +251,8 @@ class Explainer:
             claim, screens = changed.claims[name], self._screens(changed)
         else:
             values[entry] = parse(text).value * self.ledger.claims[entry].si
-            if self._is_ruled_out(claim, entry, values[entry]):
-                return None
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
-
-    def _is_ruled_out(self, claim: Claim, entry: str, value: Fraction) -> bool:
-        """Whether it was proven already, by solving for the entry, that no reading agrees."""
-        if self.judge.moved or claim.id not in self._solved:
-            return False
-        found = [s.solutions for s in self._solved[claim.id] if s.entry == entry]
-        return bool(found) and not any(solutions.may_admit(value) for solutions in found)
 
     def _suits(self, claim: Claim, text: str) -> str | None:
         """Whether another text of a number that nothing computes suits what rests on it."""

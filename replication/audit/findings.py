@@ -12,7 +12,7 @@ from reference.enclosure import enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.printed import Interval
 from reference.units import to_si
-from replication.audit.explain import BackSolved, Explainer
+from replication.audit.explain import Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact
@@ -43,8 +43,8 @@ class Known:
             return Assessment(claim, Verdict.REMARK)
         if claim.within is not None:
             constants = self.equation(claim.within).constants
-            if claim.id in constants and constants[claim.id].settled:
-                return Assessment(claim, constants[claim.id].verdict)
+            if claim.id in constants and constants[claim.id].verdict != Verdict.NOT_CHECKABLE:
+                return Assessment(claim, Verdict(constants[claim.id].verdict))
         elif claim.computation is not None:
             return self.judge.assess(claim)
         sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
@@ -196,7 +196,7 @@ def _equation_16(known: Known) -> Evidence:
     }
     return {
         "factor": Fraction(0) if eq16.factor is None else 1 / eq16.factor,
-        "must": must,
+        "must": Fraction(must),
         "printed_rha": known.computed("frank-zook-rha"),
         "printed_stainless": known.computed("frank-zook-stainless"),
         "derived_rha": known.computed("frank-zook-rha", _DERIVED),
@@ -212,7 +212,6 @@ def _equation_16(known: Known) -> Evidence:
 def _values(known: Known) -> Evidence:
     explainer, ledger = known.explainer, known.ledger
     claims = {name: ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")}
-    solved = {name: explainer.back_solved(claim) for name, claim in claims.items()}
     stainless = known.reading("frank-zook-stainless", _DERIVED).judgements
     exact = [j for j in stainless if j.convention.choices_exact]
     rounded = [j for j in stainless if not j.convention.choices_exact]
@@ -229,14 +228,14 @@ def _values(known: Known) -> Evidence:
         "off": known.computed("frank-zook-stainless", _DERIVED) / ratio - 1,
         "least_exact": min(j.lower for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
-        "needed": _middle(solved["stainless"], "fz-resistance-stainless"),
+        "needed": _needed(known, "stainless", "fz-resistance-stainless"),
         "grid": grid,
         "nearest": nearest,
         "next": _derived(known, float(nearest)),
         "least_admitted": _least_admitted(known),
         "back": _resistance_for(known, known.computed("frank-zook-stainless", _DERIVED), 3),
-        "rha_resistance": _middle(solved["rha"], "fz-resistance-rha"),
-        "rha_velocity": _middle(solved["rha"], "a1-initial-velocity"),
+        "rha_resistance": _needed(known, "rha", "fz-resistance-rha"),
+        "rha_velocity": _needed(known, "rha", "a1-initial-velocity"),
         "rha_derived": known.computed("frank-zook-rha", _DERIVED),
         "never": all(
             j.verdict is Verdict.NOT_REPRODUCED
@@ -271,12 +270,13 @@ def _resistance_for(known: Known, ratio: float, digits: int) -> float:
     return _drag(known) / math.expm1(exponent)
 
 
-def _middle(solved: list[BackSolved], entry: str) -> float:
-    """The middle of the values of an entry that give the number, in the derived form."""
-    (own,) = (b for b in solved if b.entry == entry and b.reading == _DERIVED)
-    if not own.solutions.inner:
+def _needed(known: Known, which: str, entry: str) -> float:
+    """The middle of the values of an entry with which the derived form gives the number."""
+    claim = known.ledger.claims[f"frank-zook-{which}"]
+    inner = known.explainer.solutions(claim, _DERIVED, entry).inner
+    if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
-    return float(sum(own.solutions.inner[0])) / 2
+    return float(sum(inner[0])) / 2
 
 
 def _two_resistances(known: Known) -> Evidence:

@@ -17,6 +17,7 @@ from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Le
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
 from replication.audit.inference import Inference, infer
+from replication.audit.record import ConstantRecord
 from replication.audit.replica import replica
 
 _REALS, _RATIONALS = Reals(50), Rationals()
@@ -374,24 +375,6 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
 
 
 @dataclass(frozen=True, slots=True)
-class Constant:
-    """What the checks of its equation say of one printed constant.
-
-    `needed` are the values, of those tried, with which every check holds; `settled` says that no
-    other value than the printed one passes, or that another one must stand there.
-    """
-
-    claim: str
-    verdict: Verdict
-    needed: tuple[Fraction, ...]
-
-    @property
-    def settled(self) -> bool:
-        """Whether the checks decide it."""
-        return self.verdict is not Verdict.NOT_CHECKABLE
-
-
-@dataclass(frozen=True, slots=True)
 class EquationAssessment:
     """The verdict on an equation with the checks that it comes from.
 
@@ -402,7 +385,7 @@ class EquationAssessment:
     equation: Equation
     verdict: Verdict
     checks: tuple[Check, ...]
-    constants: Mapping[str, Constant]
+    constants: Mapping[str, ConstantRecord]
 
     @property
     def factor(self) -> Fraction | None:
@@ -474,7 +457,7 @@ def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
         yield Check(f"it can be derived: {error}", holds=False)
 
 
-def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, Constant]:
+def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, ConstantRecord]:
     claims = ledger.constants_of(name)
 
     def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
@@ -505,7 +488,8 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
             verdict = Verdict.UNDECIDED
         else:
             verdict = Verdict.NOT_CHECKABLE
-        constants[claim] = Constant(claim, verdict, values)
+        texts = [str(value) for value in values]
+        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
     return constants
 
 

@@ -6,9 +6,8 @@ from fractions import Fraction
 from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
-from replication.audit.record import SourceRecord
+from replication.audit.record import ConstantRecord, SourceRecord
 from replication.audit.verdict import (
-    Constant,
     EquationAssessment,
     Judge,
     Judgement,
@@ -201,14 +200,14 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
     for constant in assessed.constants.values():
-        if constant.verdict is Verdict.NOT_REPRODUCED:
-            needed = " or ".join(str(value) for value in constant.needed)
+        if constant.verdict == Verdict.NOT_REPRODUCED:
+            needed = " or ".join(constant.needed)
             printed = ledger.claims[constant.claim]
             text += f" With {needed} for {printed.shown} ({printed.title}) it follows."
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
+def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord) -> str:
     """Why a constant of an equation has its verdict."""
     equation = ledger.equations[claim.within or ""]
     passes = f"the equation follows from {equation.follows_from}"
@@ -218,7 +217,7 @@ def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> st
         case Verdict.REPRODUCED:
             return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
-            needed = " or ".join(str(value) for value in constant.needed)
+            needed = " or ".join(constant.needed)
             return f"With {needed} instead of {claim.shown} {passes}."
         case Verdict.UNDECIDED:
             return f"With no number that was tried in its place {passes}."
