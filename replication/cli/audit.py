@@ -62,8 +62,6 @@ def _audit(options: argparse.Namespace) -> int:
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:
-        from replication.report.terminal import summary
-
-        print(summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
+        print(render.summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
         print(f"Written to {name_of(options.out)}/; start with audit.html")
     return 1 if options.exit_code and record.counts.failing else 0
