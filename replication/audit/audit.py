@@ -54,15 +54,17 @@ class Audit(Known):
         equations = [self._equation(name) for name in self.ledger.equations]
         findings = [self._finding(finding) for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
-        verdicts = [(c.id, c.verdict) for c in claims] + [(e.id, e.verdict) for e in equations]
-        wrong = [name for name, verdict in verdicts if Verdict(verdict).is_failure]
-        failing = len(self.ledger.claims.keys() & wrong)
+        verdicts = {
+            part.id: Verdict(part.verdict) for parts in (claims, equations) for part in parts
+        }
+        wrong = [name for name, verdict in verdicts.items() if verdict.is_failure]
+        counts = self._counts(claims, equations)
         return r.Record(
             schema=r.SCHEMA,
-            headline=headline.statement if headline.holds else f"{failing} numbers fail.",
+            headline=headline.statement if headline.holds else f"{counts.failing} numbers fail.",
             report=_record(r.ReportRecord, self.ledger.report),
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
-            counts=self._counts(claims, equations),
+            counts=counts,
             culprit=self.explainer.culprit(wrong),
             claims=claims,
             equations=equations,
@@ -85,14 +87,8 @@ class Audit(Known):
 
     def _counts(self, claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
-        calculations = {
-            (claim.computed_by, claim.cell or "", str(claim.rests_on))
-            if claim.computed_by
-            else claim.id
-            for claim in reproduced
-        }
+        calculations = {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
-        derived = [e for e in equations if e.verdict == Verdict.REPRODUCED]
         return r.Counts(
             numbers=len(claims) - remarks,
             remarks=remarks,
@@ -100,7 +96,7 @@ class Audit(Known):
             calculations=len(calculations),
             failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
             equations=len(equations),
-            equations_derived=len(derived),
+            equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
             blank_cells=len(self.ledger.blank),
         )
 
@@ -116,7 +112,6 @@ class Audit(Known):
         own = self._reading(claim, first) if first else _UNREAD
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         formula, mathml, by_hand = self._formula(claim, first)
-        shown = self.shown(claim)
         restates = claim.computation is not None and claim.computation.restates
         return _record(
             r.ClaimRecord,
@@ -137,12 +132,7 @@ class Audit(Known):
             formula=formula,
             mathml=mathml,
             by_hand=by_hand,
-            shown_by=shown
-            and r.Shown(
-                claims=list(claim.shown_by),
-                interval=(float(shown[0] / claim.si), float(shown[1] / claim.si)),
-                unit=claim.unit,
-            ),
+            shown_by=self.shown(claim),
             sources=self._sources(claim.id, interval and claim.target()),
             figures=self._figures(claim),
             back_solved=self.explainer.back_solved(claim) if fails and first else [],
@@ -188,7 +178,7 @@ class Audit(Known):
             shown = self.shown(claim)
             if shown is None:
                 return "The author's choice; what is computed from it does not come out as printed."
-            low, high = (Fraction(float(end / claim.si)) for end in shown)
+            low, high = map(Fraction, shown.interval)
             ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
             text = wording.quantity(ends, claim.unit)
             return f"The author's choice; what is computed from it comes out as printed for {text}."
@@ -319,22 +309,20 @@ class Audit(Known):
 
     def _inferred(self, name: str, centered: bool) -> r.InferredRecord:
         inference = self.judge.inference(INFERRED + name, centered=centered)
-        entry, si = inference.entry, to_si(inference.entry.unit)
-        inner = inference.inner.ends
+        entry, si = inference.entry, 1 / to_si(inference.entry.unit)
+        inner = inference.inner.scaled(si).ends
         rounded = None if centered else inference.admitted(Convention())
         return _record(
             r.InferredRecord,
             entry,
             id=name,
             scheme="centered" if centered else "published",
-            assumed=float(self.judge.value(INFERRED + name) / si),
-            interval=_inward(*(end / si for end in inner)),
-            interval_exact=(str(inner[0] / si), str(inner[1] / si)),
-            with_printed_mass=_inward(*(end / si for end in inference.with_mass.ends)),
-            attained_with_rounded_inputs=rounded
-            and _inward(*(end / si for end in rounded[0].ends)),
-            possible_with_rounded_inputs=rounded
-            and _outward(*(end / si for end in rounded[1].ends)),
+            assumed=float(self.judge.value(INFERRED + name) * si),
+            interval=_inward(*inner),
+            interval_exact=(str(inner[0]), str(inner[1])),
+            with_printed_mass=_inward(*inference.with_mass.scaled(si).ends),
+            attained_with_rounded_inputs=rounded and _inward(*rounded[0].scaled(si).ends),
+            possible_with_rounded_inputs=rounded and _outward(*rounded[1].scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[

@@ -1,6 +1,6 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
 
@@ -11,7 +11,13 @@ from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, Slip
 from reference.printed import Interval, parse
 from reference.units import to_si
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
-from replication.audit.record import BackSolvedRecord, CulpritRecord, RepairRecord, SlipRecord
+from replication.audit.record import (
+    BackSolvedRecord,
+    CulpritRecord,
+    RepairRecord,
+    Shown,
+    SlipRecord,
+)
 from replication.audit.verdict import Judge, follows, restates
 
 # A quick look
@@ -162,28 +168,27 @@ class Explainer:
         low, high, _ = self.ledger.search(name)
         return solve(function, name, (low, high), claim.target(), _BUDGET)
 
-    def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
-        """The least and greatest value of an entry, around the printed one, that suits some claims.
+    def shown(self, chosen: Claim) -> Shown | None:
+        """The values around a chosen number for which what it shows comes out as printed.
 
-        Found by bisection, in doubles: where the claims begin to disagree. None if they disagree
-        with the printed value itself.
+        Found by bisection, in doubles: where those claims begin to disagree. None if the number
+        shows nothing, or if they disagree with it itself.
         """
+        claims = [self.ledger.claims[name] for name in chosen.shown_by]
 
         def suits(value: Fraction) -> bool:
-            results = (self.ledger.claims[claim] for claim in claims)
-            return all(self.screen.agrees(result, "", {name: value}) for result in results)
+            return all(self.screen.agrees(claim, "", {chosen.id: value}) for claim in claims)
 
-        printed = self.ledger.value(name)
-        if not suits(printed):
+        if not claims or not suits(chosen.value):
             return None
         ends = []
-        for far in self.ledger.search(name)[:2]:
-            good, bad = printed, far
+        for far in self.ledger.search(chosen.id)[:2]:
+            good, bad = chosen.value, far
             for _ in range(_BISECTIONS):
                 middle = (good + bad) / 2
                 good, bad = (middle, bad) if suits(middle) else (good, middle)
-            ends.append(good)
-        return ends[0], ends[1]
+            ends.append(float(good / chosen.si))
+        return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
 
     # Misprints
 

@@ -36,7 +36,7 @@ class Known:
         self.explainer = Explainer(self.judge)
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
-        self.shown = cache(self._shown)
+        self.shown = cache(self.explainer.shown)
 
     def _assess(self, claim: Claim) -> Assessment:
         """The verdict on one claim."""
@@ -56,13 +56,6 @@ class Known:
             consistent = self.shown(claim) is not None
             return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
         return Assessment(claim, Verdict.NOT_CHECKABLE)
-
-    def _shown(self, claim: Claim) -> tuple[Fraction, Fraction] | None:
-        """The values around a chosen number for which what it shows comes out as printed, in SI.
-
-        None if it shows nothing, or if the number itself puts one of those claims wrong.
-        """
-        return self.explainer.admitted(claim.id, claim.shown_by) if claim.shown_by else None
 
     def target(self, claim: str) -> Interval:
         """What agrees with a claim, in SI."""

@@ -100,10 +100,11 @@ def test_no_metal_is_dense_enough_for_eq_16_as_printed(record: Record) -> None:
 
 
 def test_a_choice_is_followed_to_where_its_claims_disagree() -> None:
-    ends = EXPLAINER.admitted("depth-beta-5-beta", ["depth-beta-5"])
-    assert ends is not None
-    assert [float(end) for end in ends] == pytest.approx([4.99322, 5.00567], abs=1e-5)
-    assert EXPLAINER.admitted("a1-resistance", [PAIR[0]]) is None
+    shown = EXPLAINER.shown(LEDGER.claims["depth-beta-5-beta"])
+    assert shown is not None
+    assert shown.interval == pytest.approx((4.99322, 5.00567), abs=1e-5)
+    ledger = LEDGER.misprint("depth-beta-5", "7.76")
+    assert Explainer(Judge(ledger)).shown(ledger.claims["depth-beta-5-beta"]) is None
 
 
 # Edits
