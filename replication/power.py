@@ -122,7 +122,8 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     claims = dependents(truth.ledger, plant.entry)
     wrong = set()
-    for name in _equations(truth.ledger, plant):
+    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
+    for name in ledger.equations if inside else ():  # its own, and those derived from it
         assessed = assess_equation(ledger, name, constants=False)
         # One that fails in the report, too, must fail in another way.
         if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
@@ -132,7 +133,8 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     failing = wrong | {
         name
         for name in claims
-        if _worse(audit.assessment(ledger.claims[name]).verdict, truth, name)
+        if audit.assessment(ledger.claims[name]).verdict in _WORSE
+        and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
     }
     visible = bool(failing) or _visible(truth, ledger, claims)
     if not failing:
@@ -150,17 +152,6 @@ def trial(truth: Audit, plant: Plant) -> Trial:
 
 _WORSE = {*OPEN, Verdict.DIFFERS}
 """Verdicts by which a reader is told that something is wrong, or may be."""
-
-
-def _worse(verdict: Verdict, truth: Audit, name: str) -> bool:
-    """Whether a verdict tells that something is wrong where the report's own does not."""
-    return verdict in _WORSE and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
-
-
-def _equations(ledger: Ledger, plant: Plant) -> list[str]:
-    """The equations that a plant may put wrong: its own, and those derived from it."""
-    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
-    return list(ledger.equations) if inside else []
 
 
 def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:

@@ -7,7 +7,7 @@ from functools import cache, cached_property
 from reference.arithmetic import Floats
 from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, Slip
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
 from reference.units import to_si
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
@@ -98,7 +98,7 @@ class Explainer:
         self.judge, self.ledger = judge, judge.ledger
         self.solutions = cache(self._solutions)
         self._repairs_by = cache(lambda name, entry: list(self._repairs(name, entry)))
-        self.slips = cache(self._slips)
+        self.slips = cache(lambda claim: list(self._slips(claim)))
 
     def _screens(self, ledger: Ledger) -> list[Screen]:
         """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
@@ -331,25 +331,23 @@ class Explainer:
 
     # Slips
 
-    def _slips(self, claim: Claim) -> list[SlipRecord]:
+    def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
         """What the slips of the claim's equations make of it."""
-        return [self._tried(claim, s) for s in self.ledger.slips if s.equation in claim.uses]
-
-    def _tried(self, claim: Claim, slip: Slip) -> SlipRecord:
-        ledger = self.ledger
-        if slip.text is not None:
-            ledger = ledger.misprint(slip.equation, slip.text)
-        replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-        changed = claim.resting_on(**replaced)
-        function = ledger.function(changed)
-        at_print = enclose(function, self.judge.printed(changed)).ends
         target, rounded = claim.target(), Convention(choices_exact=False)
-        fits = "as printed" if target.encloses(*at_print) else ""
-        everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
-        if not fits and not target.excludes(*everywhere):
-            fits = "not excluded within rounding"
-        value = float(at_print[0] / claim.si)
-        return SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
+        for slip in (slip for slip in self.ledger.slips if slip.equation in claim.uses):
+            ledger = self.ledger
+            if slip.text is not None:
+                ledger = ledger.misprint(slip.equation, slip.text)
+            replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
+            changed = claim.resting_on(**replaced)
+            function = ledger.function(changed)
+            at_print = enclose(function, self.judge.printed(changed)).ends
+            fits = "as printed" if target.encloses(*at_print) else ""
+            everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+            if not fits and not target.excludes(*everywhere):
+                fits = "not excluded within rounding"
+            value = float(at_print[0] / claim.si)
+            yield SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
 
 
 _BISECTIONS = 40

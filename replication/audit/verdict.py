@@ -462,14 +462,16 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
 
     def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
         """The values of a constant with which every check holds, another one given."""
+        printed = ledger.value(claim)
         return tuple(
             value
-            for value in _candidates(ledger.value(claim))
-            if _follows(ledger, name, mended({**given, claim: value}))
+            for value in sorted({*_USUAL, printed, 2 * printed, printed / 2})
+            if (holds if value == printed and not given else follows_with({**given, claim: value}))
         )
 
-    def mended(constants: Mapping[str, Fraction]) -> Sides:
-        return {**sides, name: ledger.read(ledger.printed_text(name, constants))}
+    def follows_with(constants: Mapping[str, Fraction]) -> bool:
+        read = ledger.read(ledger.printed_text(name, constants))
+        return _follows(ledger, name, {**sides, name: read})
 
     needed = {claim: passing(claim, {}) for claim in claims}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
@@ -495,7 +497,3 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
 
 _USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))
 """Constants that equations of physics have; a printed one is told apart from all of these."""
-
-
-def _candidates(printed: Fraction) -> list[Fraction]:
-    return sorted({*_USUAL, printed, 2 * printed, printed / 2})

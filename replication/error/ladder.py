@@ -37,14 +37,14 @@ class Budget:
     stop_rule: float | None
 
 
-def exact_motion(impact: Impact, digits: int = 50) -> Trajectory:
-    """The exact motion for a case, its inputs taken as the doubles that they are."""
-    return _motion(tuple(impact.motion.values()), digits)
+def exact_motion(impact: Impact) -> Trajectory:
+    """The exact motion for a case, its inputs taken as the doubles that they are; to 50 digits."""
+    return _motion(*impact.motion.values())
 
 
 @lru_cache(maxsize=8)  # the steps of a ladder share one motion
-def _motion(inputs: tuple[float, ...], digits: int) -> Trajectory:
-    return Trajectory(*map(Fraction, inputs), digits=digits)
+def _motion(*inputs: float) -> Trajectory:
+    return Trajectory(*map(Fraction, inputs), digits=50)
 
 
 def split(sheet: Sheet) -> Budget:
