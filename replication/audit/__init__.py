@@ -11,16 +11,12 @@ reproduced
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
 from math import inf, isclose, nextafter
 from types import ModuleType, SimpleNamespace
-from typing import Any, TypeVar
-
-import msgspec
 
 from reference import findings as asserted
 from reference import ledger as ledgers
@@ -33,9 +29,9 @@ from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.findings import EVIDENCE, Known, case
-from replication.audit.verdict import Assessment, Judgement, Reading, Verdict
+from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
-from replication.text import number, powers_of_ten, rounded
+from replication.text import number, powers_of_ten
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
@@ -75,7 +71,7 @@ class Audit(Known):
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else f"{counts.failing} numbers fail.",
-            report=_record(r.ReportRecord, self.ledger.report),
+            report=r.filled(r.ReportRecord, self.ledger.report),
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,
             culprit=self.explainer.culprit(wrong),
@@ -126,7 +122,7 @@ class Audit(Known):
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         formula, mathml, by_hand = self._formula(claim, first)
         restates = claim.computation is not None and claim.computation.restates
-        return _record(
+        return r.filled(
             r.ClaimRecord,
             *(claim, claim.place, own),
             where=str(claim.place),
@@ -141,12 +137,12 @@ class Audit(Known):
             readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(self.judge, claim, own.computed),
-            explanation=self._explanation(claim, assessment),
+            explanation=assessment.reason,
             formula=formula,
             mathml=mathml,
             by_hand=by_hand,
             shown_by=self.shown(claim),
-            sources=self._sources(claim.id, interval and claim.target()),
+            sources=self.sources(claim),
             figures=self._figures(claim),
             back_solved=self.explainer.back_solved(claim) if fails and first else [],
             repairs=self.repairs(claim.id) if fails else [],
@@ -157,7 +153,7 @@ class Audit(Known):
     def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
         judgement = reading.judgements[0]
         witness = judgement.witness
-        return _record(
+        return r.filled(
             r.ReadingRecord,
             reading,
             enclosure=_outward(judgement.lower, judgement.upper),
@@ -171,41 +167,6 @@ class Audit(Known):
         """The misprints that would explain a claim or an equation that fails."""
         within = None if name in self.ledger.equations else self.ledger.claims[name].within
         return self.explainer.repairs(within or name)  # a constant is mended with its equation
-
-    def _explanation(self, claim: Claim, assessment: Assessment) -> str:
-        if assessment.readings:
-            return wording.explanation(self.judge, claim, assessment.readings)
-        if assessment.reason:
-            return f"With the numbers as printed it cannot be computed: {assessment.reason}."
-        if claim.kind == "remark":
-            return "A remark, no number: the figures below are what it can be judged by."
-        if claim.computation is not None:
-            return self._restated(claim, assessment)
-        if claim.within is not None:
-            constants = self.equation(claim.within).constants
-            if claim.id in constants:
-                return wording.constant_explanation(self.ledger, claim, constants[claim.id])
-        if assessment.verdict in (Verdict.AGREES, Verdict.DIFFERS):
-            return wording.sources(self._sources(claim.id, claim.target()))
-        if claim.shown_by:
-            shown = self.shown(claim)
-            if shown is None:
-                return "The author's choice; what is computed from it does not come out as printed."
-            low, high = map(Fraction, shown.interval)
-            ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
-            text = wording.quantity(ends, claim.unit)
-            return f"The author's choice; what is computed from it comes out as printed for {text}."
-        return f"Nothing in the report decides it: {claim.given}."
-
-    def _restated(self, claim: Claim, assessment: Assessment) -> str:
-        assert claim.computation is not None
-        if claim.computation.name == "count":
-            return f"The report lists {len(claim.inputs)}."
-        (name,) = claim.inputs["value"]
-        other = self.ledger.claims[name]
-        text = wording.quantity(other.shown, other.unit)
-        but = "" if assessment.verdict is Verdict.CONSISTENT else ", which does not agree"
-        return f"It repeats or compares with {text} ({other.title}){but}."
 
     def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, ...]:
         """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand.
@@ -263,13 +224,6 @@ class Audit(Known):
             figures.append(r.Figure(means=f"change, {with_what}", value=change, unit="percent"))
         return figures
 
-    def _sources(self, name: str, target: Interval | None) -> list[r.SourceRecord]:
-        return [
-            _record(r.SourceRecord, source, agrees=target and target.meets(source.interval))
-            for source in self.ledger.sources.values()
-            if name in source.claims
-        ]
-
     # Equations and findings
 
     def _equation(self, name: str) -> r.EquationRecord:
@@ -278,7 +232,7 @@ class Audit(Known):
         shown = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
         sides = [rendered(side, shown, MATHML) for side in self.ledger.sides[name]]
         repairs = self.repairs(name) if assessed.verdict.is_failure else []
-        return _record(
+        return r.filled(
             r.EquationRecord,
             *(assessed.equation, assessed),
             number=place.equation,
@@ -286,7 +240,7 @@ class Audit(Known):
             text=self.ledger.printed_text(name),
             mathml=_math("<mo>=</mo>".join(sides)),
             factor=None if assessed.factor is None else str(assessed.factor),
-            checks=[_record(r.CheckRecord, check) for check in assessed.checks],
+            checks=[r.filled(r.CheckRecord, check) for check in assessed.checks],
             constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=repairs,
@@ -303,7 +257,7 @@ class Audit(Known):
             if value is not None and not isinstance(value, bool):
                 value = Fraction(value) / to_si(assertion.unit)
             evidence.append(
-                _record(
+                r.filled(
                     r.EvidenceRecord,
                     assertion,
                     name=name,
@@ -312,7 +266,7 @@ class Audit(Known):
                     holds=value is not None and assertion.holds(value),
                 )
             )
-        return _record(
+        return r.filled(
             r.FindingRecord,
             finding,
             claims=list(finding.claims),
@@ -325,7 +279,7 @@ class Audit(Known):
         entry, si = inference.entry, 1 / to_si(inference.entry.unit)
         inner = inference.inner.scaled(si).ends
         rounded = None if centered else inference.admitted(Convention())
-        return _record(
+        return r.filled(
             r.InferredRecord,
             entry,
             id=name,
@@ -340,24 +294,13 @@ class Audit(Known):
             odd=list(inference.odd),
             sources=[
                 r.HandbookRecord(
-                    source=_record(r.SourceRecord, source, agrees=None),
+                    source=r.filled(r.SourceRecord, source, agrees=None),
                     verdict=inference.admits(source.value, source.interval),
                 )
                 for source in self.ledger.sources.values()
                 if INFERRED + name in source.claims and not centered
             ],
         )
-
-
-_Part = TypeVar("_Part", bound=msgspec.Struct)
-
-
-def _record(kind: type[_Part], *sources: object, **own: Any) -> _Part:
-    """A part of the record; what is not given is what a source has under the same name."""
-    for name in kind.__struct_fields__:
-        if name not in own:
-            own[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
-    return kind(**own)
 
 
 _UNREAD = SimpleNamespace(

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
 from statistics import NormalDist
@@ -13,6 +14,8 @@ from reference.enclosure import enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.printed import Interval
 from reference.units import to_si
+from replication.audit import record as r
+from replication.audit import wording
 from replication.audit.explain import Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
@@ -39,23 +42,37 @@ class Known:
         self.shown = cache(self.explainer.shown)
 
     def _assess(self, claim: Claim) -> Assessment:
-        """The verdict on one claim."""
+        """The verdict on one claim, and why."""
         if claim.kind == "remark":
-            return Assessment(claim, Verdict.REMARK)
+            return Assessment(Verdict.REMARK, wording.REMARK)
+        if claim.within is None and claim.computation is not None:
+            assessed = self.judge.assess(claim)
+            return replace(assessed, reason=wording.explanation(self.judge, claim, assessed))
+        reason, constant = "", None
         if claim.within is not None:
-            constants = self.equation(claim.within).constants
-            if claim.id in constants and constants[claim.id].verdict != Verdict.NOT_CHECKABLE:
-                return Assessment(claim, Verdict(constants[claim.id].verdict))
-        elif claim.computation is not None:
-            return self.judge.assess(claim)
-        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
-        if sources:
-            agrees = any(claim.target().meets(source.interval) for source in sources)
-            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
+            constant = self.equation(claim.within).constants.get(claim.id)
+        if constant is not None:
+            reason = wording.constant_explanation(self.ledger, claim, constant)
+            if constant.verdict != Verdict.NOT_CHECKABLE:
+                return Assessment(Verdict(constant.verdict), reason)
+        if sources := self.sources(claim):
+            agrees = any(source.agrees for source in sources)
+            verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
+            return Assessment(verdict, reason or wording.sources(sources))
         if claim.shown_by:
-            consistent = self.shown(claim) is not None
-            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
-        return Assessment(claim, Verdict.NOT_CHECKABLE)
+            shown = self.shown(claim)
+            verdict = Verdict.INCONSISTENT if shown is None else Verdict.CONSISTENT
+            return Assessment(verdict, reason or wording.chosen(shown))
+        undecided = f"Nothing in the report decides it: {claim.given}."
+        return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
+
+    def sources(self, claim: Claim) -> list[r.SourceRecord]:
+        """The public sources for a claim, and whether each agrees with it."""
+        return [
+            r.filled(r.SourceRecord, source, agrees=claim.target().meets(source.interval))
+            for source in self.ledger.sources.values()
+            if claim.id in source.claims
+        ]
 
     def target(self, claim: str) -> Interval:
         """What agrees with a claim, in SI."""

@@ -93,15 +93,11 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """The verdict on a claim, and the readings that it comes from; the first is as printed.
+    """The verdict on a claim, why, and the readings that it comes from; the first is as printed."""
 
-    `reason` tells why its formula has no value, where that is so.
-    """
-
-    claim: Claim
     verdict: Verdict
-    readings: tuple[Reading, ...] = ()
     reason: str = ""
+    readings: tuple[Reading, ...] = ()
 
 
 def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
@@ -156,18 +152,18 @@ class Judge:
         return self.assumed[name] if name in self.assumed else self.ledger.value(name)
 
     def assess(self, claim: Claim) -> Assessment:
-        """The verdict on a claim that a computation gives.
+        """The verdict on a claim that a computation gives; a reason only where it has no value.
 
-        A claim whose formula has no value at the inputs as printed does not follow from them.
+        A claim whose formula has none at the inputs as printed does not follow from them.
         """
         if claim.computation is not None and claim.computation.restates:
             agrees = restates(self.ledger, claim, {})
-            return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
+            return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except (ArithmeticError, EquationError) as error:
-            return Assessment(claim, Verdict.NOT_REPRODUCED, reason=str(error))
-        return Assessment(claim, readings[0].verdict, readings)
+            return Assessment(Verdict.NOT_REPRODUCED, str(error))
+        return Assessment(readings[0].verdict, readings=readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         judgements = tuple(self._judgements(claim, name))
