@@ -145,7 +145,7 @@ class Audit(Known):
             sources=self.sources(claim),
             figures=self._figures(claim),
             back_solved=self.explainer.back_solved(claim) if fails and first else [],
-            repairs=self.repairs(claim.id) if fails else [],
+            repairs=self.explainer.repairs(claim.id) if fails else [],
             slips=self.explainer.slips(claim) if fails and first else [],
         )
 
@@ -162,11 +162,6 @@ class Audit(Known):
             holds=wording.holds(claim, reading),
             otherwise=[_judged(j) for j in reading.otherwise],
         )
-
-    def repairs(self, name: str) -> list[r.RepairRecord]:
-        """The misprints that would explain a claim or an equation that fails."""
-        within = None if name in self.ledger.equations else self.ledger.claims[name].within
-        return self.explainer.repairs(within or name)  # a constant is mended with its equation
 
     def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, ...]:
         """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand.
@@ -231,7 +226,7 @@ class Audit(Known):
         place = assessed.equation.place
         shown = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
         sides = [rendered(side, shown, MATHML) for side in self.ledger.sides[name]]
-        repairs = self.repairs(name) if assessed.verdict.is_failure else []
+        repairs = self.explainer.repairs(name) if assessed.verdict.is_failure else []
         return r.filled(
             r.EquationRecord,
             *(assessed.equation, assessed),

@@ -196,8 +196,9 @@ class Explainer:
         """Texts one edit away with which a claim or an equation agrees; the likeliest first.
 
         A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
-        ones the likelier slip of a typist comes first.
+        ones the likelier slip of a typist comes first. A constant is mended with its equation.
         """
+        name = (name in self.ledger.claims and self.ledger.claims[name].within) or name
         return self._sorted(name, self._suspects(name))
 
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
