@@ -40,9 +40,9 @@ class Trial:
 
     visible: bool
     failing: frozenset[str]
-    repaired: bool = False
-    first: bool = False
-    accused: bool = False
+    repaired: bool
+    first: bool
+    accused: bool
 
     @property
     def detected(self) -> bool:
@@ -136,17 +136,14 @@ def trial(truth: Audit, plant: Plant) -> Trial:
         if audit.assessment(ledger.claims[name]).verdict in _WORSE
         and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
     }
-    visible = bool(failing) or _visible(truth, ledger, claims)
-    if not failing:
-        return Trial(visible, frozenset())
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     return Trial(
-        visible,
-        frozenset(failing),
+        visible=bool(failing) or _visible(truth, ledger, claims),
+        failing=frozenset(failing),
         repaired=any(true),
-        first=bool(true) and true[0],
-        accused=bool(repairs) and repairs[0].entry != plant.entry,
+        first=any(true[:1]),
+        accused=any(repair.entry != plant.entry for repair in repairs[:1]),
     )
 
 
