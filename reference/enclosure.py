@@ -252,11 +252,6 @@ class Solutions:
         """Whether the value is proven to be a solution."""
         return any(low <= value <= high for low, high in self.inner)
 
-    def may_admit(self, value: Fraction) -> bool:
-        """Whether the value is not proven to be no solution; beyond the search nothing is."""
-        sought = self.search[0] <= value <= self.search[1]
-        return not sought or any(low <= value <= high for low, high in self.outer)
-
 
 def solve(
     function: Function,

@@ -14,11 +14,10 @@ from importlib import resources
 import msgspec
 
 from reference.ledger import INFERRED, Ledger
-from replication.audit.audit import Audit
+from replication.audit import Audit
 from replication.audit.edits import edits_of
-from replication.audit.equations import assess_equation
-from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import OPEN, Verdict
+from replication.audit.explain import Screen, dependents
+from replication.audit.verdict import OPEN, Verdict, assess_equation
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +40,9 @@ class Trial:
 
     visible: bool
     failing: frozenset[str]
-    repaired: bool = False
-    first: bool = False
-    accused: bool = False
+    repaired: bool
+    first: bool
+    accused: bool
 
     @property
     def detected(self) -> bool:
@@ -123,7 +122,8 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     claims = dependents(truth.ledger, plant.entry)
     wrong = set()
-    for name in _equations(truth.ledger, plant):
+    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
+    for name in ledger.equations if inside else ():  # its own, and those derived from it
         assessed = assess_equation(ledger, name, constants=False)
         # One that fails in the report, too, must fail in another way.
         if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
@@ -133,35 +133,22 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     failing = wrong | {
         name
         for name in claims
-        if _worse(audit.assessment(ledger.claims[name]).verdict, truth, name)
+        if audit.assessment(ledger.claims[name]).verdict in _WORSE
+        and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
     }
-    visible = bool(failing) or _visible(truth, ledger, claims)
-    if not failing:
-        return Trial(visible, frozenset())
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     return Trial(
-        visible,
-        frozenset(failing),
+        visible=bool(failing) or _visible(truth, ledger, claims),
+        failing=frozenset(failing),
         repaired=any(true),
-        first=bool(true) and true[0],
-        accused=bool(repairs) and repairs[0].entry != plant.entry,
+        first=any(true[:1]),
+        accused=any(repair.entry != plant.entry for repair in repairs[:1]),
     )
 
 
 _WORSE = {*OPEN, Verdict.DIFFERS}
 """Verdicts by which a reader is told that something is wrong, or may be."""
-
-
-def _worse(verdict: Verdict, truth: Audit, name: str) -> bool:
-    """Whether a verdict tells that something is wrong where the report's own does not."""
-    return verdict in _WORSE and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
-
-
-def _equations(ledger: Ledger, plant: Plant) -> list[str]:
-    """The equations that a plant may put wrong: its own, and those derived from it."""
-    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
-    return list(ledger.equations) if inside else []
 
 
 def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:

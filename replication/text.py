@@ -4,6 +4,8 @@ import re
 from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+from itertools import zip_longest
+from textwrap import wrap
 
 from reference.units import superscript
 
@@ -77,3 +79,46 @@ def aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = (zip(row, widths, strict=True) for row in rows)
     return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]
+
+
+def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
+    """Rows as columns within a width; what is too long goes on in the next line.
+
+    The columns give way that make the fewest lines of it. A word is broken only where the width
+    leaves no choice.
+
+    >>> print(columns([("a", "one two three"), ("bc", "four")], 14))
+    a   one two
+        three
+    bc  four
+    """
+    texts = list(zip(*rows, strict=True))
+    words = [max(len(word) for cell in column for word in cell.split() or [""]) for column in texts]
+    # A head goes on in the next line before a cell below it does, and that before a word is broken.
+    below = [max([word, *map(len, column[1:])]) for word, column in zip(words, texts, strict=True)]
+    widths = [max(map(len, column)) for column in texts]
+    lengths = [[len(cell) for cell in row] for row in rows]
+
+    def narrowed(column: int) -> tuple[int, int]:
+        """About how many lines there are with this column narrower; of equals, the widest."""
+        trial = [max(width - (k == column), 1) for k, width in enumerate(widths)]
+        lines = (max(-(-n // w) for n, w in zip(row, trial, strict=True)) for row in lengths)
+        return sum(lines), -widths[column]
+
+    for least in (below, words, [1] * len(words)):
+        while sum(widths) + 2 * (len(widths) - 1) > width:
+            room = [k for k, end in enumerate(least) if widths[k] > end]
+            if not room:
+                break
+            widths[min(room, key=narrowed)] -= 1
+    lines = []
+    for row in rows:
+        cells = [
+            wrap(cell, max(w, 1), break_on_hyphens=False) or [""]
+            for cell, w in zip(row, widths, strict=True)
+        ]
+        lines += [
+            "  ".join(f"{part:{w}}" for part, w in zip(parts, widths, strict=True)).rstrip()
+            for parts in zip_longest(*cells, fillvalue="")
+        ]
+    return "\n".join(lines)

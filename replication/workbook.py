@@ -18,8 +18,8 @@ from reference.ledger import Ledger, load
 from reference.printed import Interval, Printed, Rounding
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
-from replication.error.warnings import COARSE, DEEP
-from replication.error.warnings import warnings as doubts_about
+from replication.error import COARSE, DEEP
+from replication.error import warnings as doubts_about
 from replication.models import crater, depth, frank_zook, resistance, stream
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
@@ -102,7 +102,7 @@ def build(
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
     builder = _Builder(tuple(cases), scheme, rows, ledger or load(), typed or {})
     if builder.report and record is None:
-        from replication.audit.audit import audit
+        from replication.audit import audit
 
         record = audit()
     findings = _findings(record, scheme, builder.ledger) if builder.report and record else None

@@ -1,9 +1,10 @@
 """Texts that are one slip of a typist away from a printed number or equation."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import pairwise
+from string import digits
 
 from reference.ledger import Ledger
 from reference.printed import parse
@@ -75,21 +76,9 @@ def _swapped(text: str) -> Iterator[str]:
             )
 
 
-def _doubled(text: str) -> Iterator[str]:
-    return (text[:k] + text[k] + text[k:] for k in _digits(text))
-
-
-def _changed(text: str) -> Iterator[str]:
-    return (text[:k] + d + text[k + 1 :] for k in _digits(text) for d in "0123456789")
-
-
-def _dropped(text: str) -> Iterator[str]:
-    return (text[:k] + text[k + 1 :] for k in _digits(text))
-
-
 def _inserted(text: str) -> Iterator[str]:
     ends = sorted({end for k in _digits(text) for end in (k, k + 1)})
-    return (text[:k] + d + text[k:] for k in ends for d in "0123456789")
+    return (text[:k] + digit + text[k:] for k in ends for digit in digits)
 
 
 def _moved(text: str) -> Iterator[str]:
@@ -123,23 +112,21 @@ _WORDS = (
 
 
 def _words(text: str) -> Iterator[str]:
-    for words in _WORDS:
-        if text.lower() in words:
-            yield from (
-                word.capitalize() if text[0].isupper() else word
-                for word in words
-                if word != text.lower()
-            )
+    own = text.lower()
+    others = (word for words in _WORDS if own in words for word in words if word != own)
+    return (word.capitalize() if text[0].isupper() else word for word in others)
 
 
-_EDITS = {
-    "digit dropped": _dropped,
+_EDITS: Mapping[str, Callable[[str], Iterator[str]]] = {
+    "digit dropped": lambda text: (text[:k] + text[k + 1 :] for k in _digits(text)),
     "digits swapped": _swapped,
     "decimal point moved": _moved,
     "exponent changed": _shifted,
     "other word": _words,
-    "digit doubled": _doubled,
-    "digit changed": _changed,
+    "digit doubled": lambda text: (text[:k] + text[k] + text[k:] for k in _digits(text)),
+    "digit changed": lambda text: (
+        text[:k] + digit + text[k + 1 :] for k in _digits(text) for digit in digits
+    ),
     "digit inserted": _inserted,
 }
 NUMBER_EDITS = tuple(_EDITS)

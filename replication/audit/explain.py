@@ -1,33 +1,94 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
 
+from reference.arithmetic import Floats
 from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
-from reference.printed import parse
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.printed import Interval, parse
+from reference.units import to_si
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
-from replication.audit.equations import follows
-from replication.audit.record import CulpritRecord, RepairRecord, SlipRecord
-from replication.audit.screen import Screen, dependents
-from replication.audit.verdict import Judge
+from replication.audit.record import (
+    BackSolvedRecord,
+    CulpritRecord,
+    RepairRecord,
+    Shown,
+    SlipRecord,
+)
+from replication.audit.verdict import Judge, follows, restates
+
+# A quick look
+
+_FLOATS = Floats()
+_CLOSE = Fraction(1, 10**9)
+"""How near to exact text, such as 2/3, a double must come."""
 
 
-@dataclass(frozen=True, slots=True)
-class BackSolved:
-    """The values of one entry, the others as printed, for which a claim would agree; in SI.
+class Screen:
+    """Which claims of a ledger agree, its inferred inputs at given values (SI)."""
 
-    `prints_alike` says that some of them print like the entry does.
+    def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
+        self.ledger, self.assumed = ledger, assumed
+        self._prepared = cache(self._prepare)
+
+    def agrees(
+        self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
+    ) -> bool:
+        """Whether a claim with a computation agrees, with some entries changed (SI)."""
+        if claim.computations[reading].restates:
+            return restates(self.ledger, claim, changed or {})
+        function, values, target = self._prepared(claim, reading)
+        if changed:
+            values = {name: float(changed.get(name, value)) for name, value in values.items()}
+        try:
+            value = Fraction(function(_FLOATS, **values))
+        except (ArithmeticError, ValueError, TypeError):
+            return False  # no such input has a result, or only a complex one
+        if target.is_point and target.lower is not None:
+            return abs(value - target.lower) <= _CLOSE * abs(target.lower)
+        return target.contains(value)
+
+    def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
+        """What an agreement takes that no change of an entry changes."""
+        known = self.assumed
+        values = {
+            name: float(known[name] if name in known else self.ledger.value(name))
+            for name in claim.entries
+        }
+        return self.ledger.function(claim, reading=reading), values, claim.target()
+
+    def failing(self, names: Iterable[str]) -> set[str]:
+        """Those of the claims that do not agree."""
+        claims = (self.ledger.claims[name] for name in names)
+        return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
+
+
+def dependents(ledger: Ledger, name: str) -> set[str]:
+    """The claims whose verdict may change with an entry or an equation, itself among them.
+
+    Claims that depend on an inferred input depend on its evidence, and on all that this rests on;
+    an input that others show to be right depends on them.
     """
+    within = ledger.claims[name].within if name in ledger.claims else name
+    direct = {
+        claim.id
+        for claim in ledger.claims.values()
+        if claim.id == name
+        or name in claim.entries
+        or claim.against == name
+        or within in claim.uses
+    }
+    for key, inferred in ledger.inferred.items():
+        if direct & set(inferred.evidence):
+            unknown = INFERRED + key
+            direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+    return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
 
-    reading: str
-    entry: str
-    solutions: Solutions
-    reason: str
-    prints_alike: bool
+
+# Explanations
 
 
 class Explainer:
@@ -35,9 +96,9 @@ class Explainer:
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
-        self._solved: dict[str, list[BackSolved]] = {}
+        self.solutions = cache(self._solutions)
         self._repairs_by = cache(lambda name, entry: list(self._repairs(name, entry)))
-        self.slips = cache(self._slips)
+        self.slips = cache(lambda claim: list(self._slips(claim)))
 
     def _screens(self, ledger: Ledger) -> list[Screen]:
         """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
@@ -56,56 +117,78 @@ class Explainer:
 
     # Single inputs
 
-    def back_solved(self, claim: Claim) -> list[BackSolved]:
-        """Each entry that the claim rests on, alone, for every reading of the claim."""
-        if claim.id not in self._solved:
-            self._solved[claim.id] = [
-                self._back_solved(claim, reading, name)
-                for reading in claim.computations
-                for name in claim.entries
-                if self._may_vary(name)
-            ]
-        return self._solved[claim.id]
+    def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
+        """For every reading of a claim, the values of each entry alone with which it agrees."""
+        return [
+            self._back_solved(claim, reading, name)
+            for reading in claim.computations
+            for name in claim.entries
+            if name.startswith(INFERRED) or self._may_vary(self.ledger.claims[name])
+        ]
 
-    def _may_vary(self, name: str) -> bool:
-        if name.startswith(INFERRED):
-            return True
-        claim = self.ledger.claims[name]
+    @staticmethod
+    def _may_vary(claim: Claim) -> bool:
         return not claim.is_exact or claim.quantity is not None
 
-    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolved:
-        low, high, reason = self.ledger.search(name)
-        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = holding(self.ledger.function(claim, reading=reading), others)
-        solutions = solve(function, name, (low, high), claim.target(), _BUDGET)
+    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
+        unit, solutions = self.ledger.unit(name), self.solutions(claim, reading, name)
+        proof = "proven inside, and none beyond"
+        if not solutions.outer:
+            proof = "proven: none in the range does"
+        elif not solutions.inner:
+            proof = "undecided"
+        elif solutions.reaches_an_end:
+            proof = "proven, up to an end of the range"
         alike = False
         if not name.startswith(INFERRED):
             own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
             alike = any(not own.excludes(*part) for part in solutions.inner)
-        return BackSolved(reading, name, solutions, reason, alike)
+        si = to_si(unit)
+        intervals, (search,) = (
+            [(float(low / si), float(high / si)) for low, high in parts]
+            for parts in (solutions.inner, [solutions.search])
+        )
+        return BackSolvedRecord(
+            reading=reading,
+            entry=name,
+            title=self.ledger.title(name),
+            unit=unit,
+            printed=float(self.judge.value(name) / si),
+            intervals=intervals,
+            search=search,
+            search_reason=self.ledger.search(name)[2],
+            proof=proof,
+            prints_alike=alike,
+        )
 
-    def admitted(self, name: str, claims: Sequence[str]) -> tuple[Fraction, Fraction] | None:
-        """The least and greatest value of an entry, around the printed one, that suits some claims.
+    def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
+        """The values of an entry (SI), the others as printed, with which a reading agrees."""
+        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        function = holding(self.ledger.function(claim, reading=reading), others)
+        low, high, _ = self.ledger.search(name)
+        return solve(function, name, (low, high), claim.target(), _BUDGET)
 
-        Found by bisection, in doubles: where the claims begin to disagree. None if they disagree
-        with the printed value itself.
+    def shown(self, chosen: Claim) -> Shown | None:
+        """The values around a chosen number for which what it shows comes out as printed.
+
+        Found by bisection, in doubles: where those claims begin to disagree. None if the number
+        shows nothing, or if they disagree with it itself.
         """
+        claims = [self.ledger.claims[name] for name in chosen.shown_by]
 
         def suits(value: Fraction) -> bool:
-            results = (self.ledger.claims[claim] for claim in claims)
-            return all(self.screen.agrees(result, "", {name: value}) for result in results)
+            return all(self.screen.agrees(claim, "", {chosen.id: value}) for claim in claims)
 
-        printed = self.ledger.value(name)
-        if not suits(printed):
+        if not claims or not suits(chosen.value):
             return None
         ends = []
-        for far in self.ledger.search(name)[:2]:
-            good, bad = printed, far
+        for far in self.ledger.search(chosen.id)[:2]:
+            good, bad = chosen.value, far
             for _ in range(_BISECTIONS):
                 middle = (good + bad) / 2
                 good, bad = (middle, bad) if suits(middle) else (good, middle)
-            ends.append(good)
-        return ends[0], ends[1]
+            ends.append(float(good / chosen.si))
+        return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
 
     # Misprints
 
@@ -113,8 +196,9 @@ class Explainer:
         """Texts one edit away with which a claim or an equation agrees; the likeliest first.
 
         A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
-        ones the likelier slip of a typist comes first.
+        ones the likelier slip of a typist comes first. A constant is mended with its equation.
         """
+        name = (name in self.ledger.claims and self.ledger.claims[name].within) or name
         return self._sorted(name, self._suspects(name))
 
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
@@ -173,17 +257,8 @@ class Explainer:
             claim, screens = changed.claims[name], self._screens(changed)
         else:
             values[entry] = parse(text).value * self.ledger.claims[entry].si
-            if self._is_ruled_out(claim, entry, values[entry]):
-                return None
         agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
         return next(agreeing, None)
-
-    def _is_ruled_out(self, claim: Claim, entry: str, value: Fraction) -> bool:
-        """Whether it was proven already, by solving for the entry, that no reading agrees."""
-        if self.judge.moved or claim.id not in self._solved:
-            return False
-        found = [s.solutions for s in self._solved[claim.id] if s.entry == entry]
-        return bool(found) and not any(solutions.may_admit(value) for solutions in found)
 
     def _suits(self, claim: Claim, text: str) -> str | None:
         """Whether another text of a number that nothing computes suits what rests on it."""
@@ -257,25 +332,23 @@ class Explainer:
 
     # Slips
 
-    def _slips(self, claim: Claim) -> list[SlipRecord]:
+    def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
         """What the slips of the claim's equations make of it."""
-        return [self._tried(claim, s) for s in self.ledger.slips if s.equation in claim.uses]
-
-    def _tried(self, claim: Claim, slip: Slip) -> SlipRecord:
-        ledger = self.ledger
-        if slip.text is not None:
-            ledger = ledger.misprint(slip.equation, slip.text)
-        replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-        changed = claim.resting_on(**replaced)
-        function = ledger.function(changed)
-        at_print = enclose(function, self.judge.printed(changed)).ends
         target, rounded = claim.target(), Convention(choices_exact=False)
-        fits = "as printed" if target.encloses(*at_print) else ""
-        everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
-        if not fits and not target.excludes(*everywhere):
-            fits = "not excluded within rounding"
-        value = float(at_print[0] / claim.si)
-        return SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
+        for slip in (slip for slip in self.ledger.slips if slip.equation in claim.uses):
+            ledger = self.ledger
+            if slip.text is not None:
+                ledger = ledger.misprint(slip.equation, slip.text)
+            replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
+            changed = claim.resting_on(**replaced)
+            function = ledger.function(changed)
+            at_print = enclose(function, self.judge.printed(changed)).ends
+            fits = "as printed" if target.encloses(*at_print) else ""
+            everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+            if not fits and not target.excludes(*everywhere):
+                fits = "not excluded within rounding"
+            value = float(at_print[0] / claim.si)
+            yield SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
 
 
 _BISECTIONS = 40

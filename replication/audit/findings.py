@@ -2,19 +2,22 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
 from statistics import NormalDist
 from typing import Any
 
+from reference import findings as asserted
 from reference.arithmetic import Number
 from reference.enclosure import enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.printed import Interval
 from reference.units import to_si
-from replication.audit.equations import assess_equation
-from replication.audit.explain import BackSolved, Explainer
-from replication.audit.verdict import Assessment, Judge, Reading, Verdict
+from replication.audit import record as r
+from replication.audit import wording
+from replication.audit.explain import Explainer
+from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
 from replication.models import crater, depth, frank_zook, resistance, sheet, stream
 from replication.models.impact import Impact
 
@@ -36,33 +39,40 @@ class Known:
         self.explainer = Explainer(self.judge)
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
-        self.shown = cache(self._shown)
+        self.shown = cache(self.explainer.shown)
 
     def _assess(self, claim: Claim) -> Assessment:
-        """The verdict on one claim."""
+        """The verdict on one claim, and why."""
         if claim.kind == "remark":
-            return Assessment(claim, Verdict.REMARK)
+            return Assessment(Verdict.REMARK, wording.REMARK)
+        if claim.within is None and claim.computation is not None:
+            assessed = self.judge.assess(claim)
+            return replace(assessed, reason=wording.explanation(self.judge, claim, assessed))
+        reason, constant = "", None
         if claim.within is not None:
-            constants = self.equation(claim.within).constants
-            if claim.id in constants and constants[claim.id].settled:
-                return Assessment(claim, constants[claim.id].verdict)
-        elif claim.computation is not None:
-            return self.judge.assess(claim)
-        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
-        if sources:
-            agrees = any(claim.target().meets(source.interval) for source in sources)
-            return Assessment(claim, Verdict.AGREES if agrees else Verdict.DIFFERS)
+            constant = self.equation(claim.within).constants.get(claim.id)
+        if constant is not None:
+            reason = wording.constant_explanation(self.ledger, claim, constant)
+            if constant.verdict != Verdict.NOT_CHECKABLE:
+                return Assessment(Verdict(constant.verdict), reason)
+        if sources := self.sources(claim):
+            agrees = any(source.agrees for source in sources)
+            verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
+            return Assessment(verdict, reason or wording.sources(sources))
         if claim.shown_by:
-            consistent = self.shown(claim) is not None
-            return Assessment(claim, Verdict.CONSISTENT if consistent else Verdict.INCONSISTENT)
-        return Assessment(claim, Verdict.NOT_CHECKABLE)
+            shown = self.shown(claim)
+            verdict = Verdict.INCONSISTENT if shown is None else Verdict.CONSISTENT
+            return Assessment(verdict, reason or wording.chosen(shown))
+        undecided = f"Nothing in the report decides it: {claim.given}."
+        return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
-    def _shown(self, claim: Claim) -> tuple[Fraction, Fraction] | None:
-        """The values around a chosen number for which what it shows comes out as printed, in SI.
-
-        None if it shows nothing, or if the number itself puts one of those claims wrong.
-        """
-        return self.explainer.admitted(claim.id, claim.shown_by) if claim.shown_by else None
+    def sources(self, claim: Claim) -> list[r.SourceRecord]:
+        """The public sources for a claim, and whether each agrees with it."""
+        return [
+            r.filled(r.SourceRecord, source, agrees=claim.target().meets(source.interval))
+            for source in self.ledger.sources.values()
+            if claim.id in source.claims
+        ]
 
     def target(self, claim: str) -> Interval:
         """What agrees with a claim, in SI."""
@@ -107,16 +117,21 @@ def _headline(known: Known) -> Evidence:
     model = [c for c in claims.values() if c.cell and c.computation and not c.computation.restates]
     model += [claims[f"{what}-beta-{beta}"] for what in ("depth", "ratio") for beta in (3, 5)]
     pair = [claims[f"frank-zook-{name}"] for name in ("rha", "stainless")]
-    factor = known.equation("eq16").factor
     return {
         "model": all(known.assessment(c).verdict is Verdict.REPRODUCED for c in model),
         "pair": all(known.assessment(c).verdict is Verdict.NOT_REPRODUCED for c in pair),
         "together": _least_ratio(known, choices_exact=False) <= _printed_ratio(known)[1],
-        "factor": Fraction(0) if factor is None else 1 / factor,
+        "factor": _factor(known),
     }
 
 
 # Frank and Zook
+
+
+def _factor(known: Known) -> Fraction:
+    """Derived right side of Eq. 16 over the printed one; 0 where that is no number."""
+    factor = known.equation("eq16").factor
+    return Fraction(0) if factor is None else 1 / factor
 
 
 def _drag(known: Known) -> float:
@@ -172,7 +187,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     return enclose(ratio, box).lower
 
 
-def _pair(known: Known) -> Evidence:
+def _frank_zook_pair(known: Known) -> Evidence:
     z = _drag(known)
     armor, stainless = (known[f"fz-resistance-{name}"] for name in ("rha", "stainless"))
     nominal = math.log1p(z / stainless) / math.log1p(z / armor)
@@ -189,69 +204,64 @@ def _pair(known: Known) -> Evidence:
 
 
 def _equation_16(known: Known) -> Evidence:
-    eq16 = known.equation("eq16")
-    (must,) = eq16.constants["eq16-denominator"].needed
-    over = {
-        name: known[f"frank-zook-{name}"] / known.computed(f"frank-zook-{name}", _DERIVED)
+    (must,) = known.equation("eq16").constants["eq16-denominator"].needed
+    ratios = {
+        f"{form}_{name}": known.computed(f"frank-zook-{name}", reading)
+        for form, reading in (("printed", ""), ("derived", _DERIVED))
         for name in ("rha", "stainless")
     }
-    return {
-        "factor": Fraction(0) if eq16.factor is None else 1 / eq16.factor,
-        "must": must,
-        "printed_rha": known.computed("frank-zook-rha"),
-        "printed_stainless": known.computed("frank-zook-stainless"),
-        "derived_rha": known.computed("frank-zook-rha", _DERIVED),
-        "derived_stainless": known.computed("frank-zook-stainless", _DERIVED),
-        "above_rha": over["rha"] - 1,
-        "below_stainless": 1 - over["stainless"],
-        "far_printed": known["observed-depth-ratio"] - known.computed("frank-zook-rha"),
+    observed = known["observed-depth-ratio"]
+    return ratios | {
+        "factor": _factor(known),
+        "must": Fraction(must),
+        "above_rha": known["frank-zook-rha"] / ratios["derived_rha"] - 1,
+        "below_stainless": 1 - known["frank-zook-stainless"] / ratios["derived_stainless"],
+        "far_printed": observed - ratios["printed_rha"],
         "far_cth": known.exact("cth-ratio") - known.exact("observed-depth-ratio"),
-        "far_derived": known["observed-depth-ratio"] - known.computed("frank-zook-rha", _DERIVED),
+        "far_derived": observed - ratios["derived_rha"],
     }
 
 
-def _values(known: Known) -> Evidence:
-    explainer, ledger = known.explainer, known.ledger
-    claims = {name: ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless")}
-    solved = {name: explainer.back_solved(claim) for name, claim in claims.items()}
-    stainless = known.reading("frank-zook-stainless", _DERIVED).judgements
-    exact = [j for j in stainless if j.convention.choices_exact]
-    rounded = [j for j in stainless if not j.convention.choices_exact]
-    strength = ledger.claims["fz-resistance-stainless"]
+def _frank_zook_values(known: Known) -> Evidence:
+    rha, strength = (
+        known.ledger.claims[name] for name in ("frank-zook-rha", "fz-resistance-stainless")
+    )
+    exact, rounded = (
+        [j for j in known.reading("frank-zook-stainless", _DERIVED).judgements
+         if j.convention.choices_exact is choices_exact]
+        for choices_exact in (True, False)
+    )  # fmt: skip
     assert strength.printed is not None
     grid = strength.printed.quantum * strength.si
     nearest = min(
         (grid * k for k in range(1, 200)),
         key=lambda r_t: abs(_derived(known, float(r_t)) - known["observed-depth-ratio"]),
     )
-    ratio = known["frank-zook-stainless"]
+    derived = known.computed("frank-zook-stainless", _DERIVED)
     return {
-        "derived": known.computed("frank-zook-stainless", _DERIVED),
-        "off": known.computed("frank-zook-stainless", _DERIVED) / ratio - 1,
+        "derived": derived,
+        "off": derived / known["frank-zook-stainless"] - 1,
         "least_exact": min(j.lower for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
-        "needed": _middle(solved["stainless"], "fz-resistance-stainless"),
+        "needed": _needed(known, "stainless", "fz-resistance-stainless"),
         "grid": grid,
         "nearest": nearest,
         "next": _derived(known, float(nearest)),
         "least_admitted": _least_admitted(known),
-        "back": _resistance_for(known, known.computed("frank-zook-stainless", _DERIVED), 3),
-        "rha_resistance": _middle(solved["rha"], "fz-resistance-rha"),
-        "rha_velocity": _middle(solved["rha"], "a1-initial-velocity"),
+        "back": _resistance_for(known, derived, 3),
+        "rha_resistance": _needed(known, "rha", "fz-resistance-rha"),
+        "rha_velocity": _needed(known, "rha", "a1-initial-velocity"),
         "rha_derived": known.computed("frank-zook-rha", _DERIVED),
         "never": all(
             j.verdict is Verdict.NOT_REPRODUCED
-            for reading in known.assessment(claims["rha"]).readings
+            for reading in known.assessment(rha).readings
             for j in reading.judgements
             if j.convention.choices_exact
         ),
-        "slips": not any(
-            tried.fits for claim in claims.values() for tried in explainer.slips(claim)
-            if claim.id == "frank-zook-rha"
-        ),
+        "slips": not any(slip.fits for slip in known.explainer.slips(rha)),
         "inertia": _inertia(known),
         "z": _drag(known),
-    }  # fmt: skip
+    }
 
 
 def _least_admitted(known: Known) -> Fraction:
@@ -272,20 +282,22 @@ def _resistance_for(known: Known, ratio: float, digits: int) -> float:
     return _drag(known) / math.expm1(exponent)
 
 
-def _middle(solved: list[BackSolved], entry: str) -> float:
-    """The middle of the values of an entry that give the number, in the derived form."""
-    (own,) = (b for b in solved if b.entry == entry and b.reading == _DERIVED)
-    if not own.solutions.inner:
+def _needed(known: Known, which: str, entry: str) -> float:
+    """The middle of the values of an entry with which the derived form gives the number."""
+    claim = known.ledger.claims[f"frank-zook-{which}"]
+    inner = known.explainer.solutions(claim, _DERIVED, entry).inner
+    if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
-    return float(sum(own.solutions.inner[0])) / 2
+    return float(sum(inner[0])) / 2
 
 
 def _two_resistances(known: Known) -> Evidence:
+    low, high = (case(known, beta).target_resistance for beta in (3, 5))
     return {
-        "fz_low": _derived(known, case(known, 3).target_resistance),
-        "fz_high": _derived(known, case(known, 5).target_resistance),
-        "low": case(known, 3).target_resistance,
-        "high": case(known, 5).target_resistance,
+        "fz_low": _derived(known, low),
+        "fz_high": _derived(known, high),
+        "low": low,
+        "high": high,
         "model_stainless": exact_ratio(case(known, 5, resistance=known["fz-resistance-stainless"])),
         "model_rha": exact_ratio(case(known, 5, resistance=known["fz-resistance-rha"])),
         "inertia": _inertia(known),
@@ -336,36 +348,42 @@ def _target_density(known: Known) -> Evidence:
 
 
 def _two_schemes(known: Known) -> Evidence:
-    found: dict[str, Fraction | float | bool] = {}
+    evidence: dict[str, float | bool] = {}
     steps = {"fine": known["a-step"], "coarse": known["coarse-step"]}
     for beta in (3, 5):
-        found[f"exact_{beta}"] = exact = depth.final_depth(**case(known, beta).motion)
-        for size, step in steps.items():
-            for scheme, name in (("published", "plain"), ("centered", "middle")):
-                run = sheet.run(case(known, beta, step=step), scheme)
-                found[f"{name}_{size}_{beta}"] = run.final_depth
-        fine, coarse = (float(found[f"plain_{size}_{beta}"]) for size in steps)
-        found |= {
-            f"short_{beta}": exact - fine,
-            f"coarse_short_{beta}": exact - coarse,
-            f"nm_{beta}": fine - coarse,
-            f"change_{beta}": 1 - coarse / fine,
+        exact = depth.final_depth(**case(known, beta).motion)
+        middle, plain = (
+            {size: sheet.run(case(known, beta, step=step), scheme).final_depth
+             for size, step in steps.items()}
+            for scheme in ("centered", "published")
+        )  # fmt: skip
+        evidence |= {f"middle_{size}_{beta}": value for size, value in middle.items()}
+        evidence |= {f"plain_{size}_{beta}": value for size, value in plain.items()}
+        evidence |= {
+            f"exact_{beta}": exact,
+            f"short_{beta}": exact - plain["fine"],
+            f"coarse_short_{beta}": exact - plain["coarse"],
+            f"nm_{beta}": plain["fine"] - plain["coarse"],
+            f"change_{beta}": 1 - plain["coarse"] / plain["fine"],
         }
-    found["middle_change_5"] = 1 - float(found["middle_coarse_5"]) / float(found["middle_fine_5"])
-    found["reprinted"] = Fraction(f"{float(found['plain_coarse_5']):.2e}")
-    found["middle_density"] = _middle_density(known)
-    row, plain, middle = _first_difference(known)
+    row, row_plain, row_middle = _first_difference(known)
     table = [c for c in known.ledger.claims.values() if c.cell and c.by_scheme]
-    found |= {"row": Fraction(row), "row_plain": plain, "row_middle": middle}
-    found["table"] = all(
-        j.verdict is Verdict.REPRODUCED
-        for claim in table
-        for j in known.reading(claim.id).judgements
-        if j.convention.rounding is Convention().rounding
-    )
-    found["order_plain"] = _order(known, "published")
-    found["order_middle"] = _order(known, "centered")
-    return found
+    return evidence | {
+        "middle_change_5": 1 - middle["coarse"] / middle["fine"],
+        "reprinted": Fraction(f"{plain['coarse']:.2e}"),
+        "middle_density": _middle_density(known),
+        "row": Fraction(row),
+        "row_plain": row_plain,
+        "row_middle": row_middle,
+        "table": all(
+            j.verdict is Verdict.REPRODUCED
+            for claim in table
+            for j in known.reading(claim.id).judgements
+            if j.convention.rounding is Convention().rounding
+        ),
+        "order_plain": _order(known, "published"),
+        "order_middle": _order(known, "centered"),
+    }
 
 
 def _middle_density(known: Known) -> Fraction:
@@ -433,22 +451,20 @@ def _dynamic_pressure(known: Known) -> float:
 
 
 def _observed_beta(known: Known) -> Evidence:
-    p = _pressure_for(known, known["observed-ratio"])
-    needed = _dynamic_pressure(known) / p
-    ends = known.target("observed-ratio").ends
-    betas = [
-        _dynamic_pressure(known) / _pressure_for(known, float(y)) / known["flow-stress"]
-        for y in ends
-    ]
-    faster = math.sqrt(case(known, 5).target_resistance / needed)
+    y, (least, greatest) = known["observed-ratio"], known.target("observed-ratio").ends
+    shallow, needed, deep = (
+        _dynamic_pressure(known) / _pressure_for(known, x)
+        for x in (float(least), y, float(greatest))
+    )
     return {
         "beta": needed / known["flow-stress"],
         "resistance": needed,
-        "beta_least": betas[1],
-        "beta_greatest": betas[0],
-        "velocity": known["a1-initial-velocity"] * faster,
-        "p": p,
-        "left": known["observed-ratio"] ** 2 - known["observed-ratio"] ** 3 / 3,
+        "beta_least": deep / known["flow-stress"],
+        "beta_greatest": shallow / known["flow-stress"],
+        "velocity": known["a1-initial-velocity"]
+        * math.sqrt(case(known, 5).target_resistance / needed),
+        "p": _pressure_for(known, y),
+        "left": y**2 - y**3 / 3,
     }
 
 
@@ -485,23 +501,23 @@ def _strengths(known: Known) -> Evidence:
 
 def _rigid_strength(known: Known) -> Evidence:
     copper, pressure = known["copper-yield"], _dynamic_pressure(known)
-    sigma = {
-        beta: resistance.centerline_stress(
+    sigma_3, sigma_5 = (
+        resistance.centerline_stress(
             known[_DENSITY], known["a1-initial-velocity"], case(known, beta).target_resistance
         )
         for beta in (3, 5)
-    }
+    )
     static = known["copper-johnson-cook"] + known["copper-johnson-cook-hardening"]
     fast = static * (1 + known["copper-johnson-cook-rate"] * math.log(known["strain-rate"]))
     return {
-        "sigma_5": sigma[5],
-        "sigma_3": sigma[3],
-        "multiple_5": sigma[5] / copper,
-        "multiple_3": sigma[3] / copper,
+        "sigma_5": sigma_5,
+        "sigma_3": sigma_3,
+        "multiple_5": sigma_5 / copper,
+        "multiple_3": sigma_3 / copper,
         "pressure": pressure,
         "fast": fast,
-        "short_5": sigma[5] / fast,
-        "short_3": sigma[3] / fast,
+        "short_5": sigma_5 / fast,
+        "short_3": sigma_3 / fast,
     }
 
 
@@ -595,7 +611,7 @@ def _observed_digits(known: Known) -> Evidence:
     }
 
 
-def _scatter(known: Known) -> Evidence:
+def _equation_1_scatter(known: Known) -> Evidence:
     relative = known["diameter-deviation"] / known["mean-diameter"]
     velocity = known["a1-initial-velocity"]
     power = 3 * known.exact("eq1-power")  # the mass goes with the cube of the diameter
@@ -663,27 +679,6 @@ def _wrong_reference(known: Known) -> Evidence:
 
 
 EVIDENCE: Mapping[str, Callable[[Known], Evidence]] = {
-    "headline": _headline,
-    "frank-zook-pair": _pair,
-    "equation-16": _equation_16,
-    "frank-zook-values": _values,
-    "target-density": _target_density,
-    "two-schemes": _two_schemes,
-    "beta-and-flow-stress": _beta_and_flow_stress,
-    "two-resistances": _two_resistances,
-    "inertia-term": _inertia_term,
-    "observed-beta": _observed_beta,
-    "compared-velocity": _compared_velocity,
-    "rigid-strength": _rigid_strength,
-    "strengths": _strengths,
-    "unlike-strengths": _unlike_strengths,
-    "autodyne-cells": _autodyne_cells,
-    "cth-pressure": _cth_pressure,
-    "equation-1-scatter": _scatter,
-    "faster-particles": _faster_particles,
-    "observed-digits": _observed_digits,
-    "minimum-velocity": _minimum_velocity,
-    "table-columns": _table_columns,
-    "sphere-equivalent": _sphere_equivalent,
-    "wrong-reference": _wrong_reference,
+    finding: globals()[f"_{finding.replace('-', '_')}"] for finding in asserted.load()
 }
+"""The evidence of every finding: of `equation-16`, what the function `_equation_16` computes."""

@@ -5,7 +5,7 @@ it and compute nothing. Lengths, velocities and the like are in SI units unless 
 otherwise.
 """
 
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -392,6 +392,17 @@ class Record(_Part, frozen=True):
             if claim.id == name:
                 return claim
         raise KeyError(name)
+
+
+_Filled = TypeVar("_Filled", bound=_Part)
+
+
+def filled(kind: type[_Filled], *sources: object, **own: Any) -> _Filled:
+    """A part of the record; what is not given is what a source has under the same name."""
+    for name in kind.__struct_fields__:
+        if name not in own:
+            own[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
+    return kind(**own)
 
 
 def schema() -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The verdict on one claim: whether the printed number follows from what the report prints."""
+"""The verdicts: whether a printed number or equation follows from what the report prints."""
 
 from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
@@ -10,13 +10,15 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
+from reference.derivations import Check, Sides, derive
 from reference.enclosure import Box, enclose, explore
-from reference.equations import EquationError
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.equations import EquationError, dimension
+from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Ledger
 from reference.printed import Interval, Rounding
+from reference.units import DimensionError
 from replication.audit.inference import Inference, infer
+from replication.audit.record import ConstantRecord
 from replication.audit.replica import replica
-from replication.audit.screen import restates
 
 _REALS, _RATIONALS = Reals(50), Rationals()
 
@@ -91,15 +93,29 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """The verdict on a claim, and the readings that it comes from; the first is as printed.
+    """The verdict on a claim, why, and the readings that it comes from; the first is as printed."""
 
-    `reason` tells why its formula has no value, where that is so.
-    """
-
-    claim: Claim
     verdict: Verdict
-    readings: tuple[Reading, ...] = ()
     reason: str = ""
+    readings: tuple[Reading, ...] = ()
+
+
+def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
+    """Whether a claim that only repeats or counts agrees with what it repeats or counts.
+
+    It does if some value prints like both texts and, of a bound, satisfies it. `changed` gives the
+    repeated number another value (SI).
+    """
+    assert claim.computation is not None
+    if claim.computation.name == "count":
+        return claim.target().contains(Fraction(len(claim.inputs)))
+    (name,) = claim.inputs["value"]
+    # A choice or an exact number has one value; a bound or an "about" has its own interval.
+    loose = claim.bound is not None or claim.kind == "approximation"
+    own = claim.target() if loose else claim.as_input(Convention())
+    if name in changed:
+        return own.contains(changed[name])
+    return own.meets(ledger.claims[name].as_input(Convention()))
 
 
 class Judge:
@@ -136,18 +152,18 @@ class Judge:
         return self.assumed[name] if name in self.assumed else self.ledger.value(name)
 
     def assess(self, claim: Claim) -> Assessment:
-        """The verdict on a claim that a computation gives.
+        """The verdict on a claim that a computation gives; a reason only where it has no value.
 
-        A claim whose formula has no value at the inputs as printed does not follow from them.
+        A claim whose formula has none at the inputs as printed does not follow from them.
         """
         if claim.computation is not None and claim.computation.restates:
             agrees = restates(self.ledger, claim, {})
-            return Assessment(claim, Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
+            return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except (ArithmeticError, EquationError) as error:
-            return Assessment(claim, Verdict.NOT_REPRODUCED, reason=str(error))
-        return Assessment(claim, readings[0].verdict, readings)
+            return Assessment(Verdict.NOT_REPRODUCED, str(error))
+        return Assessment(readings[0].verdict, readings=readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         judgements = tuple(self._judgements(claim, name))
@@ -349,3 +365,131 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     choices_exact = (True, False) if chosen and not whole_sheet else (True,)
     for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)
+
+
+# Equations, and the constants in them
+
+
+@dataclass(frozen=True, slots=True)
+class EquationAssessment:
+    """The verdict on an equation with the checks that it comes from.
+
+    `factor` is the number by which the printed equation differs from the derived one, None where it
+    does not, or differs in more than a number.
+    """
+
+    equation: Equation
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    constants: Mapping[str, ConstantRecord]
+
+    @property
+    def factor(self) -> Fraction | None:
+        """Printed over derived, where that is a number other than 1."""
+        return next((check.factor for check in self.checks if check.factor is not None), None)
+
+
+def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
+    """The verdict on one equation, and, if they are asked for, on its constants.
+
+    One that the report derives must pass every check; of one that it takes over only dimensions,
+    limits and signs can be checked, and it stays "not checkable" where they hold.
+
+    >>> from reference.ledger import load
+    >>> assess_equation(load(), "eq16").factor
+    Fraction(1, 2)
+    """
+    equation = ledger.equations[name]
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError as error:
+        check = Check(str(error), holds=False)
+        return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
+    sides = ledger.sides
+    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
+    holds = all(check.holds for check in checks)
+    passed, failed = {
+        "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
+        "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
+        "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
+    }[equation.kind]
+    judged = _constants(ledger, name, sides, holds) if constants else {}
+    return EquationAssessment(equation, passed if holds else failed, checks, judged)
+
+
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check: no more of its verdict, in less time."""
+    try:
+        ledger.read(ledger.printed_text(name))
+    except EquationError:
+        return False
+    return _follows(ledger, name, ledger.sides)
+
+
+def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
+    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
+    derived = all(check.holds for check in _derivation(ledger, name, sides))
+    return derived and _dimensions(ledger, name, sides).holds
+
+
+def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
+    exponents = {
+        key: ledger.value(symbol.value)
+        for key, symbol in ledger.symbols.items()
+        if symbol.value is not None
+    }
+    says = "both sides have the same dimensions"
+    try:
+        own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+    except (DimensionError, EquationError) as error:
+        return Check(f"{says}: {error}", holds=False)
+    return Check(says, all(unit == own[0] for unit in own))
+
+
+def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    try:
+        yield from derive(name, sides, ledger.symbols)
+    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
+        yield Check(f"it can be derived: {error}", holds=False)
+
+
+def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, ConstantRecord]:
+    claims = ledger.constants_of(name)
+
+    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
+        """The values of a constant with which every check holds, another one given."""
+        printed = ledger.value(claim)
+        return tuple(
+            value
+            for value in sorted({*_USUAL, printed, 2 * printed, printed / 2})
+            if (holds if value == printed and not given else follows_with({**given, claim: value}))
+        )
+
+    def follows_with(constants: Mapping[str, Fraction]) -> bool:
+        read = ledger.read(ledger.printed_text(name, constants))
+        return _follows(ledger, name, {**sides, name: read})
+
+    needed = {claim: passing(claim, {}) for claim in claims}
+    repairs = [] if holds else [claim for claim, values in needed.items() if values]
+    if len(repairs) == 1:
+        # The others are judged with the one number put right.
+        (culprit,) = repairs
+        right = {culprit: needed[culprit][0]}
+        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
+    constants = {}
+    for claim, values in needed.items():
+        if values == (ledger.value(claim),):
+            verdict = Verdict.REPRODUCED
+        elif values and ledger.value(claim) not in values:
+            verdict = Verdict.NOT_REPRODUCED
+        elif not values:
+            verdict = Verdict.UNDECIDED
+        else:
+            verdict = Verdict.NOT_CHECKABLE
+        texts = [str(value) for value in values]
+        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
+    return constants
+
+
+_USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))
+"""Constants that equations of physics have; a printed one is told apart from all of these."""

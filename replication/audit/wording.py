@@ -1,15 +1,22 @@
 """The sentences of the record: why a verdict is what it is, and what it takes for granted."""
 
 from collections.abc import Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 
 from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si, written
-from replication.audit.equations import Constant, EquationAssessment
-from replication.audit.record import SourceRecord
-from replication.audit.verdict import Judge, Judgement, Reading, Verdict
-from replication.text import inward, number, outward
+from replication.audit.record import ConstantRecord, Shown, SourceRecord
+from replication.audit.verdict import (
+    Assessment,
+    EquationAssessment,
+    Judge,
+    Judgement,
+    Reading,
+    Verdict,
+)
+from replication.text import inward, number, outward, rounded
 
 
 def quantity(text: str, unit: str) -> str:
@@ -21,12 +28,37 @@ def quantity(text: str, unit: str) -> str:
     return f"{text} {written(unit)}".strip()
 
 
-def explanation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
-    """Why a claim that a computation gives has its verdict."""
-    first, *others = readings
+REMARK = "A remark, no number: the figures below are what it can be judged by."
+
+
+def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
+    """Why a claim that a computation gives, or that repeats another, has its verdict."""
+    if assessed.reason:
+        return f"With the numbers as printed it cannot be computed: {assessed.reason}."
+    if not assessed.readings:
+        return _restated(judge.ledger, claim, assessed.verdict)
+    first, *others = assessed.readings
     sentences = [_value(claim, first), *_reason(judge, claim, first)]
     sentences += [_other(claim, reading) for reading in others]
     return " ".join(sentences)
+
+
+def _restated(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
+    if "value" not in claim.inputs:
+        return f"The report lists {len(claim.inputs)}."
+    other = ledger.claims[claim.inputs["value"][0]]
+    but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
+    return f"It repeats or compares with {quantity(other.shown, other.unit)} ({other.title}){but}."
+
+
+def chosen(shown: Shown | None) -> str:
+    """What is known of a number that the author chose."""
+    if shown is None:
+        return "The author's choice; what is computed from it does not come out as printed."
+    low, high = map(Fraction, shown.interval)
+    ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
+    text = quantity(ends, shown.unit)
+    return f"The author's choice; what is computed from it comes out as printed for {text}."
 
 
 def _value(claim: Claim, reading: Reading) -> str:
@@ -195,14 +227,14 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
     for constant in assessed.constants.values():
-        if constant.verdict is Verdict.NOT_REPRODUCED:
-            needed = " or ".join(str(value) for value in constant.needed)
+        if constant.verdict == Verdict.NOT_REPRODUCED:
+            needed = " or ".join(constant.needed)
             printed = ledger.claims[constant.claim]
             text += f" With {needed} for {printed.shown} ({printed.title}) it follows."
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> str:
+def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord) -> str:
     """Why a constant of an equation has its verdict."""
     equation = ledger.equations[claim.within or ""]
     passes = f"the equation follows from {equation.follows_from}"
@@ -212,7 +244,7 @@ def constant_explanation(ledger: Ledger, claim: Claim, constant: Constant) -> st
         case Verdict.REPRODUCED:
             return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
-            needed = " or ".join(str(value) for value in constant.needed)
+            needed = " or ".join(constant.needed)
             return f"With {needed} instead of {claim.shown} {passes}."
         case Verdict.UNDECIDED:
             return f"With no number that was tried in its place {passes}."

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
-from replication.error.budget import exact_motion
 from replication.error.hard_cases import HARD_CASES, impact_of
+from replication.error.ladder import exact_motion
 from replication.models.impact import Impact
 
 CASES = {

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from replication.bench.cases import Case, relative_error
-from replication.error.budget import exact_motion
+from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, run

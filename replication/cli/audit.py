@@ -48,7 +48,7 @@ def _audit(options: argparse.Namespace) -> int:
     workbook = options.out / "workbook.xlsx"
     if workbook.exists():
         emit.check(workbook, force=options.force)
-    from replication.audit.audit import audit
+    from replication.audit import audit
     from replication.error import hard_cases
     from replication.workbook import build
 
@@ -62,8 +62,6 @@ def _audit(options: argparse.Namespace) -> int:
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:
-        from replication.report.terminal import summary
-
-        print(summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
+        print(render.summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
         print(f"Written to {name_of(options.out)}/; start with audit.html")
     return 1 if options.exit_code and record.counts.failing else 0

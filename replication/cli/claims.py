@@ -6,6 +6,7 @@ from typing import Any
 
 from replication.cli import options as shared
 from replication.reading import quoted
+from replication.text import columns
 
 HELP = "list the claims, or prove one"
 
@@ -23,20 +24,24 @@ def run(options: argparse.Namespace) -> int:
         if options.json:
             shared.print_json([_listed(claim) for claim in ledger.claims.values()])
         else:
-            from replication.report.terminal import ledger_table
+            from replication.audit.wording import quantity
 
-            print(ledger_table(ledger.claims.values(), shared.width(piped=10_000)))
+            rows = [
+                (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
+                for claim in ledger.claims.values()
+            ]
+            print(columns(rows, shared.width(piped=10_000)))
         return 0
     if options.id not in ledger.claims:
         near = _nearest(options.id, ledger.claims)
         raise ValueError(f"there is no claim {quoted(options.id)}{near}")
-    from replication.audit.audit import audit_claim
+    from replication.audit import audit_claim
 
     claim = audit_claim(options.id)
     if options.json:
         shared.print_json(claim)
     else:
-        from replication.report.terminal import proof
+        from replication.report.render import proof
 
         print(proof(claim, ledger, shared.width(), shared.may_emphasize()))
     return 0

@@ -21,7 +21,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.error.warnings import warnings
+    from replication.error import warnings
     from replication.models.sheet import run
 
     sheet = run(shared.case(options), options.scheme)

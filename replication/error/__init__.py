@@ -1,1 +1,59 @@
-"""The error of the sheet and of the closed form, against the exact motion."""
+"""The sheet against the exact motion; here, signs in a sheet that its time step is too long."""
+
+from typing import NamedTuple
+
+from replication.models.depth import final_depth
+from replication.models.sheet import Sheet
+
+COARSE = 0.1
+"""Share of the radius R that a step at the impact velocity V may pass: dt V / R. At beta = 5 the
+published scheme is then 1 % short of the exact depth, and as it is of first order, further with
+every longer step."""
+
+DEEP = 5e-4
+"""By so much of itself may the exact depth be exceeded: the report prints three digits, and half a
+unit of the third is at least that much."""
+
+
+class Doubt(NamedTuple):
+    """What is wrong: "no steps", "reversed", "coarse" or "deep", and a sentence with figures."""
+
+    kind: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def warnings(sheet: Sheet) -> list[Doubt]:
+    """The warnings about a sheet.
+
+    "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
+    "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
+    more than `COARSE` R; "deep": its depth is more than `DEEP` beyond the exact one at rest.
+
+    >>> from dataclasses import replace
+    >>> from replication.cases import BETA_5
+    >>> from replication.models.sheet import run
+    >>> [warning.kind for warning in warnings(run(replace(BETA_5, step=1e-7)))]
+    ['reversed', 'coarse', 'deep']
+    """
+    impact, last = sheet.impact, sheet.rows[-1]
+    if sheet.steps == 0:
+        slow, least = impact.velocity, impact.stop_velocity
+        text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
+        return [Doubt("no steps", text)]
+    found = []
+    if last.velocity_final is not None and last.velocity_final < -impact.stop_velocity:
+        share = 100 * -last.velocity_final / impact.velocity
+        text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
+        found.append(Doubt("reversed", f"{text}, {share:.2g} % of the impact velocity"))
+    travel = impact.velocity * impact.step / impact.radius
+    if travel > COARSE:
+        text = f"a step at the impact velocity passes {travel:.3g} of the radius"
+        found.append(Doubt("coarse", f"{text}: at most {COARSE} is sound"))
+    rest = final_depth(**impact.motion)
+    if last.depth > rest * (1 + DEEP):
+        text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
+        found.append(Doubt("deep", f"{text}, by {100 * (last.depth / rest - 1):.3g} %"))
+    return found

@@ -14,8 +14,8 @@ from typing import Any
 from flint import arb, ctx
 
 from replication.cases import BETA_5
-from replication.error.budget import exact_motion
-from replication.error.warnings import warnings
+from replication.error import warnings
+from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run
@@ -42,6 +42,11 @@ class Outcome:
     reference: str = ""
     ulps: float | None = None
     warnings: tuple[str, ...] = ()
+
+    @property
+    def notes(self) -> list[str]:
+        refused = [f"refused: {note}" for note in (self.refused, self.sheet_refused) if note]
+        return [*refused, *self.warnings]
 
 
 # With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1 at rest.
@@ -236,7 +241,7 @@ def text(outcomes: Sequence[Outcome], worst: Worst) -> str:
         [
             *aligned([heads, *map(_line, outcomes)]),
             "",
-            *(f"{outcome.name}: {note}" for outcome in outcomes for note in _notes(outcome)),
+            *(f"{outcome.name}: {note}" for outcome in outcomes for note in outcome.notes),
             "",
             f"Closed form over {worst.cases} random cases ({worst.skipped} without a normal double "
             f"for an answer): at worst {worst.ulps:.2f} ulp, at {inputs}.",
@@ -252,8 +257,3 @@ def _line(outcome: Outcome) -> tuple[str, ...]:
         return outcome.name, "-", "refused", "", *closed
     off = f"{100 * outcome.sheet_error:+.3g} %"
     return outcome.name, str(outcome.steps), f"{outcome.sheet:.9g}", off, *closed
-
-
-def _notes(outcome: Outcome) -> list[str]:
-    refused = [note for note in (outcome.refused, outcome.sheet_refused) if note]
-    return [*(f"refused: {note}" for note in refused), *outcome.warnings]

@@ -1,4 +1,4 @@
-"""The record as the audit's folder: page, Markdown, JSON, CSV and figures, written all or none."""
+"""The record as the audit's folder, written all or none, and as a terminal shows it."""
 
 import re
 from base64 import b64encode
@@ -8,10 +8,13 @@ from hashlib import sha256
 from importlib import resources
 from pathlib import Path
 from string import ascii_lowercase
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from reference import findings as asserted
+from reference.ledger import INFERRED, Ledger
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
 from replication.audit.wording import quantity
@@ -19,12 +22,12 @@ from replication.plain import json_text, rows_csv
 from replication.power import measured
 from replication.report import facts as told
 from replication.report.figures import Drawing, draw
-from replication.report.prose import Prose, quoted
-from replication.text import number
+from replication.report.prose import Named, Prose, quoted
+from replication.text import columns, number
 from spreadsheets.safely import check_folder, write_folder
 
 if TYPE_CHECKING:
-    from jinja2 import Environment
+    from jinja2 import Template
 
 
 def check(folder: Path) -> None:
@@ -107,7 +110,7 @@ def page(record: Record, drawings: Sequence[Drawing]) -> str:
     """The page: no script, nothing from outside, its style named in its content policy by hash."""
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
     prose = Prose(record.symbols, told.names_of(record))
-    template = environment(prose.html, escaping=True).get_template("page.html.j2")
+    template = _template("page.html.j2", prose.html, escaping=True)
     return template.render(
         _context(record),
         drawings={drawing.name: drawing for drawing in drawings},
@@ -119,15 +122,15 @@ def page(record: Record, drawings: Sequence[Drawing]) -> str:
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
     prose = Prose(record.symbols, told.names_of(record))
-    template = environment(prose.markdown, escaping=False).get_template("page.md.j2")
+    template = _template("page.md.j2", prose.markdown)
     return re.sub(r"\n{3,}", "\n\n", template.render(_context(record)).lstrip())
 
 
-def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
-    """Where the templates are found, and their filters."""
+def _template(name: str, prose: Callable[[str], str], escaping: bool = False) -> "Template":
+    """One of the templates beside this file, with the filters of all."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    found = Environment(
+    environment = Environment(
         loader=PackageLoader("replication.report", ""),
         autoescape=escaping,  # noqa: S701  (the page is escaped; the others are no HTML)
         undefined=StrictUndefined,
@@ -135,7 +138,7 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
         lstrip_blocks=True,
         optimized=False,  # nothing in the templates could be computed before they are filled
     )
-    found.filters |= {
+    environment.filters |= {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
@@ -143,7 +146,7 @@ def environment(prose: Callable[[str], str], escaping: bool) -> "Environment":
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    return found
+    return environment.get_template(name)
 
 
 def _context(record: Record) -> dict[str, Any]:
@@ -154,7 +157,7 @@ def _context(record: Record) -> dict[str, Any]:
         "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
         "groups": groups,
         "names": names,
-        "counted": counted(record),
+        "counted": _counted(record),
         "verdicts": told.VERDICTS,
         "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
         "inferred": _inferred(record),
@@ -170,7 +173,7 @@ def _context(record: Record) -> dict[str, Any]:
     }
 
 
-def counted(record: Record) -> str:
+def _counted(record: Record) -> str:
     """The counts in words, the independent checks first."""
     counts = record.counts
     failing = sum(equation.verdict == Verdict.NOT_REPRODUCED for equation in record.equations)
@@ -264,3 +267,74 @@ def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
         if one.sources
     }
     return claims | inferred
+
+
+# For a terminal
+
+MAIN = (
+    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
+    "walker-anderson-beta",
+)  # fmt: skip
+"""The report's main results, by id."""
+
+FINDINGS = 3
+"""How many findings one screen has room for."""
+
+
+def summary(record: Record, width: int, strong: bool = False) -> str:
+    """The audit on one screen: what it found, the counts, all that fails, the main results."""
+    rows = [
+        (claim.title, told.printed(claim), quantity(number(claim.computed), claim.unit),
+         claim.verdict)
+        for claim in record.claims
+        if claim.id in MAIN and claim.computed is not None
+    ]  # fmt: skip
+    failing = told.failing(record)
+    titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in failing.rows]
+    context = {
+        "record": record,
+        "counted": _counted(record),
+        "verdicts": told.VERDICTS,
+        "failing": failing._replace(rows=titles),
+        "main": told.Table("Main results", ("number", "printed", "computed", "verdict"), rows),
+        "shown": FINDINGS,
+    }
+    return _terminal(Prose(record.symbols, {}), context, width, strong)
+
+
+def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
+    """One claim with all that its verdict rests on; the ledger names what it refers to."""
+    names = (
+        {name: Named(e.title) for name, e in ledger.equations.items()}
+        | {f"{INFERRED}{name}": Named(e.title, "", quantity(number(e.nominal), e.unit))
+           for name, e in ledger.inferred.items()}
+        | {name: Named(c.title, "", quantity(c.shown, c.unit))
+           for name, c in ledger.claims.items()}
+    )  # fmt: skip
+    findings = (f for f in asserted.load().values() if f.kind != "headline")
+    context = {
+        "record": None,
+        "claim": claim,
+        "printed": told.printed,
+        "facts": told.facts(claim, names),
+        "tables": told.tried(claim),
+        "findings": [finding.title for finding in findings if claim.id in finding.claims],
+    }
+    symbols = (symbol.shown for symbol in ledger.symbols.values())
+    return _terminal(Prose(symbols, names), context, width, strong)
+
+
+def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
+    def filled(text: str, indent: str = "") -> str:
+        return fill(
+            text, width, initial_indent=indent, subsequent_indent=indent + "  " * bool(indent),
+            break_on_hyphens=False, break_long_words=False,
+        )  # fmt: skip
+
+    def table(rows: Sequence[tuple[str, ...]]) -> str:
+        return columns([tuple(map(prose.text, row)) for row in rows], width)
+
+    template = _template("terminal.txt.j2", prose.text)
+    bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
+    text = template.render(context, fill=filled, columns=table, strong=bold.format)
+    return re.sub(r"\n{3,}", "\n\n", text.strip("\n"))

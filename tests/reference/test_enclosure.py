@@ -121,8 +121,7 @@ def test_solutions_are_inside_and_nothing_else_is(
     for x in samples(*search):
         if not any(low <= x <= high for low, high in found.outer):
             assert not target.contains(at(name, x)), "outer"
-        assert found.admits(x) <= target.contains(at(name, x)) <= found.may_admit(x)
-    assert found.may_admit(search[1] + 1), "nothing is known beyond the search"
+        assert found.admits(x) <= target.contains(at(name, x))
     assert found.reaches_an_end == any(
         part[0] == search[0] or part[1] == search[1] for part in found.outer
     )

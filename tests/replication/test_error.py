@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from replication.cases import BETA_3, BETA_5, CASES
 from replication.error import hard_cases, ladder
-from replication.error.budget import Budget, exact_motion, split
+from replication.error.ladder import Budget, exact_motion, split
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run

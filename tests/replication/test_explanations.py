@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reference.enclosure import Solutions
 from reference.equations import EquationError
 from reference.ledger import Convention, Ledger, load
-from replication.audit.audit import audit
+from replication.audit import audit
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
-from replication.audit.explain import BackSolved, Explainer
+from replication.audit.explain import Explainer
 from replication.audit.record import Record
 from replication.audit.replica import replica
 from replication.audit.verdict import Judge
@@ -23,8 +24,12 @@ PAIR = ("frank-zook-rha", "frank-zook-stainless")
 
 
 @cache
-def solved(claim: str) -> dict[tuple[str, str], BackSolved]:
-    return {(b.reading, b.entry): b for b in EXPLAINER.back_solved(LEDGER.claims[claim])}
+def solved(claim: str) -> dict[tuple[str, str], Solutions]:
+    own = LEDGER.claims[claim]
+    return {
+        (b.reading, b.entry): EXPLAINER.solutions(own, b.reading, b.entry)
+        for b in EXPLAINER.back_solved(own)
+    }
 
 
 def value(claim: str, reading: str, entry: str, x: F) -> F:
@@ -47,17 +52,16 @@ def test_solutions_give_the_number_and_what_is_excluded_does_not(claim: str) -> 
         (reading, entry) for reading in ("", DERIVED) for entry in LEDGER.claims[claim].entries
     }
     for (reading, entry), found in solved(claim).items():
-        for low, high in found.solutions.inner:
+        for low, high in found.inner:
             for share in (F(1, 100), F(1, 2), F(99, 100)):
                 x = low + share * (high - low)
                 assert target.contains(value(claim, reading, entry, x)), entry
-        low, high = found.solutions.search
+        low, high = found.search
         for k in range(21):
             x = low * F(float(high / low) ** (k / 20))
-            if not any(a <= x <= b for a, b in found.solutions.outer):
+            if not any(a <= x <= b for a, b in found.outer):
                 assert not target.contains(value(claim, reading, entry, x)), entry
-        assert not found.prints_alike, "no input within its own rounding gives it"
-        assert bool(found.solutions.inner) == bool(found.solutions.outer), "nothing is undecided"
+        assert bool(found.inner) == bool(found.outer), "nothing is undecided"
 
 
 @pytest.mark.parametrize(
@@ -76,12 +80,17 @@ def test_solutions_give_the_number_and_what_is_excluded_does_not(claim: str) -> 
     ],
 )
 def test_what_eq_16_as_derived_would_need(claim: str, entry: str, middle: float) -> None:
-    ((low, high),) = solved(claim)[DERIVED, entry].solutions.inner
+    ((low, high),) = solved(claim)[DERIVED, entry].inner
     assert float(low + high) / 2 == pytest.approx(middle, rel=2e-4)
 
 
+@pytest.mark.parametrize("claim", PAIR)
+def test_no_input_within_its_own_rounding_gives_the_number(claim: str, record: Record) -> None:
+    assert not any(solved.prints_alike for solved in record.claim(claim).back_solved)
+
+
 def test_no_metal_is_dense_enough_for_eq_16_as_printed(record: Record) -> None:
-    assert solved(PAIR[1])["", "a1-density"].solutions.outer == ()
+    assert solved(PAIR[1])["", "a1-density"].outer == ()
     proofs = {(b.reading, b.entry): b.proof for b in record.claim(PAIR[1]).back_solved}
     assert proofs["", "a1-density"] == "proven: none in the range does"
     assert set(proofs.values()) == {
@@ -91,10 +100,11 @@ def test_no_metal_is_dense_enough_for_eq_16_as_printed(record: Record) -> None:
 
 
 def test_a_choice_is_followed_to_where_its_claims_disagree() -> None:
-    ends = EXPLAINER.admitted("depth-beta-5-beta", ["depth-beta-5"])
-    assert ends is not None
-    assert [float(end) for end in ends] == pytest.approx([4.99322, 5.00567], abs=1e-5)
-    assert EXPLAINER.admitted("a1-resistance", [PAIR[0]]) is None
+    shown = EXPLAINER.shown(LEDGER.claims["depth-beta-5-beta"])
+    assert shown is not None
+    assert shown.interval == pytest.approx((4.99322, 5.00567), abs=1e-5)
+    ledger = LEDGER.misprint("depth-beta-5", "7.76")
+    assert Explainer(Judge(ledger)).shown(ledger.claims["depth-beta-5-beta"]) is None
 
 
 # Edits

@@ -168,12 +168,12 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     """Some density gives 2.17E+09 in row 4, but not the other cells."""
     ledger = misprinted("a1-deceleration-4", "2.17E+09")
     judge, claim = Judge(ledger, every_convention=False), ledger.claims["a1-deceleration-4"]
-    readings = judge.assess(claim).readings
-    judgement = readings[0].judgements[0]
+    assessed = judge.assess(claim)
+    judgement = assessed.readings[0].judgements[0]
     assert judgement.verdict is Verdict.NOT_REPRODUCED
     assert judgement.against_evidence
     assert not claim.interval().excludes(judgement.lower, judgement.upper)
-    said = wording.explanation(judge, claim, readings)
+    said = wording.explanation(judge, claim, assessed)
     assert "no inputs that give this number also give the numbers" in said
     assert "all of it" not in said
     assert "none of it" not in said

@@ -22,9 +22,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.ledger import load
+from replication import text as texts
 from replication.audit.record import Record
 from replication.audit.verdict import OPEN
-from replication.report import terminal
+from replication.report import render
 from replication.report.facts import between
 from replication.report.figures import draw
 from replication.report.prose import Named, Prose
@@ -130,7 +131,7 @@ def test_the_answer_comes_first_everywhere(
     root: ET.Element, files: dict[str, bytes], record: Record
 ) -> None:
     start = words(next(root.iter(f"{HTML}header"))).replace("’", "'").replace("\xa0", " ")
-    for text in (start, files["audit.md"].decode(), terminal.summary(record, 1000)):
+    for text in (start, files["audit.md"].decode(), render.summary(record, 1000)):
         assert record.headline in text[:400]
         assert text.index(record.headline) < text.index(f"{record.counts.calculations} ")
 
@@ -140,7 +141,7 @@ def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: 
         if element.tag in (f"{HTML}q", f"{HTML}code"):  # sources as they print; names of cells
             element.clear()
     (body,) = root.iter(f"{HTML}body")
-    for text in (words(body), files["audit.md"].decode(), terminal.summary(record, 80)):
+    for text in (words(body), files["audit.md"].decode(), render.summary(record, 80)):
         assert "\\" not in text
         plain = re.sub(r"`[^`]*`", "", text)
         assert not re.search(r"\b(?:rho|beta|alpha|Sigma)\b|[A-Za-z]_[a-z1]\b|\^\d| \* ", plain)
@@ -216,11 +217,11 @@ def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -
 
 @pytest.mark.parametrize("width", [50, 80, 120])
 def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: int) -> None:
-    text = terminal.summary(record, width)
+    text = render.summary(record, width)
     assert max(map(len, text.splitlines())) <= width
     flat = " ".join(text.split())
     prose = Prose(record.symbols, {})
-    assert all(prose.text(f.title) in flat for f in record.findings[: terminal.FINDINGS])
+    assert all(prose.text(f.title) in flat for f in record.findings[: render.FINDINGS])
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
@@ -230,11 +231,11 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     "name", ["frank-zook-rha", "coarse-step-remark", "eq2-power", "a1-depth-1"]
 )
 def test_a_proof_fits_the_terminal(record: Record, name: str) -> None:
-    text = terminal.proof(record.claim(name), load(), 80)
+    text = render.proof(record.claim(name), load(), 80)
     assert max(map(len, text.splitlines())) <= 80
     claim = record.claim(name)
     assert claim.verdict in text
-    assert all(terminal.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
+    assert all(texts.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
     assert ("One input changed" in text) == bool(claim.back_solved)
 
 
@@ -243,7 +244,7 @@ cells = st.text("ab c", max_size=12)
 
 @given(st.lists(st.tuples(cells, cells, cells), min_size=1, max_size=5), st.integers(12, 40))
 def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], width: int) -> None:
-    text = terminal.columns(rows, width)
+    text = texts.columns(rows, width)
     assert max(map(len, text.split("\n"))) <= width
     assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from reference.arithmetic import Reals
 from reference.motion import sheet_rows
 from replication.cases import BETA_3, BETA_5
-from replication.error.warnings import warnings
+from replication.error import warnings
 from replication.models.arrays import run_many
 from replication.models.depth import final_depth
 from replication.models.impact import Impact

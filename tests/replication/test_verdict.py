@@ -11,11 +11,10 @@ import pytest
 from reference.enclosure import enclose
 from reference.ledger import Convention, load
 from reference.printed import Interval, Rounding
-from replication.audit.equations import assess_equation
+from replication.audit.explain import Screen, dependents
 from replication.audit.record import Record
 from replication.audit.replica import REPLICA, replica
-from replication.audit.screen import Screen, dependents, restates
-from replication.audit.verdict import Judge, Judgement, Reading, Verdict
+from replication.audit.verdict import Judge, Judgement, Reading, Verdict, assess_equation, restates
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)

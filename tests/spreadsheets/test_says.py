@@ -12,7 +12,7 @@ from workbooks import usable
 
 from reference.ledger import load
 from replication.cases import BETA_5
-from replication.error.warnings import warnings
+from replication.error import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Recalculated
 from spreadsheets.plan import Value

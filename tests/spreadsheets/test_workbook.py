@@ -20,7 +20,7 @@ from reference.arithmetic import Reals
 from reference.motion import sheet_rows
 from replication import workbook
 from replication.cases import BETA_3, BETA_5
-from replication.error.budget import exact_motion
+from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import run
