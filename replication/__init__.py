@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from replication.audit import audit
+    from replication.audit.audit import audit
     from replication.cases import BETA_3, BETA_5
     from replication.models.arrays import (
         depth_at_velocity,

@@ -14,7 +14,7 @@ from importlib import resources
 import msgspec
 
 from reference.ledger import INFERRED, Ledger
-from replication.audit import Audit
+from replication.audit.audit import Audit
 from replication.audit.edits import edits_of
 from replication.audit.explain import Screen, dependents
 from replication.audit.verdict import OPEN, Verdict, assess_equation

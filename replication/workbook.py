@@ -102,7 +102,7 @@ def build(
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
     builder = _Builder(tuple(cases), scheme, rows, ledger or load(), typed or {})
     if builder.report and record is None:
-        from replication.audit import audit
+        from replication.audit.audit import audit
 
         record = audit()
     findings = _findings(record, scheme, builder.ledger) if builder.report and record else None

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 from hypothesis import settings
 
-from replication.audit import audit
+from replication.audit.audit import audit
 from replication.audit.record import Record
 from replication.cli import main
 

@@ -48,7 +48,7 @@ def _audit(options: argparse.Namespace) -> int:
     workbook = options.out / "workbook.xlsx"
     if workbook.exists():
         emit.check(workbook, force=options.force)
-    from replication.audit import audit
+    from replication.audit.audit import audit
     from replication.error import hard_cases
     from replication.workbook import build
 

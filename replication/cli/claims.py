@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
     if options.id not in ledger.claims:
         near = _nearest(options.id, ledger.claims)
         raise ValueError(f"there is no claim {quoted(options.id)}{near}")
-    from replication.audit import audit_claim
+    from replication.audit.audit import audit_claim
 
     claim = audit_claim(options.id)
     if options.json:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from reference.enclosure import Solutions
 from reference.equations import EquationError
 from reference.ledger import Convention, Ledger, load
-from replication.audit import audit
+from replication.audit.audit import audit
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
 from replication.audit.explain import Explainer
 from replication.audit.record import Record

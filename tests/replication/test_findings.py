@@ -7,7 +7,7 @@ import pytest
 
 from reference.findings import load as load_findings
 from reference.ledger import Ledger, load
-from replication.audit import audit
+from replication.audit.audit import audit
 from replication.audit.edits import edits
 from replication.audit.findings import EVIDENCE
 from replication.audit.record import FindingRecord, Record

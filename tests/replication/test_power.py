@@ -5,7 +5,7 @@ import random
 import pytest
 
 from reference.ledger import load
-from replication.audit import Audit
+from replication.audit.audit import Audit
 from replication.audit.verdict import OPEN, Verdict
 from replication.power import Plant, measured, plants, power, trial
 

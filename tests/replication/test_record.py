@@ -15,7 +15,7 @@ import pytest
 
 from reference.ledger import INFERRED, claims_of_case, load
 from reference.printed import parse
-from replication.audit import audit
+from replication.audit.audit import audit
 from replication.audit.record import ClaimRecord, Record, schema
 from replication.audit.verdict import Verdict
 from replication.cases import BETA_3, BETA_5, INPUTS

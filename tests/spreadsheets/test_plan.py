@@ -14,7 +14,7 @@ import pytest
 from reference.ledger import Ledger, load
 from reference.printed import parse
 from reference.units import written
-from replication.audit import audit
+from replication.audit.audit import audit
 from replication.cases import BETA_5
 from replication.workbook import Workbook, build
 from spreadsheets.emit import DASHES
