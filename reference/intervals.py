@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from reference.arithmetic import Number
+from reference.arithmetic import Arithmetic, Number
 
 
 class Span:
@@ -107,11 +107,8 @@ def _least(first: arb, *others: arb) -> arb:
     return first
 
 
-def _greatest(first: arb, *others: arb) -> arb:
-    for other in others:
-        if not (first >= other or first.contains(other)):
-            first = other if other >= first or other.contains(first) else first.max(other)
-    return first
+def _greatest(*balls: arb) -> arb:
+    return -_least(*(-ball for ball in balls))
 
 
 def _between(low: arb, high: arb) -> Number:
@@ -122,7 +119,7 @@ def _increasing(function: Callable[[arb], arb], x: Number) -> Number:
     return Span(function(x.low), function(x.high)) if isinstance(x, Span) else function(x)
 
 
-class Intervals:
+class Intervals(Arithmetic):
     """Balls and spans of a given number of decimal digits, rounded outwards.
 
     Operators work at flint's own precision, which `working` sets: a proof whatever it is, but only
@@ -186,10 +183,6 @@ class Intervals:
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
         return _between(_least(low, other_low), _least(high, other_high))
 
-    def greatest(self, x: Number, bound: Number) -> Number:
-        (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
-        return _between(_greatest(low, other_low), _greatest(high, other_high))
-
     def contact_share(self, y: Number) -> Number:
         return _increasing(lambda end: end * (2 - end), y)
 
@@ -203,14 +196,10 @@ class Intervals:
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
 
-    def may_be_below(self, x: Number, bound: Number) -> bool:
+    def below(self, x: Number, bound: Number) -> bool | None:
         if _balls(x)[0] >= _balls(bound)[1]:
             return False
-        _bounded(x), _bounded(bound)
-        return True
-
-    def is_below(self, x: Number, bound: Number) -> bool:
-        return bool(_bounded(x)[1] < _bounded(bound)[0])
+        return True if _bounded(x)[1] < _bounded(bound)[0] else None
 
     def sign(self, x: Number) -> int:
         """1 for a number that is proven not to be negative, -1 not positive, else 0."""

@@ -23,8 +23,8 @@ def stairs(ar: Any, x: Any) -> Any:
     return ar.hull([
         ar.number(height)
         for height, start, end in steps
-        if (start is None or not ar.is_below(x, ar.number(start)))
-        and (end is None or ar.may_be_below(x, ar.number(end)))
+        if (start is None or ar.below(x, ar.number(start)) is not True)
+        and (end is None or ar.below(x, ar.number(end)) is not False)
     ])  # fmt: skip
 
 
