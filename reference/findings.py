@@ -18,8 +18,9 @@ from typing import Any, Literal
 import msgspec
 
 from reference.arithmetic import Reals
+from reference.entries import Entry, LedgerError, converted, naming
 from reference.equations import evaluate, read_expression
-from reference.ledger import Entry, Ledger, LedgerError, converted, naming
+from reference.ledger import Ledger
 from reference.ledger import load as load_ledger
 from reference.printed import decimal_text, parse
 from reference.units import to_si

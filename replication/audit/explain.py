@@ -7,7 +7,8 @@ from functools import cache, cached_property
 
 from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Slip
+from reference.entries import Slip
+from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
 from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
 from replication.audit.equations import follows

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from reference.entries import LedgerError
 from reference.findings import Assertion, load, read
-from reference.ledger import LedgerError
 from reference.ledger import load as load_ledger
 
 LEDGER = load_ledger()
