@@ -121,12 +121,17 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         """The factor from the claim's unit to SI."""
         return to_si(self.unit)
 
+    @property
+    def number(self) -> Printed:
+        """What it prints. Raises LedgerError for a remark."""
+        if self.printed is None:
+            raise LedgerError(f"claim {self.id!r} prints no number")
+        return self.printed
+
     @cached_property
     def value(self) -> Fraction:
         """The number as printed, in SI. Raises LedgerError for a remark."""
-        if self.printed is None:
-            raise LedgerError(f"claim {self.id!r} prints no number")
-        return self.printed.value * self.si
+        return self.number.value * self.si
 
     @property
     def is_exact(self) -> bool:
@@ -134,19 +139,15 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
+        """The values, in its unit, that agree with the claim. Raises LedgerError for a remark."""
         if self.bound is not None:
-            closed = self.relation in ("<=", ">=")
-            if self.relation in (">", ">="):
-                return Interval(self.bound, None, closed, False)
-            return Interval(None, self.bound, False, closed)
-        if self.printed is None:
-            raise ValueError(f"claim {self.id!r} prints no number")
+            above, closed = self.relation in (">", ">="), self.relation in ("<=", ">=")
+            low, high = (self.bound, None) if above else (None, self.bound)
+            return Interval(low, high, closed, closed)
         if self.is_exact:
-            return Interval.point(self.printed.value)
-        if self.kind == "approximation":
-            return self.printed.about()
-        return self.printed.interval(rounding)
+            return Interval.point(self.number.value)
+        is_about = self.kind == "approximation"
+        return self.number.about() if is_about else self.number.interval(rounding)
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
@@ -158,11 +159,10 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
-        assert self.printed is not None
         in_header = self.cell is not None and self.cell.startswith("B")
         if (
             self.is_exact
-            or self.printed.quantum == 0
+            or self.number.quantum == 0
             or self.bound is not None
             or (self.chosen and convention.choices_exact)
             or (in_header and convention.header_exact)
@@ -339,7 +339,8 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
             settings["centered"] = centered
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            own = {key: reduce(mul, map(entries.__getitem__, names)) for key, names in inputs.items()}
+            value = entries.__getitem__
+            own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
             return computation.function(Formulas(ar, sides), **own, **settings)
 
         return of_entries
@@ -355,9 +356,8 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
         if name not in self.equations:
             claims = dict(claims)
             claims[name] = replace(claims[name], text=text, printed=parse(text))
-            for claim in list(claims.values()):
-                if name in (claim.id, claim.against):
-                    claims[claim.id] = replace(claim, bound=_bound(claim, claims))
+            for claim in [c for c in claims.values() if name in (c.id, c.against)]:
+                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
         copy = replace(self, claims=claims, misprinted=misprinted)
@@ -384,13 +384,12 @@ def load() -> Ledger:
     >>> claim.text, str(claim.interval()), claim.unit
     ('7.67', '[7.665, 7.675)', 'um')
     """
-    folder = resources.files("reference.report")
-    document, sources = (
-        tomllib.loads((folder / name).read_text("utf-8"))
-        for name in ("ledger.toml", "sources.toml")
-    )
-    text = (folder / document["report"]["text"]).read_text("utf-8")
-    return read(document, text, sources["source"])
+    document, sources = (tomllib.loads(_file(name)) for name in ("ledger.toml", "sources.toml"))
+    return read(document, _file(document["report"]["text"]), sources["source"])
+
+
+def _file(name: str) -> str:
+    return (resources.files("reference.report") / name).read_text("utf-8")
 
 
 def claims_of_case(beta: int) -> dict[str, str]:
@@ -399,17 +398,9 @@ def claims_of_case(beta: int) -> dict[str, str]:
     >>> claims_of_case(5)["beta"]
     'depth-beta-5-beta'
     """
-    return {
-        "velocity": "a1-initial-velocity",
-        "radius": "a1-radius",
-        "particle_density": "a1-density",
-        # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside.
-        "target_density": INFERRED + "target-density",
-        "beta": f"depth-beta-{beta}-beta",
-        "flow_stress": "flow-stress",
-        "step": "a-step",
-        "stop_velocity": "a-stop-velocity",
-    }
+    # The target density is printed nowhere: the audit infers what Table A-1 admits.
+    strength = {"beta": f"depth-beta-{beta}-beta", "flow_stress": "flow-stress"}
+    return {**load().groups["impact"], **strength}
 
 
 def read(
@@ -430,9 +421,8 @@ def read(
         with naming(f"equation {equation.id!r}"):
             if equation.kind == "derived" and equation.id not in DERIVATIONS:
                 raise ValueError("nothing in reference/derivations.py derives it")
-            equations[equation.id] = Equation(
-                **asdict(equation), place=_place(text, equation.quote)
-            )
+            place = _place(text, equation.quote)
+            equations[equation.id] = Equation(**asdict(equation), place=place)
     claims: dict[str, Claim] = {}
     for entry in tables.claim_entries:
         with naming(f"claim {entry.id!r}"):
@@ -513,12 +503,8 @@ def _claim(
     """One claim, as far as its own entry tells."""
     place = _place(text, entry.quote, entry.cell)
     words = text[place.start : place.end]
-    inside = (
-        name
-        for name, equation in equations.items()
-        if equation.place.start <= place.start and place.end <= equation.place.end
-    )
-    within = next(inside, None)
+    around = (e.id for e in equations.values() if e.place.start <= place.start < e.place.end)
+    within = next(around, None)
     to_si(entry.unit)
     if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
         raise ValueError(f"kind {entry.kind!r} needs a relation: <, <=, > or >=")
