@@ -129,7 +129,7 @@ class DiscontinuityError(ArithmeticError):
     """A function may jump where its derivatives are asked for, so it has none there."""
 
 
-class _Operators:
+class Operators:
     """The operators that follow from `+`, `*` and the change of sign."""
 
     __slots__ = ()
@@ -147,7 +147,7 @@ class _Operators:
         return self * other
 
 
-class Dual(_Operators):
+class Dual(Operators):
     """A number with its derivatives by the variables it depends on: `slopes` by their names."""
 
     __slots__ = ("slopes", "value")
@@ -170,9 +170,9 @@ class Dual(_Operators):
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        product = self.value * other.value
-        by_self, by_other = self.scaled(product, other.value), other.scaled(product, self.value)
-        return Dual(product, _added(by_self.slopes, by_other.slopes))
+        mine = {name: slope * other.value for name, slope in self.slopes.items()}
+        others = {name: self.value * slope for name, slope in other.slopes.items()}
+        return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
@@ -190,9 +190,9 @@ class Dual(_Operators):
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
-    total = {**first, **second}
-    for name in first.keys() & second.keys():
-        total[name] = first[name] + second[name]
+    total = dict(first)
+    for name, slope in second.items():
+        total[name] = total[name] + slope if name in total else slope
     return total
 
 
@@ -253,7 +253,7 @@ class Duals(Arithmetic):
         return below
 
 
-class Ratio(_Operators):
+class Ratio(Operators):
     """A quotient of two polynomials with rational coefficients."""
 
     __slots__ = ("over", "under")

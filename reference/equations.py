@@ -189,18 +189,16 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     """
 
     def value(node: Node) -> Any:
+        if node.kind == "symbol":
+            known = ar.pi if node.name == "pi" else values.get(node.name)
+            if known is None:
+                raise EquationError(f"the symbol {node.name} has no value here")
+            return ar.number(known) if type(known) is Fraction else known
         if node.kind == "number":
             return ar.number(node.value)
         if node.kind == "power":
             return _power(node, ar, values, value)
-        if node.kind != "symbol":
-            return _OPERATIONS[node.kind](ar, *map(value, node.parts))
-        if node.name == "pi":
-            return ar.pi
-        if node.name not in values:
-            raise EquationError(f"the symbol {node.name} has no value here")
-        known = values[node.name]
-        return ar.number(known) if isinstance(known, Fraction) else known
+        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
 
     return value(node)
 

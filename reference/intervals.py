@@ -13,10 +13,10 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from reference.arithmetic import Arithmetic, Number
+from reference.arithmetic import Arithmetic, Number, Operators
 
 
-class Span:
+class Span(Operators):
     """All numbers from the least in the ball `low` to the greatest in the ball `high`."""
 
     __slots__ = ("high", "low")
@@ -31,17 +31,8 @@ class Span:
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        low, high = _balls(other)
         return Span(self.low + low, self.high + high)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        return Span(self.low - high, self.high - low)
-
-    def __rsub__(self, other: Number) -> "Span":
-        return Span(other - self.high, other - self.low)
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
@@ -57,8 +48,6 @@ class Span:
                 return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
@@ -173,7 +162,8 @@ class Intervals(Arithmetic):
         return _increasing(arb.log, x)
 
     def power(self, x: Number, exponent: Fraction) -> Number:
-        root = x if exponent.denominator == 1 else _increasing(_root(exponent.denominator), x)
+        degree = exponent.denominator
+        root = x if degree == 1 else _increasing(lambda end: end.root(degree), x)
         size = root ** abs(exponent.numerator)
         return size if exponent > 0 else 1 / size
 
@@ -218,10 +208,6 @@ class Intervals(Arithmetic):
 @lru_cache(1000)
 def _integer(value: int) -> arb:
     return arb(value)
-
-
-def _root(degree: int) -> Callable[[arb], arb]:
-    return lambda x: x.root(degree)
 
 
 def _ball(value: Fraction | int) -> arb:
