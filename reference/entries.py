@@ -1,9 +1,14 @@
-"""The tables of the files of `reference/report`, whose heads say what each key means."""
+"""The tables of the files of `reference/report`, and where in the report their quotes stand.
+
+What each key means is said at the head of its file.
+"""
 
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any, Literal
 
 import msgspec
@@ -194,3 +199,59 @@ def naming(who: str) -> Iterator[None]:
         yield
     except (ValueError, ArithmeticError) as error:
         raise LedgerError(f"{who}: {error}") from error
+
+
+# Places in the text
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where something stands: characters and line of the text, section, equation, table cell."""
+
+    start: int
+    end: int
+    line: int
+    section: str
+    equation: str | None
+    cell: str | None
+
+    @property
+    def order(self) -> tuple[bool, int, str]:
+        """By place in the text; the table, which ends it, cell by cell."""
+        return (True, int(self.cell[1:]), self.cell) if self.cell else (False, self.start, "")
+
+    def __str__(self) -> str:
+        if self.cell:
+            return f"Table A-1, cell {self.cell}"
+        where = f"{self.section}, line {self.line}"
+        return f"{where}, Eq. {self.equation}" if self.equation else where
+
+
+def place_of(text: str, quote: str, cell: str | None = None) -> Place:
+    """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
+    match = re.fullmatch("(.*?)⟦(.*?)⟧(.*)", quote, re.DOTALL)
+    if match is None:
+        raise ValueError("its quote needs the printed text between ⟦ and ⟧")
+    words = "".join(match.groups())
+    if (times := text.count(words)) != 1:
+        raise ValueError(f"the report has {words!r} {times} times, not once")
+    start = text.index(words) + len(match[1])
+    section = next(name for at, name in reversed(_sections(text)) if at <= start)
+    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
+    line = text.count("\n", 0, start) + 1
+    return Place(start, start + len(match[2]), line, section, equation, cell)
+
+
+@cache
+def _sections(text: str) -> list[tuple[int, str]]:
+    """Where the parts of the report begin, and what they are called."""
+    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
+    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
+    return [(0, "title"), *named]
+
+
+@cache
+def _displays(text: str) -> list[tuple[int, int, str]]:
+    """Where the numbered equations stand, and their numbers."""
+    found = re.finditer(r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)", text, re.DOTALL)
+    return [(*match.span(), match[1]) for match in found]

@@ -29,10 +29,12 @@ from reference.entries import (
     EquationEntry,
     Inferred,
     LedgerError,
+    Place,
     Slip,
     Source,
     converted,
     naming,
+    place_of,
 )
 from reference.equations import EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, parse
@@ -72,24 +74,6 @@ class Convention:
     choices_exact: bool = True
     header_exact: bool = False
     centered: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where something stands: characters and line of the text, section, equation, table cell."""
-
-    start: int
-    end: int
-    line: int
-    section: str
-    equation: str | None
-    cell: str | None
-
-    def __str__(self) -> str:
-        if self.cell:
-            return f"Table A-1, cell {self.cell}"
-        where = f"{self.section}, line {self.line}"
-        return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
 class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
@@ -421,7 +405,7 @@ def read(
         with naming(f"equation {equation.id!r}"):
             if equation.kind == "derived" and equation.id not in DERIVATIONS:
                 raise ValueError("nothing in reference/derivations.py derives it")
-            place = _place(text, equation.quote)
+            place = place_of(text, equation.quote)
             equations[equation.id] = Equation(**asdict(equation), place=place)
     claims: dict[str, Claim] = {}
     for entry in tables.claim_entries:
@@ -430,7 +414,7 @@ def read(
     ledger = Ledger(
         **{name: getattr(tables, name) for name in tables.__struct_fields__},
         text=text,
-        claims=dict(sorted(_completed(claims).items(), key=lambda item: _order(item[1].place))),
+        claims=dict(sorted(_completed(claims).items(), key=lambda item: item[1].place.order)),
         equations=equations,
         sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
         blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
@@ -446,43 +430,6 @@ def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
         hint = f"; is it {near[0]!r}?" if near else ""
         raise LedgerError(f"there is no {what} {name!r}{hint}")
     return known[name]
-
-
-# Places in the text
-
-
-def _place(text: str, quote: str, cell: str | None = None) -> Place:
-    match = re.fullmatch("(.*?)⟦(.*?)⟧(.*)", quote, re.DOTALL)
-    if match is None:
-        raise ValueError("its quote needs the printed text between ⟦ and ⟧")
-    words = "".join(match.groups())
-    if (times := text.count(words)) != 1:
-        raise ValueError(f"the report has {words!r} {times} times, not once")
-    start = text.index(words) + len(match[1])
-    section = next(name for at, name in reversed(_sections(text)) if at <= start)
-    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
-    line = text.count("\n", 0, start) + 1
-    return Place(start, start + len(match[2]), line, section, equation, cell)
-
-
-@cache
-def _sections(text: str) -> list[tuple[int, str]]:
-    """Where the parts of the report begin, and what they are called."""
-    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
-    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
-    return [(0, "title"), *named]
-
-
-@cache
-def _displays(text: str) -> list[tuple[int, int, str]]:
-    """Where the numbered equations stand, and their numbers."""
-    found = re.finditer(r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)", text, re.DOTALL)
-    return [(*match.span(), match[1]) for match in found]
-
-
-def _order(place: Place) -> tuple[bool, int, str]:
-    """By place in the text; the table, which ends it, cell by cell."""
-    return (True, int(place.cell[1:]), place.cell) if place.cell else (False, place.start, "")
 
 
 def _cells(cells: str) -> Iterator[str]:
@@ -501,7 +448,7 @@ def _claim(
     entry: ClaimEntry, tables: Document, text: str, equations: Mapping[str, Equation]
 ) -> Claim:
     """One claim, as far as its own entry tells."""
-    place = _place(text, entry.quote, entry.cell)
+    place = place_of(text, entry.quote, entry.cell)
     words = text[place.start : place.end]
     around = (e.id for e in equations.values() if e.place.start <= place.start < e.place.end)
     within = next(around, None)
