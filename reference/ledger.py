@@ -488,16 +488,13 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
         order = [claims[name] for name in graph.static_order() if name in claims]
     except CycleError as error:
         raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
-    chosen: set[str] = set()
+    completed: dict[str, Claim] = {}
     for claim in order:
-        repeats = claim.computation is COMPUTATIONS["same_as"]
-        if claim.chosen or (repeats and not chosen.isdisjoint(claim.entries)):
-            chosen.add(claim.id)
-    completed = {}
-    for name, claim in claims.items():
-        with naming(f"claim {name!r}"):
+        repeated = claim.entries if claim.computation is COMPUTATIONS["same_as"] else []
+        chosen = any(completed[name].chosen for name in repeated if name in completed)
+        with naming(f"claim {claim.id!r}"):
             bound = _bound(claim, claims)
-            completed[name] = replace(claim, chosen=name in chosen, bound=bound)
+        completed[claim.id] = replace(claim, chosen=claim.chosen or chosen, bound=bound)
     return completed
 
 
