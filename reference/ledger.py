@@ -198,13 +198,15 @@ class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
 class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
     """All claims and equations in the order of the report, the inferred inputs, and the text.
 
-    `blank` are the cells that Table A-1 leaves blank, `misprinted` the texts that stand in the
-    place of the report's, by the id of the claim or equation.
+    `constants` are the claims inside every equation, `blank` the cells that Table A-1 leaves blank,
+    `misprinted` the texts that stand in the place of the report's, by the id of the claim or
+    equation.
     """
 
     text: str
     claims: dict[str, Claim]
     equations: dict[str, Equation]
+    constants: dict[str, list[str]]
     sources: dict[str, Source]
     blank: tuple[str, ...]
     misprinted: Mapping[str, str] = {}
@@ -223,12 +225,7 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        return [] if equation in self.misprinted else self._constants[equation]
-
-    @cached_property
-    def _constants(self) -> Mapping[str, list[str]]:
-        claims = self.claims.values()
-        return {name: [c.id for c in claims if c.within == name] for name in self.equations}
+        return [] if equation in self.misprinted else self.constants[equation]
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
@@ -345,9 +342,7 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
         copy = replace(self, claims=claims, misprinted=misprinted)
-        # What no text decides, and all other equations, are as they were.
-        kept = ("written", "dimensions", "_constants")
-        copy.__dict__.update({key: getattr(self, key) for key in kept})
+        # All other equations are as they were.
         again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
         copy.__dict__["sides"] = {**self.sides, **again}
         return copy
@@ -411,11 +406,13 @@ def read(
     for entry in tables.claim_entries:
         with naming(f"claim {entry.id!r}"):
             claims[entry.id] = _claim(entry, tables, text, equations)
+    claims = dict(sorted(_completed(claims).items(), key=lambda item: item[1].place.order))
     ledger = Ledger(
         **{name: getattr(tables, name) for name in tables.__struct_fields__},
         text=text,
-        claims=dict(sorted(_completed(claims).items(), key=lambda item: item[1].place.order)),
+        claims=claims,
         equations=equations,
+        constants={e: [c.id for c in claims.values() if c.within == e] for e in equations},
         sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
         blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
     )
