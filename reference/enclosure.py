@@ -56,7 +56,7 @@ def enclose(function: Function, box: Box) -> Range:
     """
     wide = [name for name, (low, high) in box.items() if low != high]
     value, slopes = _tangent(function, box, wide) if wide else (None, {})
-    signs = {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
+    signs = _signs(slopes, wide)
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign > 0 for name, sign in signs.items() if sign}
     if not fixed:
@@ -112,6 +112,11 @@ def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dic
     if isinstance(value, Fraction):
         return None, dict.fromkeys(wide, zero)
     return value.value, {name: value.slopes.get(name, zero) for name in wide}
+
+
+def _signs(slopes: Mapping[str, Number], wide: Sequence[str]) -> dict[str, int]:
+    """Whether a function is proven to rise or fall; no slope is known where it may jump."""
+    return {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
 
 
 @dataclass(frozen=True, slots=True)
@@ -353,9 +358,10 @@ def extent(
     # An open end does not belong to the box: what is attained is sought a little inside.
     margins = {key: (high - low) / 10**6 for key, (low, high) in box.items() if key != name}
     inside = {key: (box[key][0] + margin, box[key][1] - margin) for key, margin in margins.items()}
+    wide = [key for key, (low, high) in box.items() if low != high]
     monotone = []
     for function, target in constraints:
-        signs = enclose(function, box).signs
+        signs = _signs(_tangent(function, box, wide)[1], wide)
         monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
 
     def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:
