@@ -8,6 +8,7 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -30,8 +31,10 @@ class Span(Operators):
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = _balls(other)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
         return Span(self.low + low, self.high + high)
+
+    __radd__ = __add__
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
@@ -47,6 +50,8 @@ class Span(Operators):
                 return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
+
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
@@ -136,6 +141,10 @@ class Intervals(Arithmetic):
         return arb.pi()
 
     def number(self, value: Fraction | int) -> Number:
+        if value.denominator == 1:
+            return _integer(value.numerator)
+        if ctx.prec == self._bits:
+            return _ball(value)
         with self.working():
             return _ball(value)
 
@@ -198,6 +207,11 @@ class Intervals(Arithmetic):
     def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return _between(_least(*lows), _greatest(*highs))
+
+
+@lru_cache(1000)
+def _integer(value: int) -> arb:
+    return arb(value)
 
 
 def _ball(value: Fraction | int) -> arb:

@@ -342,7 +342,8 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
         copy = replace(self, claims=claims, misprinted=misprinted)
-        # All other equations are as they were.
+        # What no text decides, and all other equations, are as they were.
+        copy.__dict__.update(written=self.written, dimensions=self.dimensions)
         again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
         copy.__dict__["sides"] = {**self.sides, **again}
         return copy

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal, Inexact
 from enum import Enum
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import inf
 
 
@@ -22,7 +22,7 @@ class Rounding(Enum):
     CUT = "cut off"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Interval:
     """An interval of rationals; an end that is None is infinite.
 
@@ -41,12 +41,12 @@ class Interval:
         if self._starts > self._stops:
             raise ValueError(f"the interval from {self.lower} to {self.upper} is empty")
 
-    @property
+    @cached_property
     def _starts(self) -> tuple[Fraction | float, int]:
         """Where it begins, to be compared: an open end is a little further on."""
         return (-inf if self.lower is None else self.lower), 1 - self.lower_closed
 
-    @property
+    @cached_property
     def _stops(self) -> tuple[Fraction | float, int]:
         return (inf if self.upper is None else self.upper), self.upper_closed - 1
 
