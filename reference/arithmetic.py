@@ -9,56 +9,48 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
-from typing import Any, Protocol
+from typing import Any
 
 Number = Any
 """A number of the arithmetic in use; all of them have the operators + - * /."""
 
 
-class Arithmetic(Protocol):
-    """What the formulas need of numbers, beyond the operators.
+class Arithmetic:
+    """What the formulas need of numbers, beyond the operators; as it stands, of known points.
 
-    `power` takes x > 0 unless the exponent is a whole number. `contact_share` is y (2 - y), which
-    increases on its domain, 0 <= y <= 1; `cap_root` is the y in [0, 1] with y^2 - y^3/3 = c, for c
-    in [0, 2/3]. `may_be_below` asks whether x < bound is possible, `is_below` whether it is
-    certain. `hull` is a number that stands for all of them. What was computed in an arithmetic is
-    kept by its hash.
+    `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
+    y^2 - y^3/3 = c, for c in [0, 2/3]. What was computed in an arithmetic is kept by its hash.
     """
 
-    def __hash__(self) -> int: ...
     @property
     def pi(self) -> Number: ...
-    def number(self, value: Fraction | int) -> Number: ...
-    def log(self, x: Number) -> Number: ...
-    def power(self, x: Number, exponent: Fraction) -> Number: ...
-    def least(self, x: Number, bound: Number) -> Number: ...
-    def greatest(self, x: Number, bound: Number) -> Number: ...
-    def contact_share(self, y: Number) -> Number: ...
-    def cap_root(self, c: Number) -> Number: ...
-    def may_be_below(self, x: Number, bound: Number) -> bool: ...
-    def is_below(self, x: Number, bound: Number) -> bool: ...
-    def hull(self, numbers: list[Number]) -> Number: ...
 
+    number: Callable[[Any], Number]
+    log: Callable[[Any], Number]
+    power: Callable[[Any, Fraction], Number]
+    cap_root: Callable[[Any], Number]
 
-class _Points:
-    """What arithmetics of numbers that are known, not enclosed, have in common."""
+    def least(self, x: Number, bound: Number) -> Number:
+        return min(x, bound)
 
-    least, greatest = staticmethod(min), staticmethod(max)
+    def greatest(self, x: Number, bound: Number) -> Number:
+        return -self.least(-x, -bound)
 
     def contact_share(self, y: Number) -> Number:
+        """y (2 - y), which increases on its domain, 0 <= y <= 1."""
         return y * (2 - y)
 
-    def may_be_below(self, x: Number, bound: Number) -> bool:
+    def below(self, x: Number, bound: Number) -> bool | None:
+        """Whether x < bound; None where that is possible, but not certain."""
         return bool(x < bound)
 
-    is_below = may_be_below
-
     def hull(self, numbers: list[Number]) -> Number:
+        """A number that stands for all of them."""
         (only,) = numbers
         return only
 
 
-class Reals(_Points):
+class Reals(Arithmetic):
     """mpmath numbers of a given number of decimal digits; no global precision is changed.
 
     >>> print(Reals(30).pi)
@@ -99,7 +91,7 @@ class InexactError(ArithmeticError):
     """A number is not rational, or not known to be."""
 
 
-class Rationals(_Points):
+class Rationals(Arithmetic):
     """Exact fractions, for as long as a formula needs no other numbers.
 
     >>> Rationals().number(1) / 3
@@ -118,7 +110,7 @@ class Rationals(_Points):
     pi = property(_inexact)
 
 
-class Floats(_Points):
+class Floats(Arithmetic):
     """IEEE doubles, for a quick look; what they tell is no proof.
 
     >>> f"{Floats().cap_root(0.08):.4f}"
@@ -137,7 +129,7 @@ class DiscontinuityError(ArithmeticError):
     """A function may jump where its derivatives are asked for, so it has none there."""
 
 
-class _Operators:
+class Operators:
     """The operators that follow from `+`, `*` and the change of sign."""
 
     __slots__ = ()
@@ -155,7 +147,7 @@ class _Operators:
         return self * other
 
 
-class Dual(_Operators):
+class Dual(Operators):
     """A number with its derivatives by the variables it depends on: `slopes` by their names."""
 
     __slots__ = ("slopes", "value")
@@ -175,22 +167,12 @@ class Dual(_Operators):
             return Dual(self.value + other, self.slopes)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
-    def __sub__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value - other, self.slopes)
-        slopes = dict(self.slopes)
-        for name, slope in other.slopes.items():
-            slopes[name] = slopes[name] - slope if name in slopes else -slope
-        return Dual(self.value - other.value, slopes)
-
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        slopes = {name: slope * other.value for name, slope in self.slopes.items()}
-        for name, slope in other.slopes.items():
-            own = self.value * slope
-            slopes[name] = slopes[name] + own if name in slopes else own
-        return Dual(self.value * other.value, slopes)
+        mine = {name: slope * other.value for name, slope in self.slopes.items()}
+        others = {name: self.value * slope for name, slope in other.slopes.items()}
+        return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
@@ -208,13 +190,13 @@ class Dual(_Operators):
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
-    total = {**first, **second}
-    for name in first.keys() & second.keys():
-        total[name] = first[name] + second[name]
+    total = dict(first)
+    for name, slope in second.items():
+        total[name] = total[name] + slope if name in total else slope
     return total
 
 
-class Duals:
+class Duals(Arithmetic):
     """Numbers of another arithmetic with their derivatives.
 
     >>> ar = Duals(Reals(20))
@@ -245,10 +227,17 @@ class Duals:
         return x.scaled(value, value / x.value * self.arithmetic.number(exponent))
 
     def least(self, x: Dual, bound: Dual) -> Dual:
-        return self._bent(self.arithmetic.least, x, bound)
-
-    def greatest(self, x: Dual, bound: Dual) -> Dual:
-        return self._bent(self.arithmetic.greatest, x, bound)
+        """The lesser one; where it cannot be told which, its slopes are anything between both."""
+        value = self.arithmetic.least(x.value, bound.value)
+        below = self.arithmetic.below(x.value, bound.value)
+        if below is not None:
+            return Dual(value, (x if below else bound).slopes)
+        zero = self.arithmetic.number(0)
+        slopes = {
+            name: self.arithmetic.hull([x.slopes.get(name, zero), bound.slopes.get(name, zero)])
+            for name in {**x.slopes, **bound.slopes}
+        }
+        return Dual(value, slopes)
 
     def contact_share(self, y: Dual) -> Dual:
         return y.scaled(self.arithmetic.contact_share(y.value), 2 - 2 * y.value)
@@ -257,34 +246,14 @@ class Duals:
         y = self.arithmetic.cap_root(c.value)
         return c.scaled(y, 1 / self.arithmetic.contact_share(y))
 
-    def may_be_below(self, x: Dual, bound: Dual) -> bool:
-        below = self.arithmetic.is_below(x.value, bound.value)
-        if not below and self.arithmetic.may_be_below(x.value, bound.value):
+    def below(self, x: Dual, bound: Dual) -> bool:
+        below: bool | None = self.arithmetic.below(x.value, bound.value)
+        if below is None:
             raise DiscontinuityError("the last row of the sheet is not the same for all inputs")
-        return bool(below)
-
-    is_below = may_be_below
-
-    def hull(self, numbers: list[Dual]) -> Dual:
-        (only,) = numbers
-        return only
-
-    def _bent(self, choose: Callable[..., Number], x: Dual, bound: Dual) -> Dual:
-        """The chosen one; where it cannot be told which, its slopes are anything between both."""
-        value = choose(x.value, bound.value)
-        below = self.arithmetic.is_below(x.value, bound.value)
-        above = not self.arithmetic.may_be_below(x.value, bound.value)
-        if below or above:
-            return Dual(value, (x if below == (choose == self.arithmetic.least) else bound).slopes)
-        zero = self.arithmetic.number(0)
-        slopes = {
-            name: self.arithmetic.hull([x.slopes.get(name, zero), bound.slopes.get(name, zero)])
-            for name in {**x.slopes, **bound.slopes}
-        }
-        return Dual(value, slopes)
+        return below
 
 
-class Ratio(_Operators):
+class Ratio(Operators):
     """A quotient of two polynomials with rational coefficients."""
 
     __slots__ = ("over", "under")
@@ -329,11 +298,9 @@ class Ratio(_Operators):
         """Its value if it is the same number whatever the symbols stand for, else None."""
         if self.over == 0:
             return Fraction(0)
-        over, under = self.over.leading_coefficient(), self.under.leading_coefficient()
-        value = over / under
-        if self.over != self.under * value:
-            return None
-        return Fraction(int(value.p), int(value.q))
+        value = self.over.leading_coefficient() / self.under.leading_coefficient()
+        is_constant = self.over == self.under * value
+        return Fraction(int(value.p), int(value.q)) if is_constant else None
 
     def _ratio(self, other: Any) -> "Ratio":
         if isinstance(other, Ratio):
@@ -353,7 +320,7 @@ class Ratios:
     def __init__(self, names: Sequence[str]) -> None:
         self._context, self._named = _polynomials((*names, "pi", *(f"other_{k}" for k in range(8))))
         self.symbols: Mapping[str, Ratio] = {name: self._named[name] for name in names}
-        self._others: list[tuple[str, Ratio, Fraction]] = []
+        self._others: list[tuple[Fraction | None, Ratio]] = []
 
     @property
     def pi(self) -> Ratio:
@@ -366,22 +333,18 @@ class Ratios:
         return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
 
     def log(self, x: Ratio) -> Ratio:
-        """A symbol: the same one for the same argument."""
-        return self._other("log", x, Fraction(1))
+        return self._other(None, x)
 
     def power(self, x: Ratio, exponent: Fraction) -> Ratio:
         if exponent.denominator == 1:
             return x ** int(exponent)
-        if x == 1:
-            return x
-        return self._other("power", x, exponent)
+        return x if x == 1 else self._other(exponent, x)
 
-    def _other(self, kind: str, x: Ratio, exponent: Fraction) -> Ratio:
-        for number, (known, argument, power) in enumerate(self._others):
-            if (known, power) == (kind, exponent) and argument == x:
-                return self._named[f"other_{number}"]
-        self._others.append((kind, x, exponent))
-        return self._named[f"other_{len(self._others) - 1}"]
+    def _other(self, *known: Any) -> Ratio:
+        """A symbol for a power, or the logarithm, of x: the same one for the same x."""
+        if known not in self._others:
+            self._others.append(known)
+        return self._named[f"other_{self._others.index(known)}"]
 
 
 @cache

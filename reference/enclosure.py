@@ -18,11 +18,11 @@ from reference.intervals import Intervals
 from reference.ledger import Function
 from reference.printed import Interval
 
-Box = Mapping[str, tuple[Fraction, Fraction]]
-"""Inputs by name: lower and upper end, rationals in SI units."""
+Ends = tuple[Fraction, Fraction]
+"""The lower and the upper end of an interval."""
 
-Part = dict[str, tuple[Fraction, Fraction]]
-"""A box that is cut from another."""
+Box = Mapping[str, Ends]
+"""Inputs by name, in SI units."""
 
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
@@ -37,15 +37,9 @@ class Range:
     (-1) with it all over the box, or not (0); on the `idle` ones it is proven not to depend.
     """
 
-    lower: Fraction
-    upper: Fraction
+    ends: Ends
     signs: Mapping[str, int]
     idle: frozenset[str] = frozenset()
-
-    @property
-    def ends(self) -> tuple[Fraction, Fraction]:
-        """Both ends."""
-        return self.lower, self.upper
 
     @property
     def is_monotone(self) -> bool:
@@ -64,25 +58,20 @@ def enclose(function: Function, box: Box) -> Range:
     value, slopes = _tangent(function, box, wide) if wide else (None, {})
     signs = _signs(slopes, wide)
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
-    fixed = {name: sign for name, sign in signs.items() if sign}
+    fixed = {name: sign > 0 for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(*_best(function, box, value, slopes), signs)
+        return Range(_best(function, box, value, slopes), signs)
     lower, upper = (
-        _points({
-            name: ends if name not in fixed else ends[top if fixed[name] > 0 else 1 - top]
-            for name, ends in box.items()
-        })
-        for top in (0, 1)
-    )  # fmt: skip
+        {**box, **_points({name: box[name][rises == top] for name, rises in fixed.items()})}
+        for top in (False, True)
+    )
     if len(fixed) == len(wide):
-        return Range(_plain(function, lower)[0], _plain(function, upper)[1], signs, idle)
+        return Range((_plain(function, lower)[0], _plain(function, upper)[1]), signs, idle)
     # An input that is put at an end may free another's sign.
-    return Range(enclose(function, lower).lower, enclose(function, upper).upper, signs, idle)
+    return Range((enclose(function, lower).ends[0], enclose(function, upper).ends[1]), signs, idle)
 
 
-def _best(
-    function: Function, box: Box, value: Number | None, slopes: Mapping[str, Number]
-) -> tuple[Fraction, Fraction]:
+def _best(function: Function, box: Box, value: Number, slopes: Mapping[str, Number]) -> Ends:
     """The plain range, if need be yet to find, cut to what the middle and the slopes allow."""
     low, high = _plain(function, box) if value is None else _INTERVALS.ends(value)
     if not slopes:
@@ -94,20 +83,18 @@ def _best(
     return max(low, at_middle[0] - reach), min(high, at_middle[1] + reach)
 
 
-def _points(part: Mapping[str, Fraction | tuple[Fraction, Fraction]]) -> Part:
-    return {name: x if isinstance(x, tuple) else (x, x) for name, x in part.items()}
+def _points(point: Mapping[str, Fraction]) -> Box:
+    return {name: (x, x) for name, x in point.items()}
 
 
-def _plain(function: Function, box: Box) -> tuple[Fraction, Fraction]:
+def _plain(function: Function, box: Box) -> Ends:
     with _INTERVALS.working():
         numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
         value = function(_INTERVALS, **numbers)
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
-def _tangent(
-    function: Function, box: Box, wide: list[str]
-) -> tuple[Number | None, dict[str, Number]]:
+def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dict[str, Number]]:
     """What holds the value, and every derivative, all over the box.
 
     None and nothing where the function may jump, or is a number that is known exactly.
@@ -136,12 +123,11 @@ def _signs(slopes: Mapping[str, Number], wide: Sequence[str]) -> dict[str, int]:
 class Exploration:
     """What is proven of a function's values over a box, against a target interval.
 
-    `lower`, `upper`: a range that holds all values. `inside`: a point of the box whose value is
-    proven inside the target, if one is known. `never`: no value in the box is, which is proven.
+    `ends` of a range that holds all values. `inside`: a point of the box whose value is proven
+    inside the target, if one is known. `never`: no value in the box is, which is proven.
     """
 
-    lower: Fraction
-    upper: Fraction
+    ends: Ends
     inside: Mapping[str, Fraction] | None
     never: bool = False
 
@@ -159,30 +145,24 @@ def explore(function: Function, box: Box, target: Interval, budget: int = 250) -
     True
     """
     whole, scales = enclose(function, box), _scales(box)
-    queue, closed = deque([(dict(box), whole)]), list[tuple[Fraction, Fraction]]()
+    queue, closed = deque([(box, whole)]), list[Ends]()
     inside, undecided = None, False
     while queue and inside is None and budget > 0:
         (part, range_), budget = queue.popleft(), budget - 1
-        if target.excludes(*range_.ends):
-            closed.append(range_.ends)
-        elif target.encloses(*range_.ends):
+        if target.encloses(*range_.ends):
             inside = _middle(part)
-            closed.append(range_.ends)
-        elif range_.is_monotone:
+        elif range_.is_monotone and not target.excludes(*range_.ends):
             inside = _on_the_way(function, part, range_, target) if range_.signs else None
             undecided |= inside is None
-            closed.append(range_.ends)
-        else:
+        elif not target.excludes(*range_.ends):
             middle = _middle(part)
             inside = middle if target.encloses(*_plain(function, _points(middle))) else None
             queue += [(half, enclose(function, half)) for half in _halves(part, scales)]
+            continue
+        closed.append(range_.ends)
     lows, highs = zip(*closed, *(range_.ends for _, range_ in queue), strict=True)
-    return Exploration(
-        max(whole.lower, min(lows)),
-        min(whole.upper, max(highs)),
-        inside,
-        never=not queue and inside is None and not undecided,
-    )
+    ends = max(whole.ends[0], min(lows)), min(whole.ends[1], max(highs))
+    return Exploration(ends, inside, never=not queue and inside is None and not undecided)
 
 
 _STEPS = 80
@@ -223,7 +203,7 @@ def _scales(box: Box) -> dict[str, Fraction]:
     return {name: size or Fraction(1) for name, size in sizes.items()}
 
 
-def _halves(part: Part, scales: Mapping[str, Fraction]) -> list[Part]:
+def _halves(part: Box, scales: Mapping[str, Fraction]) -> list[Box]:
     name = max(part, key=lambda key: (part[key][1] - part[key][0]) / scales[key])
     low, high = part[name]
     middle = (low + high) / 2
@@ -238,9 +218,9 @@ class Solutions:
     of the search is proven not to. Empty `outer`: proven that none does.
     """
 
-    search: tuple[Fraction, Fraction]
-    inner: tuple[tuple[Fraction, Fraction], ...]
-    outer: tuple[tuple[Fraction, Fraction], ...]
+    search: Ends
+    inner: tuple[Ends, ...]
+    outer: tuple[Ends, ...]
 
     @property
     def reaches_an_end(self) -> bool:
@@ -254,11 +234,7 @@ class Solutions:
 
 
 def solve(
-    function: Function,
-    name: str,
-    search: tuple[Fraction, Fraction],
-    target: Interval,
-    budget: int = 200,
+    function: Function, name: str, search: Ends, target: Interval, budget: int = 200
 ) -> Solutions:
     """The values of the one input for which the function falls into the target.
 
@@ -268,8 +244,7 @@ def solve(
     no value.
     """
     queue = deque([search])
-    inner: list[tuple[Fraction, Fraction]] = []
-    outer: list[tuple[Fraction, Fraction]] = []
+    inner, outer = list[Ends](), list[Ends]()
     while queue:
         part, budget = queue.popleft(), budget - 1
         try:
@@ -296,32 +271,29 @@ def solve(
 
 
 def _crossings(
-    function: Function, name: str, part: tuple[Fraction, Fraction], target: Interval, rises: bool
-) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+    function: Function, name: str, part: Ends, target: Interval, rises: bool
+) -> tuple[Ends, Ends]:
     """Brackets of the two places between which a rising or falling function is in the target."""
 
-    def value(x: Fraction) -> tuple[Fraction, Fraction]:
+    def value(x: Fraction) -> Ends:
         return _plain(function, {name: (x, x)})
 
-    first, last = (target.lower, target.upper) if rises else (target.upper, target.lower)
-    ends = (value(part[0]), value(part[1]))
-    brackets = []
-    for goal, place in ((first, 0), (last, 1)):
-        # At the end of the part the target is entered or left already.
-        inside = goal is None or (
-            ends[place][0] > goal if rises == (place == 0) else ends[place][1] < goal
-        )
-        own = (part[place], part[place])
-        brackets.append(own if inside or goal is None else _bracket(value, part, ends, goal))
-    return brackets[0], brackets[1]
+    def crossing(place: int) -> Ends:
+        at_lower = rises == (place == 0)
+        goal = target.lower if at_lower else target.upper
+        least, greatest = ends[place]
+        # At the end of the part the target may be entered or left already.
+        if goal is None or (least > goal if at_lower else greatest < goal):
+            return part[place], part[place]
+        return _bracket(value, part, ends, goal)
+
+    ends = value(part[0]), value(part[1])
+    return crossing(0), crossing(1)
 
 
 def _bracket(
-    value: Callable[[Fraction], tuple[Fraction, Fraction]],
-    part: tuple[Fraction, Fraction],
-    ends: tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]],
-    goal: Fraction,
-) -> tuple[Fraction, Fraction]:
+    value: Callable[[Fraction], Ends], part: Ends, ends: tuple[Ends, Ends], goal: Fraction
+) -> Ends:
     """Where a function that rises or falls all over the part takes a value, between proven ends.
 
     By the secant through the ends of the bracket, of which one that stays is halved in weight
@@ -354,8 +326,8 @@ _RESOLUTION = Fraction(1, 2**44)
 """Of a part: how narrow a bracket is made, beyond what any page shows."""
 
 
-def _merged(parts: list[tuple[Fraction, Fraction]]) -> tuple[tuple[Fraction, Fraction], ...]:
-    merged: list[tuple[Fraction, Fraction]] = []
+def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
+    merged: list[Ends] = []
     for low, high in sorted(parts):
         if merged and merged[-1][1] >= low:
             merged[-1] = (merged[-1][0], max(high, merged[-1][1]))
@@ -370,7 +342,7 @@ Constraint = tuple[Function, Interval]
 
 def extent(
     constraints: Sequence[Constraint], name: str, box: Box, start: Fraction
-) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+) -> tuple[Ends, Ends]:
     """How far one input can range while the others may be anywhere in the box.
 
     Every constraint alone bounds the input, with all others at the ends that suit it best. The
@@ -379,17 +351,12 @@ def extent(
     """
     outer, attained = list(box[name]), [start]
     # An open end does not belong to the box: what is attained is sought a little inside.
-    inside = {
-        key: (low + (high - low) / 10**6, high - (high - low) / 10**6)
-        if key != name
-        else (low, high)
-        for key, (low, high) in box.items()
-    }
+    margins = {key: (high - low) / 10**6 for key, (low, high) in box.items() if key != name}
+    inside = {key: (box[key][0] + margin, box[key][1] - margin) for key, margin in margins.items()}
     wide = [key for key, (low, high) in box.items() if low != high]
     monotone = []
     for function, target in constraints:
-        _, slopes = _tangent(function, box, wide)
-        signs = _signs(slopes, wide)
+        signs = _signs(_tangent(function, box, wide)[1], wide)
         monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
 
     def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:
@@ -419,19 +386,15 @@ def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str
 
     To go up where the function rises with it, the others must keep the function low.
     """
-    low = signs.get(name, 1) > 0 if top else signs.get(name, 1) < 0
-    return {
-        key: ends[0 if (signs.get(key, 1) > 0) == low else 1]
-        for key, ends in box.items()
-        if key != name
-    }
+    low = (signs.get(name, 1) > 0) == bool(top)
+    return {key: ends[(signs.get(key, 1) > 0) != low] for key, ends in box.items() if key != name}
 
 
 def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
     """The function with some of its inputs held at rationals, unless they are given.
 
     >>> more = holding(lambda ar, x, y: x + y, {"x": Fraction(1)})
-    >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).lower
+    >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).ends[0]
     Fraction(3, 1)
     """
     known: dict[Any, dict[str, Number]] = {}
@@ -452,7 +415,7 @@ def satisfying(
     None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
     ones first save time. In each box one point is tried, where the constraints' tangents aim.
     """
-    queue, scales = deque([(dict(box), list(constraints))]), _scales(box)
+    queue, scales = deque([(box, list(constraints))]), _scales(box)
     for _ in range(budget):
         if not queue:
             return False, None

@@ -58,19 +58,17 @@ def _token(written: tuple[str, ...]) -> re.Pattern[str]:
         r"|(?P<fraction>\\frac(?![a-zA-Z]))"
         r"|(?P<sign>[-+/^(){}])"
         r"|(?P<end>\Z)"
-        rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])}))"
+        rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})|(?P<other>.))"
     )
 
 
 def _tokens(text: str, symbols: Mapping[str, str]) -> Iterator[_Token]:
-    token, at, kind = _token(tuple(symbols)), 0, ""
-    while kind != "end":
-        match = token.match(text, at)
-        if match is None or match.lastgroup is None:
-            raise EquationError(f"cannot read {text[at:].strip()!r} in the equation {text!r}")
-        kind = match.lastgroup
+    for match in _token(tuple(symbols)).finditer(text):
+        kind = str(match.lastgroup)
+        if kind == "other":
+            rest = text[match.start() :].strip()
+            raise EquationError(f"cannot read {rest!r} in the equation {text!r}")
         yield _Token(kind, match[kind], match.start(kind), bool(match["space"]))
-        at = match.end()
 
 
 _BINDING = {"+": 1, "-": 1, "/": 2, " ": 2, "": 3, "^": 4}
@@ -191,18 +189,16 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     """
 
     def value(node: Node) -> Any:
+        if node.kind == "symbol":
+            known = ar.pi if node.name == "pi" else values.get(node.name)
+            if known is None:
+                raise EquationError(f"the symbol {node.name} has no value here")
+            return ar.number(known) if type(known) is Fraction else known
         if node.kind == "number":
             return ar.number(node.value)
         if node.kind == "power":
             return _power(node, ar, values, value)
-        if node.kind != "symbol":
-            return _OPERATIONS[node.kind](ar, *map(value, node.parts))
-        if node.name == "pi":
-            return ar.pi
-        if node.name not in values:
-            raise EquationError(f"the symbol {node.name} has no value here")
-        known = values[node.name]
-        return ar.number(known) if isinstance(known, Fraction) else known
+        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
 
     return value(node)
 
@@ -267,21 +263,23 @@ def dimension(
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """How the parts of an expression are put together as text."""
+    """How the parts of an expression are put together, as they stand for plain text.
 
-    symbol: Callable[[str], str]
-    number: Callable[[str], str]
-    bracket: Callable[[str], str]
-    fraction: Callable[[str, str], str]
-    power: Callable[[str, str], str]
-    call: Callable[[str, str], str]
-    row: Callable[[str], str]
-    plus: str
-    less: str
-    minus: str
-    times: str
-    stroke: tuple[int, int]
-    """How tightly what is over and under a fraction bar must bind to go without brackets."""
+    `stroke`: how tightly what is over and under a fraction bar must bind to go without brackets.
+    """
+
+    symbol: Callable[[str], str] = str
+    number: Callable[[str], str] = str
+    bracket: Callable[[str], str] = "({})".format
+    fraction: Callable[[str, str], str] = "{}/{}".format
+    power: Callable[[str, str], str] = "{}^{}".format
+    call: Callable[[str, str], str] = "{}({})".format
+    row: Callable[[str], str] = str
+    plus: str = " + "
+    less: str = " - "
+    minus: str = "-"
+    times: str = " "
+    stroke: tuple[int, int] = (3, 4)
 
 
 def _mathml_symbol(shown: str) -> str:
@@ -292,33 +290,20 @@ def _mathml_symbol(shown: str) -> str:
     return f"<msub><mi>{name}</mi><mi>{below}</mi></msub>" if below else f"<mi>{name}</mi>"
 
 
+PLAIN = Notation()
 MATHML = Notation(
     symbol=_mathml_symbol,
-    number=lambda text: f"<mn>{text}</mn>",
-    bracket=lambda inner: f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>",
-    fraction=lambda over, under: f"<mfrac>{over}{under}</mfrac>",
-    power=lambda base, exponent: f"<msup>{base}{exponent}</msup>",
-    call=lambda name, inner: f"<mrow><mi>{name}</mi><mo>(</mo>{inner}<mo>)</mo></mrow>",
-    row=lambda inner: f"<mrow>{inner}</mrow>",
+    number="<mn>{}</mn>".format,
+    bracket="<mrow><mo>(</mo>{}<mo>)</mo></mrow>".format,
+    fraction="<mfrac>{}{}</mfrac>".format,
+    power="<msup>{}{}</msup>".format,
+    call="<mrow><mi>{}</mi><mo>(</mo>{}<mo>)</mo></mrow>".format,
+    row="<mrow>{}</mrow>".format,
     plus="<mo>+</mo>",
     less="<mo>\N{MINUS SIGN}</mo>",
     minus="<mo>\N{MINUS SIGN}</mo>",
     times="<mo>\N{INVISIBLE TIMES}</mo>",
     stroke=(0, 0),
-)
-PLAIN = Notation(
-    symbol=str,
-    number=str,
-    bracket=lambda inner: f"({inner})",
-    fraction=lambda over, under: f"{over}/{under}",
-    power=lambda base, exponent: f"{base}^{exponent}",
-    call=lambda name, inner: f"{name}({inner})",
-    row=str,
-    plus=" + ",
-    less=" - ",
-    minus="-",
-    times=" ",
-    stroke=(3, 4),
 )
 _TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
 _TIGHTEST = 5

@@ -9,7 +9,6 @@ import operator
 import re
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from importlib import resources
@@ -18,8 +17,9 @@ from typing import Any, Literal
 import msgspec
 
 from reference.arithmetic import Reals
+from reference.entries import Entry, LedgerError, converted, naming
 from reference.equations import evaluate, read_expression
-from reference.ledger import Entry, Ledger, LedgerError, converted, naming
+from reference.ledger import Ledger
 from reference.ledger import load as load_ledger
 from reference.printed import decimal_text, parse
 from reference.units import to_si
@@ -66,19 +66,11 @@ class Assertion(Entry, frozen=True):
         return printed.interval().contains(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One line of arithmetic in a text: what is calculated, and what it must print like."""
-
-    text: str
-    holds: bool
-
-
 class Finding(Entry, frozen=True, kw_only=True):
     """One finding as asserted, its texts with the printed and the asserted numbers in them.
 
     `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
-    open; `steps`: the arithmetic in its texts, calculated again.
+    open; `steps`: the lines of arithmetic in its texts, and whether they hold.
     """
 
     id: str
@@ -93,7 +85,7 @@ class Finding(Entry, frozen=True, kw_only=True):
     by_hand: str = ""
     settle: str = ""
     evidence: dict[str, Assertion]
-    steps: tuple[Step, ...] = ()
+    steps: dict[str, bool] = msgspec.field(default_factory=dict)
 
 
 @cache
@@ -133,13 +125,13 @@ def _finding(entry: Finding, ledger: Ledger) -> Finding:
         if assertion.text not in ("yes", "no"):
             parse(assertion.text)
 
-    texts, steps = {}, []
+    texts, steps = dict[str, str](), dict[str, bool]()
     for key in ("title", "statement", "by_hand", "settle"):
         text = " ".join(getattr(entry, key).split())
         text = _PLACE.sub(lambda match: _number(match[1], match[2], entry, ledger), text)
-        steps += [_step(line) for line in re.findall("`(.*?)`", text)]
+        steps |= {line: _holds(line) for line in re.findall("`(.*?)`", text)}
         texts[key] = text.replace("`", "")
-    return msgspec.structs.replace(entry, **texts, steps=tuple(steps))
+    return msgspec.structs.replace(entry, **texts, steps=steps)
 
 
 _PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
@@ -158,10 +150,10 @@ def _number(name: str, unit: str | None, entry: Finding, ledger: Ledger) -> str:
     raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
 
 
-def _step(text: str) -> Step:
-    """A line of arithmetic such as "2/3 * 3 = 2.0", calculated again."""
+def _holds(text: str) -> bool:
+    """Whether a line of arithmetic such as "2/3 * 3 = 2.0" holds, calculated again."""
     left, _, right = text.rpartition("=")
     expression = re.sub(r"\bln\b", r"\\ln", left).replace("*", " ")
     value = evaluate(read_expression(expression.strip(), {}), _REALS, {})
     computed = Fraction(str(_REALS.context.nstr(value, 25)))
-    return Step(text, parse(right.strip()).interval().contains(computed))
+    return parse(right.strip()).interval().contains(computed)

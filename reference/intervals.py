@@ -13,10 +13,10 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from reference.arithmetic import Number
+from reference.arithmetic import Arithmetic, Number, Operators
 
 
-class Span:
+class Span(Operators):
     """All numbers from the least in the ball `low` to the greatest in the ball `high`."""
 
     __slots__ = ("high", "low")
@@ -35,13 +35,6 @@ class Span:
         return Span(self.low + low, self.high + high)
 
     __radd__ = __add__
-
-    def __sub__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        return Span(self.low - high, self.high - low)
-
-    def __rsub__(self, other: Number) -> "Span":
-        return Span(other - self.high, other - self.low)
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
@@ -107,11 +100,8 @@ def _least(first: arb, *others: arb) -> arb:
     return first
 
 
-def _greatest(first: arb, *others: arb) -> arb:
-    for other in others:
-        if not (first >= other or first.contains(other)):
-            first = other if other >= first or other.contains(first) else first.max(other)
-    return first
+def _greatest(*balls: arb) -> arb:
+    return -_least(*(-ball for ball in balls))
 
 
 def _between(low: arb, high: arb) -> Number:
@@ -122,7 +112,7 @@ def _increasing(function: Callable[[arb], arb], x: Number) -> Number:
     return Span(function(x.low), function(x.high)) if isinstance(x, Span) else function(x)
 
 
-class Intervals:
+class Intervals(Arithmetic):
     """Balls and spans of a given number of decimal digits, rounded outwards.
 
     Operators work at flint's own precision, which `working` sets: a proof whatever it is, but only
@@ -176,7 +166,8 @@ class Intervals:
         return _increasing(arb.log, x)
 
     def power(self, x: Number, exponent: Fraction) -> Number:
-        root = x if exponent.denominator == 1 else _increasing(_root(exponent.denominator), x)
+        degree = exponent.denominator
+        root = x if degree == 1 else _increasing(lambda end: end.root(degree), x)
         size = root ** abs(exponent.numerator)
         return size if exponent > 0 else 1 / size
 
@@ -185,10 +176,6 @@ class Intervals:
             return x
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
         return _between(_least(low, other_low), _least(high, other_high))
-
-    def greatest(self, x: Number, bound: Number) -> Number:
-        (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
-        return _between(_greatest(low, other_low), _greatest(high, other_high))
 
     def contact_share(self, y: Number) -> Number:
         return _increasing(lambda end: end * (2 - end), y)
@@ -203,14 +190,10 @@ class Intervals:
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
 
-    def may_be_below(self, x: Number, bound: Number) -> bool:
+    def below(self, x: Number, bound: Number) -> bool | None:
         if _balls(x)[0] >= _balls(bound)[1]:
             return False
-        _bounded(x), _bounded(bound)
-        return True
-
-    def is_below(self, x: Number, bound: Number) -> bool:
-        return bool(_bounded(x)[1] < _bounded(bound)[0])
+        return True if _bounded(x)[1] < _bounded(bound)[0] else None
 
     def sign(self, x: Number) -> int:
         """1 for a number that is proven not to be negative, -1 not positive, else 0."""
@@ -229,10 +212,6 @@ class Intervals:
 @lru_cache(1000)
 def _integer(value: int) -> arb:
     return arb(value)
-
-
-def _root(degree: int) -> Callable[[arb], arb]:
-    return lambda x: x.root(degree)
 
 
 def _ball(value: Fraction | int) -> arb:

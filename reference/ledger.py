@@ -9,7 +9,6 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
@@ -17,14 +16,26 @@ from functools import cache, cached_property, lru_cache, reduce
 from graphlib import CycleError, TopologicalSorter
 from importlib import resources
 from operator import mul
-from typing import Any, Literal, TypeVar
+from typing import Any, TypeVar
 
-import msgspec
 from msgspec.structs import asdict, replace
 
 from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation, Formulas
 from reference.derivations import DERIVATIONS, Sides
+from reference.entries import (
+    ClaimEntry,
+    Document,
+    EquationEntry,
+    Inferred,
+    LedgerError,
+    Place,
+    Slip,
+    Source,
+    converted,
+    naming,
+    place_of,
+)
 from reference.equations import EquationError, Node, read_equation
 from reference.printed import Interval, Printed, Rounding, parse
 from reference.units import Dimension, raised, same_dimension, to_si, unit_dimension
@@ -38,10 +49,6 @@ Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
 
 
-class LedgerError(ValueError):
-    """Something in the ledger is wrong; the message names the entry and what would be right."""
-
-
 def shown(text: str) -> str:
     r"""Printed text as a page shows it, without the marks of LaTeX.
 
@@ -52,169 +59,6 @@ def shown(text: str) -> str:
     text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
     text = re.sub(r"\^\{([^{}]*)\}", r"^(\1)", text)
     return re.sub(r"~\s+", "~", raised(text))
-
-
-# The tables of ledger.toml, whose head says what each key means.
-
-Kind = Literal[
-    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
-    "quoted", "constant", "remark",
-]  # fmt: skip
-Relation = Literal["<", "<=", ">", ">="]
-
-
-class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A table of a file, which may hold no keys but its own."""
-
-
-class ClaimEntry(Entry, frozen=True):
-    """A [[claim]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Kind
-    unit: str = "1"
-    computed_by: str | None = None
-    rests_on: dict[str, str] = {}
-    readings: dict[str, str] = {}
-    given: str | None = None
-    shown_by: list[str] = []
-    relation: Relation | None = None
-    against: str | None = None
-    assumes: str | None = None
-    exact: bool = False
-    cell: str | None = None
-    row: int | None = None
-    quantity: str | None = None
-    workbook: str | None = None
-
-
-class EquationEntry(Entry, frozen=True):
-    """An [[equation]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Literal["derived", "definition", "taken over"]
-    follows_from: str
-
-
-class Inferred(Entry, frozen=True):
-    """An input that the report does not print, to be inferred from the numbers that it does."""
-
-    title: str
-    symbol: str
-    unit: str
-    quantity: str
-    search: tuple[Fraction, Fraction]
-    nominal: Fraction
-    nominal_source: str
-    mass: str
-    radius: str
-    density: str
-    header: list[str]
-    results: list[str]
-    evidence: list[str]
-
-
-class Symbol(Entry, frozen=True):
-    """What a symbol of the equations means, how the report writes it, and how a page shows it."""
-
-    written: list[str]
-    shown: str
-    unit: str
-    means: str
-    value: str | None = None
-
-
-class Quantity(Entry, frozen=True):
-    """A physical quantity: the range of it that is searched, in its unit, and why this one."""
-
-    unit: str
-    search: tuple[Fraction, Fraction]
-    reason: str
-
-
-class Slip(Entry, frozen=True):
-    """What the author may have computed instead: another text of an equation, or other inputs."""
-
-    name: str
-    reason: str
-    equation: str
-    text: str | None = None
-    inputs: dict[str, str] = {}
-
-
-class Source(Entry, frozen=True):
-    """A public source for a number that the report takes from nowhere; see sources.toml."""
-
-    id: str
-    title: str
-    address: str
-    quote: str
-    unit: str
-    applies: str
-    claims: list[str]
-
-    @property
-    def numbers(self) -> list[Printed]:
-        """The number that it prints, or the two ends of a range."""
-        return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
-
-    @property
-    def says(self) -> str:
-        """The number or the range as text, without its unit."""
-        return " to ".join(number.text for number in self.numbers)
-
-    @property
-    def value(self) -> Fraction:
-        """The number in SI; of a range, its lower end."""
-        return self.numbers[0].value * to_si(self.unit)
-
-    @property
-    def interval(self) -> Interval:
-        """What agrees with it, in SI."""
-        ends = [number.interval() for number in self.numbers]
-        whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
-        return whole.scaled(to_si(self.unit))
-
-
-class _Report(Entry, frozen=True):
-    text: str
-    title: str
-    author: str
-    year: int
-
-
-class _TableA1(Entry, frozen=True):
-    blank: list[str]
-
-
-class _Furniture(Entry, frozen=True):
-    """Digits and number words of the text that are no quantities."""
-
-    pattern: str
-    reason: str
-
-
-class _Document(Entry, frozen=True):
-    """The whole of ledger.toml."""
-
-    report: _Report
-    reasons: dict[str, str]
-    table: _TableA1
-    groups: dict[str, dict[str, str]]
-    inferred: dict[str, Inferred]
-    symbols: dict[str, Symbol]
-    quantities: dict[str, Quantity]
-    furniture: list[_Furniture]
-    equation_entries: list[EquationEntry] = msgspec.field(name="equation")
-    claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
-    slips: list[Slip] = msgspec.field(name="slip", default=[])
-
-
-# What the rest of the program sees.
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,24 +74,6 @@ class Convention:
     choices_exact: bool = True
     header_exact: bool = False
     centered: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where something stands: characters and line of the text, section, equation, table cell."""
-
-    start: int
-    end: int
-    line: int
-    section: str
-    equation: str | None
-    cell: str | None
-
-    def __str__(self) -> str:
-        if self.cell:
-            return f"Table A-1, cell {self.cell}"
-        where = f"{self.section}, line {self.line}"
-        return f"{where}, Eq. {self.equation}" if self.equation else where
 
 
 class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
@@ -279,12 +105,17 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         """The factor from the claim's unit to SI."""
         return to_si(self.unit)
 
+    @property
+    def number(self) -> Printed:
+        """What it prints. Raises LedgerError for a remark."""
+        if self.printed is None:
+            raise LedgerError(f"claim {self.id!r} prints no number")
+        return self.printed
+
     @cached_property
     def value(self) -> Fraction:
         """The number as printed, in SI. Raises LedgerError for a remark."""
-        if self.printed is None:
-            raise LedgerError(f"claim {self.id!r} prints no number")
-        return self.printed.value * self.si
+        return self.number.value * self.si
 
     @property
     def is_exact(self) -> bool:
@@ -292,19 +123,15 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
+        """The values, in its unit, that agree with the claim. Raises LedgerError for a remark."""
         if self.bound is not None:
-            closed = self.relation in ("<=", ">=")
-            if self.relation in (">", ">="):
-                return Interval(self.bound, None, closed, False)
-            return Interval(None, self.bound, False, closed)
-        if self.printed is None:
-            raise ValueError(f"claim {self.id!r} prints no number")
+            above, closed = self.relation in (">", ">="), self.relation in ("<=", ">=")
+            low, high = (self.bound, None) if above else (None, self.bound)
+            return Interval(low, high, closed, closed)
         if self.is_exact:
-            return Interval.point(self.printed.value)
-        if self.kind == "approximation":
-            return self.printed.about()
-        return self.printed.interval(rounding)
+            return Interval.point(self.number.value)
+        is_about = self.kind == "approximation"
+        return self.number.about() if is_about else self.number.interval(rounding)
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
@@ -316,11 +143,10 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
-        assert self.printed is not None
         in_header = self.cell is not None and self.cell.startswith("B")
         if (
             self.is_exact
-            or self.printed.quantum == 0
+            or self.number.quantum == 0
             or self.bound is not None
             or (self.chosen and convention.choices_exact)
             or (in_header and convention.header_exact)
@@ -369,16 +195,18 @@ class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
     place: Place
 
 
-class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
+class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
     """All claims and equations in the order of the report, the inferred inputs, and the text.
 
-    `blank` are the cells that Table A-1 leaves blank, `misprinted` the texts that stand in the
-    place of the report's, by the id of the claim or equation.
+    `constants` are the claims inside every equation, `blank` the cells that Table A-1 leaves blank,
+    `misprinted` the texts that stand in the place of the report's, by the id of the claim or
+    equation.
     """
 
     text: str
     claims: dict[str, Claim]
     equations: dict[str, Equation]
+    constants: dict[str, list[str]]
     sources: dict[str, Source]
     blank: tuple[str, ...]
     misprinted: Mapping[str, str] = {}
@@ -397,17 +225,7 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        if equation in self.misprinted:
-            return []
-        return self._inside.get(equation, [])
-
-    @cached_property
-    def _inside(self) -> Mapping[str, list[str]]:
-        inside: dict[str, list[str]] = {}
-        for claim in self.claims.values():
-            if claim.within is not None:
-                inside.setdefault(claim.within, []).append(claim.id)
-        return inside
+        return [] if equation in self.misprinted else self.constants[equation]
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
@@ -415,15 +233,12 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
             return self.claims[name].text
         if name in self.misprinted:
             return self.misprinted[name]
-        place, text = self.equations[name].place, ""
-        at = place.start
+        place = self.equations[name].place
+        at, text = place.start, ""
         for claim in map(self.claims.__getitem__, self.constants_of(name)):
-            text += self.text[at : claim.place.start]
-            if claim.id in constants:
-                over, under = constants[claim.id].as_integer_ratio()
-                text += rf"\frac{{{over}}}{{{under}}}"
-            else:
-                text += claim.text
+            own = constants.get(claim.id)
+            shown = claim.text if own is None else rf"\frac{{{own.numerator}}}{{{own.denominator}}}"
+            text += self.text[at : claim.place.start] + shown
             at = claim.place.end
         return text + self.text[at : place.end]
 
@@ -505,12 +320,8 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
             settings["centered"] = centered
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-            own = {
-                key: entries[names[0]]
-                if len(names) == 1
-                else reduce(mul, [entries[name] for name in names])
-                for key, names in inputs.items()
-            }
+            value = entries.__getitem__
+            own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
             return computation.function(Formulas(ar, sides), **own, **settings)
 
         return of_entries
@@ -526,15 +337,13 @@ class Ledger(_Document, frozen=True, kw_only=True, dict=True, eq=False):
         if name not in self.equations:
             claims = dict(claims)
             claims[name] = replace(claims[name], text=text, printed=parse(text))
-            for claim in list(claims.values()):
-                if name in (claim.id, claim.against):
-                    claims[claim.id] = replace(claim, bound=_bound(claim, claims))
+            for claim in [c for c in claims.values() if name in (c.id, c.against)]:
+                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
             equation = claims[name].within or ""
         misprinted = {**self.misprinted, name: text}
         copy = replace(self, claims=claims, misprinted=misprinted)
         # What no text decides, and all other equations, are as they were.
-        kept = ("written", "dimensions", "_inside")
-        copy.__dict__.update({key: getattr(self, key) for key in kept})
+        copy.__dict__.update(written=self.written, dimensions=self.dimensions)
         again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
         copy.__dict__["sides"] = {**self.sides, **again}
         return copy
@@ -555,13 +364,12 @@ def load() -> Ledger:
     >>> claim.text, str(claim.interval()), claim.unit
     ('7.67', '[7.665, 7.675)', 'um')
     """
-    folder = resources.files("reference.report")
-    document, sources = (
-        tomllib.loads((folder / name).read_text("utf-8"))
-        for name in ("ledger.toml", "sources.toml")
-    )
-    text = (folder / document["report"]["text"]).read_text("utf-8")
-    return read(document, text, sources["source"])
+    document, sources = (tomllib.loads(_file(name)) for name in ("ledger.toml", "sources.toml"))
+    return read(document, _file(document["report"]["text"]), sources["source"])
+
+
+def _file(name: str) -> str:
+    return (resources.files("reference.report") / name).read_text("utf-8")
 
 
 def claims_of_case(beta: int) -> dict[str, str]:
@@ -570,17 +378,9 @@ def claims_of_case(beta: int) -> dict[str, str]:
     >>> claims_of_case(5)["beta"]
     'depth-beta-5-beta'
     """
-    return {
-        "velocity": "a1-initial-velocity",
-        "radius": "a1-radius",
-        "particle_density": "a1-density",
-        # Printed nowhere: the audit infers what Table A-1 admits; a test holds this value inside.
-        "target_density": INFERRED + "target-density",
-        "beta": f"depth-beta-{beta}-beta",
-        "flow_stress": "flow-stress",
-        "step": "a-step",
-        "stop_velocity": "a-stop-velocity",
-    }
+    # The target density is printed nowhere: the audit infers what Table A-1 admits.
+    strength = {"beta": f"depth-beta-{beta}-beta", "flow_stress": "flow-stress"}
+    return {**load().groups["impact"], **strength}
 
 
 def read(
@@ -590,7 +390,7 @@ def read(
 
     Raises LedgerError, which names the entry, what is wrong with it and what would be right.
     """
-    tables = converted(document, _Document, "ledger.toml")
+    tables = converted(document, Document, "ledger.toml")
     if not tables.claim_entries:
         raise LedgerError("the ledger is empty: it has no [[claim]]")
     names = Counter(entry.id for entry in (*tables.equation_entries, *tables.claim_entries))
@@ -601,47 +401,24 @@ def read(
         with naming(f"equation {equation.id!r}"):
             if equation.kind == "derived" and equation.id not in DERIVATIONS:
                 raise ValueError("nothing in reference/derivations.py derives it")
-            equations[equation.id] = Equation(
-                **asdict(equation), place=_place(text, equation.quote)
-            )
+            place = place_of(text, equation.quote)
+            equations[equation.id] = Equation(**asdict(equation), place=place)
     claims: dict[str, Claim] = {}
     for entry in tables.claim_entries:
         with naming(f"claim {entry.id!r}"):
             claims[entry.id] = _claim(entry, tables, text, equations)
+    claims = dict(sorted(_completed(claims).items(), key=lambda item: item[1].place.order))
     ledger = Ledger(
         **{name: getattr(tables, name) for name in tables.__struct_fields__},
         text=text,
-        claims=dict(sorted(_completed(claims).items(), key=lambda item: _order(item[1].place))),
+        claims=claims,
         equations=equations,
+        constants={e: [c.id for c in claims.values() if c.within == e] for e in equations},
         sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
-        blank=tuple(cell for cells in tables.table.blank for cell in _cells(cells)),
+        blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
     )
     _check(ledger)
     return ledger
-
-
-def converted(document: Any, kind: Any, file: str) -> Any:
-    """Parsed TOML as structs. Raises LedgerError where it does not fit them."""
-
-    def named(place: re.Match[str]) -> str:
-        """An entry by its id or name, where it has one, instead of by its number."""
-        entry = (document[place[1]] if place[1] else document)[int(place[2])]
-        return f"{place[1] or 'entry'} {entry.get('id') or entry.get('name') or place[2]!r}"
-
-    try:
-        return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
-    except msgspec.ValidationError as error:
-        says = re.sub(r"\$(?:\.(\w+))?\[(\d+)\]", named, str(error))
-        raise LedgerError(f"{file}: {says}") from error
-
-
-@contextmanager
-def naming(who: str) -> Iterator[None]:
-    """What is wrong with an entry is told with its name before it."""
-    try:
-        yield
-    except (ValueError, ArithmeticError) as error:
-        raise LedgerError(f"{who}: {error}") from error
 
 
 def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
@@ -651,43 +428,6 @@ def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
         hint = f"; is it {near[0]!r}?" if near else ""
         raise LedgerError(f"there is no {what} {name!r}{hint}")
     return known[name]
-
-
-# Places in the text
-
-
-def _place(text: str, quote: str, cell: str | None = None) -> Place:
-    match = re.fullmatch("(.*?)⟦(.*?)⟧(.*)", quote, re.DOTALL)
-    if match is None:
-        raise ValueError("its quote needs the printed text between ⟦ and ⟧")
-    words = "".join(match.groups())
-    if (times := text.count(words)) != 1:
-        raise ValueError(f"the report has {words!r} {times} times, not once")
-    start = text.index(words) + len(match[1])
-    section = next(name for at, name in reversed(_sections(text)) if at <= start)
-    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
-    line = text.count("\n", 0, start) + 1
-    return Place(start, start + len(match[2]), line, section, equation, cell)
-
-
-@cache
-def _sections(text: str) -> list[tuple[int, str]]:
-    """Where the parts of the report begin, and what they are called."""
-    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
-    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
-    return [(0, "title"), *named]
-
-
-@cache
-def _displays(text: str) -> list[tuple[int, int, str]]:
-    """Where the numbered equations stand, and their numbers."""
-    found = re.finditer(r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)", text, re.DOTALL)
-    return [(*match.span(), match[1]) for match in found]
-
-
-def _order(place: Place) -> tuple[bool, int, str]:
-    """By place in the text; the table, which ends it, cell by cell."""
-    return (True, int(place.cell[1:]), place.cell) if place.cell else (False, place.start, "")
 
 
 def _cells(cells: str) -> Iterator[str]:
@@ -703,17 +443,13 @@ def _cells(cells: str) -> Iterator[str]:
 
 
 def _claim(
-    entry: ClaimEntry, tables: _Document, text: str, equations: Mapping[str, Equation]
+    entry: ClaimEntry, tables: Document, text: str, equations: Mapping[str, Equation]
 ) -> Claim:
     """One claim, as far as its own entry tells."""
-    place = _place(text, entry.quote, entry.cell)
+    place = place_of(text, entry.quote, entry.cell)
     words = text[place.start : place.end]
-    inside = (
-        name
-        for name, equation in equations.items()
-        if equation.place.start <= place.start and place.end <= equation.place.end
-    )
-    within = next(inside, None)
+    around = (e.id for e in equations.values() if e.place.start <= place.start < e.place.end)
+    within = next(around, None)
     to_si(entry.unit)
     if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
         raise ValueError(f"kind {entry.kind!r} needs a relation: <, <=, > or >=")
@@ -750,16 +486,13 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
         order = [claims[name] for name in graph.static_order() if name in claims]
     except CycleError as error:
         raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
-    chosen: set[str] = set()
+    completed: dict[str, Claim] = {}
     for claim in order:
-        repeats = claim.computation is COMPUTATIONS["same_as"]
-        if claim.chosen or (repeats and not chosen.isdisjoint(claim.entries)):
-            chosen.add(claim.id)
-    completed = {}
-    for name, claim in claims.items():
-        with naming(f"claim {name!r}"):
+        repeated = claim.entries if claim.computation is COMPUTATIONS["same_as"] else []
+        chosen = any(completed[name].chosen for name in repeated if name in completed)
+        with naming(f"claim {claim.id!r}"):
             bound = _bound(claim, claims)
-            completed[name] = replace(claim, chosen=name in chosen, bound=bound)
+        completed[claim.id] = replace(claim, chosen=claim.chosen or chosen, bound=bound)
     return completed
 
 
@@ -783,35 +516,32 @@ def _check(ledger: Ledger) -> None:
         for computation in claim.computations.values():
             with naming(f"claim {claim.id!r}, {computation.name}"):
                 _check_computation(claim, computation, ledger)
-        for name in claim.shown_by:
-            if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
-                raise LedgerError(f"claim {claim.id!r}: {name!r} does not rest on it")
-    for key, inferred in ledger.inferred.items():
-        with naming(f"inferred {key!r}"):
-            own = (inferred.mass, inferred.radius, inferred.density)
-            for name in (*inferred.evidence, *inferred.header, *inferred.results, *own):
-                _known("claim", name, ledger.claims)
-            _known("quantity", inferred.quantity, ledger.quantities)
-    for source in ledger.sources.values():
-        with naming(f"source {source.id!r}"):
-            _check_source(source, ledger)
-    _check_equations(ledger)
+    slips = {slip.name: slip for slip in ledger.slips}
+    tables: Sequence[tuple[str, Mapping[str, Any], Callable[[Any, Ledger], object]]] = (
+        ("claim", ledger.claims, _check_shown),
+        ("inferred", ledger.inferred, _check_inferred),
+        ("source", ledger.sources, _check_source),
+        ("symbol", ledger.symbols, lambda symbol, _: to_si(symbol.unit)),
+        ("equation", ledger.equations, lambda own, _: ledger.read(ledger.printed_text(own.id))),
+        ("slip", slips, _check_slip),
+    )
+    for kind, entries, check in tables:
+        for name, entry in entries.items():
+            with naming(f"{kind} {name!r}"):
+                check(entry, ledger)
 
 
-def _check_equations(ledger: Ledger) -> None:
-    for name, symbol in ledger.symbols.items():
-        with naming(f"symbol {name!r}"):
-            to_si(symbol.unit)
-    for name in ledger.equations:
-        with naming(f"equation {name!r}"):
-            ledger.read(ledger.printed_text(name))
-    for slip in ledger.slips:
-        with naming(f"slip {slip.name!r}"):
-            _known("equation", slip.equation, ledger.equations)
-            if slip.text is not None:
-                ledger.read(slip.text)
-            for name in slip.inputs.values():
-                _known("number", name, ledger.claims)
+def _check_shown(claim: Claim, ledger: Ledger) -> None:
+    for name in claim.shown_by:
+        if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
+            raise ValueError(f"{name!r} does not rest on it")
+
+
+def _check_inferred(entry: Inferred, ledger: Ledger) -> None:
+    own = (entry.mass, entry.radius, entry.density)
+    for name in (*entry.evidence, *entry.header, *entry.results, *own):
+        _known("claim", name, ledger.claims)
+    _known("quantity", entry.quantity, ledger.quantities)
 
 
 def _check_source(source: Source, ledger: Ledger) -> None:
@@ -820,6 +550,14 @@ def _check_source(source: Source, ledger: Ledger) -> None:
             raise ValueError(f"{name} is not in {source.unit}")
     if not 1 <= len(source.numbers) <= 2:
         raise ValueError("its quote marks no number, and no two, with ⟦ and ⟧")
+
+
+def _check_slip(slip: Slip, ledger: Ledger) -> None:
+    _known("equation", slip.equation, ledger.equations)
+    if slip.text is not None:
+        ledger.read(slip.text)
+    for name in slip.inputs.values():
+        _known("number", name, ledger.claims)
 
 
 def _check_computation(claim: Claim, computation: Computation, ledger: Ledger) -> None:

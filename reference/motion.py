@@ -64,10 +64,10 @@ def sheet_rows(
         v_final = v - a * step
         yield Row(v, x, a, v_final)
         v = v_final
-        if stop_velocity is not None and ar.may_be_below(v, stop_velocity):
-            if ar.is_below(v, stop_velocity):
-                return
-            # Where a box of inputs is run, only those that have not stopped go on.
+        below = stop_velocity is not None and ar.below(v, stop_velocity)
+        if below:
+            return
+        if below is None:  # where a box of inputs is run, only those that have not stopped go on
             v = ar.greatest(v, stop_velocity)
         x = x + v * step
     raise ArithmeticError(f"the sheet does not end in {most_rows} rows")
@@ -78,7 +78,9 @@ def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> N
 
     In interval arithmetic: the hull over every row that may be the first.
     """
-    return ar.hull([r.depth for r in rows if ar.may_be_below(r.velocity_final, stop_velocity)])
+    return ar.hull(
+        [row.depth for row in rows if ar.below(row.velocity_final, stop_velocity) is not False]
+    )
 
 
 class Trajectory:

@@ -7,10 +7,11 @@ becomes text is a convention (`Rounding`); fractions ("7/3") and number words ("
 
 import re
 from dataclasses import dataclass
-from decimal import Context, Decimal
+from decimal import Context, Decimal, Inexact
 from enum import Enum
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from math import inf
 
 
 class Rounding(Enum):
@@ -21,7 +22,7 @@ class Rounding(Enum):
     CUT = "cut off"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Interval:
     """An interval of rationals; an end that is None is infinite.
 
@@ -37,10 +38,17 @@ class Interval:
     upper_closed: bool = True
 
     def __post_init__(self) -> None:
-        if self.lower is None or self.upper is None or self.lower < self.upper:
-            return
-        if self.lower > self.upper or not (self.lower_closed and self.upper_closed):
+        if self._starts > self._stops:
             raise ValueError(f"the interval from {self.lower} to {self.upper} is empty")
+
+    @cached_property
+    def _starts(self) -> tuple[Fraction | float, int]:
+        """Where it begins, to be compared: an open end is a little further on."""
+        return (-inf if self.lower is None else self.lower), 1 - self.lower_closed
+
+    @cached_property
+    def _stops(self) -> tuple[Fraction | float, int]:
+        return (inf if self.upper is None else self.upper), self.upper_closed - 1
 
     @classmethod
     def point(cls, value: Fraction) -> "Interval":
@@ -65,15 +73,15 @@ class Interval:
 
     def contains(self, value: Fraction) -> bool:
         """Whether the value lies inside; an open end does not belong to the interval."""
-        return not self._is_above(value) and not self._is_below(value)
+        return self.encloses(value, value)
 
     def encloses(self, lower: Fraction, upper: Fraction) -> bool:
         """Whether every value from lower to upper lies inside."""
-        return self.contains(lower) and self.contains(upper)
+        return self._starts <= (lower, 0) and (upper, 0) <= self._stops
 
     def excludes(self, lower: Fraction, upper: Fraction) -> bool:
         """Whether no value from lower to upper lies inside."""
-        return self._is_above(upper) or self._is_below(lower)
+        return (upper, 0) < self._starts or self._stops < (lower, 0)
 
     def meets(self, other: "Interval") -> bool:
         """Whether some value lies in both.
@@ -81,23 +89,7 @@ class Interval:
         >>> parse("403").interval().meets(parse("404").interval())
         False
         """
-        if other.lower is not None and (
-            self._is_below(other.lower) or (other.lower == self.upper and not other.lower_closed)
-        ):
-            return False
-        return other.upper is None or not (
-            self._is_above(other.upper) or (other.upper == self.lower and not other.upper_closed)
-        )
-
-    def _is_above(self, value: Fraction) -> bool:
-        if self.lower is None:
-            return False
-        return value < self.lower or (value == self.lower and not self.lower_closed)
-
-    def _is_below(self, value: Fraction) -> bool:
-        if self.upper is None:
-            return False
-        return value > self.upper or (value == self.upper and not self.upper_closed)
+        return self._starts <= other._stops and other._starts <= self._stops
 
     def scaled(self, factor: Fraction) -> "Interval":
         """The interval times a positive factor (a change of unit)."""
@@ -119,15 +111,13 @@ def decimal_text(value: Fraction) -> str:
     >>> decimal_text(Fraction(3115, 1000) * 10**8), decimal_text(Fraction(1, 3))
     ('3.115E+8', '1/3')
     """
-    remainder = value.denominator
-    for prime in (2, 5):
-        while remainder % prime == 0:
-            remainder //= prime
-    if remainder != 1:
-        return str(value)
     digits = len(str(abs(value.numerator))) + 4 * len(str(value.denominator))
-    context = Context(prec=digits)
-    exact = context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context)
+    context = Context(prec=digits, traps=[Inexact])
+    try:
+        exact = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    except Inexact:
+        return str(value)
+    exact = exact.normalize(context)
     return f"{exact:f}" if -5 <= exact.adjusted() < 6 else f"{exact:E}"
 
 

@@ -248,7 +248,7 @@ class Audit(Known):
             r.FindingRecord,
             finding,
             claims=list(finding.claims),
-            holds=all(e.holds for e in evidence) and all(step.holds for step in finding.steps),
+            holds=all(e.holds for e in evidence) and all(finding.steps.values()),
             evidence=evidence,
         )
 

@@ -184,7 +184,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     claims = known.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
     box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
-    return enclose(ratio, box).lower
+    return enclose(ratio, box).ends[0]
 
 
 def _frank_zook_pair(known: Known) -> Evidence:
@@ -273,7 +273,7 @@ def _least_admitted(known: Known) -> Fraction:
     box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
     box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
     box[_DENSITY] = known.judge.inference(_DENSITY).outer.ends
-    return enclose(known.ledger.function(claim, reading=_DERIVED), box).lower
+    return enclose(known.ledger.function(claim, reading=_DERIVED), box).ends[0]
 
 
 def _resistance_for(known: Known, ratio: float, digits: int) -> float:

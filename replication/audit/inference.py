@@ -6,11 +6,10 @@ from fractions import Fraction
 from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Box, Constraint, Solutions, extent, holding, satisfying, solve
-from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
+from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
+from reference.entries import Inferred
+from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
-
-Ends = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, eq=False)

@@ -253,11 +253,10 @@ class Judge:
             )
         else:
             never = found.never and (
-                around.excludes(found.lower, found.upper)
-                or explore(function, whole, around, budget).never
+                around.excludes(*found.ends) or explore(function, whole, around, budget).never
             )
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        judgement = _judgement(claim, convention, verdict, (found.lower, found.upper))
+        judgement = _judgement(claim, convention, verdict, found.ends)
         return replace(judgement, against_evidence=never and found.inside is not None)
 
     def printed(self, claim: Claim) -> Box:

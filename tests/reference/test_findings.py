@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from reference.entries import LedgerError
 from reference.findings import Assertion, load, read
-from reference.ledger import LedgerError
 from reference.ledger import load as load_ledger
 
 LEDGER = load_ledger()
@@ -53,7 +53,7 @@ def test_what_stands_in_quotation_marks_is_the_reports(name: str) -> None:
 @pytest.mark.parametrize("name", TEXTS)
 def test_arithmetic_holds_and_texts_are_complete(name: str) -> None:
     finding = load()[name]
-    assert [step.text for step in finding.steps if not step.holds] == []
+    assert [text for text, holds in finding.steps.items() if not holds] == []
     whole = " ".join((finding.title, finding.statement, finding.by_hand, finding.settle))
     assert not re.search("[{}`]", whole)
     assert finding.by_hand.count("`") == 0
@@ -81,9 +81,9 @@ def changed(**more: Any) -> dict[str, Any]:
 def test_a_good_entry_is_read() -> None:
     finding = read(changed(), LEDGER)["good"]
     assert finding.statement == "It is 7.67 um, printed 7.67 or 0.00767, 8.89."
-    assert (finding.settle, [step.holds for step in finding.steps]) == ("2/3 * 3 = 2.0", [True])
+    assert (finding.settle, finding.steps) == ("2/3 * 3 = 2.0", {"2/3 * 3 = 2.0": True})
     wrong = read(changed(settle="`2/3 * 3 = 2.1`, `ln(1 + 1) = 0.69`"), LEDGER)["good"]
-    assert [step.holds for step in wrong.steps] == [False, True]
+    assert list(wrong.steps.values()) == [False, True]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ from typing import Any, get_args
 import pytest
 
 from reference.arithmetic import Reals
-from reference.ledger import Claim, Convention, Kind, Ledger, LedgerError, load, read, shown
+from reference.entries import Kind, LedgerError
+from reference.ledger import Claim, Convention, Ledger, load, read, shown
 from reference.printed import Rounding
 
 LEDGER = load()
