@@ -26,8 +26,8 @@ from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.engines import ENGINES
-from spreadsheets.plan import Value, WorkbookPlan, place_of
-from spreadsheets.sheets import audit, figures, inputs, lines, steps, table_a1, workbook_plan
+from spreadsheets.plan import NOT_COMPUTED, Value, WorkbookPlan, place_of
+from spreadsheets.sheets import audit, figures, inputs, steps, table_a1, workbook_plan
 from spreadsheets.sheets.audit import Findings
 from spreadsheets.verify import EngineCheck, verify
 
@@ -333,7 +333,7 @@ class _Builder:
             parts[slug] = self._sheet(slug, sheet)
         for slug, sheet in self.coarse.items():
             fine = self.sheets[slug].final_depth * 1e6
-            over = sheet.final_depth * 1e6 / fine if fine else lines.NOT_COMPUTED
+            over = sheet.final_depth * 1e6 / fine if fine else NOT_COMPUTED
             against = {"fine_depth_um": fine, "over_fine": over}
             parts[f"{slug}_coarse"] = self._sheet(slug, sheet) | against
         for part, held in parts.items():
@@ -655,7 +655,7 @@ def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, A
 def _verdict(value: Value, interval: Interval) -> str:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
-        return lines.NOT_COMPUTED
+        return NOT_COMPUTED
     ends = interval.lower, interval.upper
     if interval.is_point:
         # Exact text, such as 2/3, which no double is: to nine digits.
@@ -670,7 +670,7 @@ def _verdict(value: Value, interval: Interval) -> str:
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
     """The check of one number of Table A-1; blank where the table has fewer rows."""
-    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": lines.NOT_COMPUTED}
+    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:

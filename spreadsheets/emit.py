@@ -213,8 +213,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
                 continue
             if book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
                 raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
-        for chart in sheet.charts:
-            _draw(book, page, sheet.name, chart)
+        if sheet.chart:
+            _draw(book, page, sheet.name, sheet.chart)
     book.close()
     return _sealed(buffer.getvalue())
 

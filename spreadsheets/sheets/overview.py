@@ -5,9 +5,8 @@ from itertools import zip_longest
 from textwrap import wrap
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Rule, SheetPlan, place_of
+from spreadsheets.plan import HOME, Rule, SheetPlan, formula, place_of, printed, recorded, text
 from spreadsheets.sheets.audit import KINDS, Findings
-from spreadsheets.sheets.lines import HOME, formula, heads, printed, row_of, text
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
 _HOW = (
@@ -18,28 +17,10 @@ _HOW = (
 )
 
 
-class _Page:
-    """The cells so far, and the row where the next go."""
-
-    def __init__(self) -> None:
-        self.cells: dict[str, Cell] = {}
-        self.row = 1
-
-    def put(self, **cells: Cell) -> None:
-        """One row, by column."""
-        self.cells |= row_of(self.row, cells)
-        self.row += 1
-
-    def say(self, words: str, style: str = "body", width: int = 165) -> None:
-        """Running text, broken into lines."""
-        for line in wrap(words, width):
-            self.put(A=text(line, style))
-
-    def block(self, *words: str, right: str = "") -> None:
-        """The heads of a table, after a blank row."""
-        padded = [*words, *[""] * (6 - len(words))]
-        self.cells |= heads(self.row + 1, "ABCDEF", padded, right)
-        self.row += 2
+def _block(page: SheetPlan, *words: str, right: str = "") -> None:
+    """The heads of a table, after a blank row."""
+    page.row += 1
+    page.heads("ABCDEF", [*words, *[""] * (6 - len(words))], right)
 
 
 def sheet(
@@ -50,40 +31,35 @@ def sheet(
     findings: Findings | None,
 ) -> SheetPlan:
     """The first sheet; `sheets` says what each of the others shows."""
-    report, scheme, page = ledger.report, cases[0].scheme, _Page()
+    report, scheme = ledger.report, cases[0].scheme
+    page = SheetPlan(name=HOME, widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0})
     page.put(A=text(f"{report.title}: the model as a workbook", "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by coldspray {version}; "
-        f"{scheme} scheme: {SCHEMES[scheme]}."
+        f"{scheme} scheme: {SCHEMES[scheme]}.",
+        style="body",
     )
     if findings is not None:
-        page.say(findings.headline, "headline", 140)
-    rules = _results(page, ledger, cases)
+        page.say(findings.headline, style="headline", width=140)
+    _results(page, ledger, cases)
     if findings is not None:
         _audit(page, ledger, findings)
-    first_page = page.row
-    page.block("Sheets")
+        page.page_break = page.row
+    _block(page, "Sheets")
     for name, what in sheets.items():
         page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
-    page.block("How to read it")
+    _block(page, "How to read it")
     for style, what in _HOW:
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
-    return SheetPlan(
-        name=HOME,
-        cells=page.cells,
-        widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0},
-        rules=tuple(rules),
-        print_area=f"A1:F{page.row - 1}",
-        page_break=first_page if findings is not None else None,
-    )
+    page.print_area = f"A1:F{page.row - 1}"
+    return page
 
 
-def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> list[Rule]:
-    page.block(
-        "Results with the inputs in use", "Final depth [µm]", "The report prints",
+def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
+    _block(
+        page, "Results with the inputs in use", "Final depth [µm]", "The report prints",
         "Depth over radius", "The report prints", "State of the run", right="BCDE",
     )  # fmt: skip
-    rules: list[Rule] = []
     for case in cases:
         like = {"unit": "um", "column": f"{case.part}.depth_um"}
         cells = {"A": text(case.name, "link", link=(case.name, "A1"))}
@@ -92,36 +68,33 @@ def _results(page: _Page, ledger: Ledger, cases: Sequence[CaseSheet]) -> list[Ru
             ("D", "normalized_depth", "result", {"number_format": "0.0000"}),
             ("F", "message", "state", {}),
         ):
-            key = f"overview.{case.slug}.{what}"
             shown = f"={case.result(what)}"
             if column == "F" and not case.resistance_given:
                 # Beside the name of a sheet for another beta: the beta in use.
                 there = f"'{case.name}'!"
                 shown = f'=IF({there}I2="","",{there}I1&": ")&{shown[1:]}'
-            cells[column] = formula(key, shown, style, **more)
+            cells[column] = formula(f"overview.{case.slug}.{what}", shown, style, **more)
         if case.depth_claim:
             cells["C"] = printed(ledger, case.depth_claim, "um")
             cells["E"] = printed(ledger, case.ratio_claim)
-        rules += case.rules(f"F{page.row}")
+        page.rules += case.rules(f"F{page.row}")
         page.put(**cells)
     for words, name in (
         ("Inputs that are not the report’s", "inputs_changed"),
         ("Inputs that cannot be used", "inputs_unusable"),
     ):
-        rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
+        page.rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
         page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
-    return rules
 
 
-def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
+def _audit(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
+    heads = ("The report prints", "Inputs in use", "Why, with the report’s inputs")
     for head, names in (
         ("What does not follow from the report", findings.failing),
         ("What public sources give otherwise", findings.differing),
     ):
-        page.block(
-            head, "The report prints", "Inputs in use", "Why, with the report’s inputs", right="BC"
-        )
+        _block(page, head, *heads, right="BC")
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
@@ -135,17 +108,15 @@ def _audit(page: _Page, ledger: Ledger, findings: Findings) -> None:
             page.put(**cells)
             for line in more:
                 page.put(D=text(line, "text"))
-    page.block("Verdicts of the audit", "Numbers", "", "Live verdicts", "Cells", right="BDE")
+    _block(page, "Verdicts of the audit", "Numbers", "", "Live verdicts", "Cells", right="BDE")
     given = [(verdict, count) for verdict, count in findings.counts.items() if count]
     for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
-        number = Cell(number=float(count), style="recorded")
-        cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": number}
+        cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
         if kind:
             cells["D"] = text(kind[0], "number")
             cells["E"] = formula(f"overview.audit_{kind[1]}", f"=audit_{kind[1]}", "result")
         page.put(**cells)
     page.say(
         "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "
-        "as the report does with the inputs in use.",
-        "note",
+        "as the report does with the inputs in use."
     )

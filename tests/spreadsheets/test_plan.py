@@ -279,7 +279,7 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
         ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
     ):
-        (chart,) = SHEETS[name].charts
+        chart = SHEETS[name].chart
         assert words in chart.description
         assert all("[" in title for title in (chart.x_title, chart.y_title))
         for sheet, at in (series.name for series in chart.series):
