@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from spreadsheets.engines import ENGINES, Engine, EngineError, repairs_wrong_value
+from spreadsheets.engines import Engine, EngineError, repairs_wrong_value
 from spreadsheets.plan import Place, Value, WorkbookPlan
 
 Values = Mapping[str, Mapping[str, Value]]
@@ -172,7 +172,7 @@ def verify(
     path: Path,
     plan: WorkbookPlan,
     expected: Values,
-    engines: Sequence[Engine] = ENGINES,
+    engines: Sequence[Engine],
     *,
     long_doubles: float,
 ) -> list[EngineCheck]:

@@ -43,20 +43,24 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write, and verify if asked to."""
     from replication import workbook
-    from spreadsheets import emit
+    from spreadsheets import emit, engines
+    from spreadsheets.verify import verify
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{name_of(options.output)}: a workbook's name ends in .xlsx")
     own = options.case is not None or options.case_file is not None or shared.given(options)
-    cases = [shared.case(options)] if own else workbook.REPORT
-    book = workbook.build(cases, options.scheme, options.rows)
+    case = shared.case(options) if own else None
+    book = workbook.build(case, options.scheme, options.rows)
+    if options.verify and all(engine.missing() for engine in engines.ENGINES):
+        raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
+    emit.write(options.output, book.to_bytes(), force=options.force)
     said, checks = [f"Written: {name_of(options.output)}"], []
     if options.verify:
-        checks = workbook.write_verified(options.output, book, force=options.force)
+        checks = verify(
+            options.output, book.plan, book.cells, engines.ENGINES, long_doubles=book.rounding
+        )
         said += ["", _text(checks, book.rounding)]
-    else:
-        emit.write(options.output, book.to_bytes(), force=options.force)
     passed = all(check.passed for check in checks)
     if options.json:
         shared.print_json(
