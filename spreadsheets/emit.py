@@ -9,7 +9,7 @@ import re
 import zipfile
 from collections.abc import Mapping
 from errno import EEXIST
-from functools import cache, reduce
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -267,20 +267,10 @@ def _lines(sheet: SheetPlan) -> dict[int, int]:
     return lines
 
 
-def _split(address: str) -> tuple[str, int]:
-    column = address.rstrip("0123456789")
-    return column, int(address[len(column) :])
-
-
-@cache
-def _column_number(letters: str) -> int:
-    """XlsxWriter's number of a column: 0 for A, 26 for AA."""
-    return reduce(lambda number, letter: 26 * number + ord(letter) - 64, letters, 0) - 1
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
-    letters, row = _split(address)
-    place = row - 1, _column_number(letters)
+    from xlsxwriter.utility import xl_cell_to_rowcol
+
+    place = xl_cell_to_rowcol(address)
     if cell.link:
         sheet, target = cell.link
         page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)

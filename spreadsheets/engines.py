@@ -1,6 +1,6 @@
 """Real spreadsheet engines, all behind one small interface.
 
-    engine("ironcalc").recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
+    IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
 An engine opens a workbook, computes every formula again and gives the values by sheet and address;
 `Recalculated` says how each kind of value comes back. Two engines come with pip, two from the
@@ -30,7 +30,7 @@ from typing import Any
 from urllib.parse import urljoin
 from xml.etree import ElementTree as ET
 
-Value = float | str | bool
+from spreadsheets.plan import Value
 
 Recalculated = dict[str, dict[str, Value]]
 """Worksheet name -> address such as "B7" -> value.
@@ -70,8 +70,8 @@ class Engine(ABC):
         """None when the engine can be used, or else a sentence on what to install."""
 
     @abstractmethod
-    def _version(self) -> str:
-        """The version; only asked for when the engine is not missing."""
+    def version(self) -> str:
+        """The version of the program that would be used; not asked for when it is missing."""
 
     @abstractmethod
     def _cells(self, path: Path) -> Iterator[Cell]:
@@ -81,11 +81,6 @@ class Engine(ABC):
         """The same for several, in one run of the program where that saves time."""
         return map(self._cells, paths)
 
-    def version(self) -> str:
-        """The version of the program that would be used."""
-        self._require()
-        return self._version()
-
     def recalculate(self, path: Path) -> Recalculated:
         """Compute every formula of an .xlsx file again; the file itself stays as it is."""
         (recalculated,) = self.recalculate_many([path])
@@ -93,17 +88,14 @@ class Engine(ABC):
 
     def recalculate_many(self, paths: Sequence[Path]) -> list[Recalculated]:
         """The same for several files."""
-        self._require()
+        if (reason := self.missing()) is not None:
+            raise EngineError(self.name, reason)
         found: list[Recalculated] = [{name: {} for name in self._sheets(path)} for path in paths]
         for sheets, cells in zip(found, self._cells_of_each(paths), strict=True):
             for sheet, place, value in cells:
                 if value is not None and value != "":
                     sheets.setdefault(sheet, {})[place] = value
         return found
-
-    def _require(self) -> None:
-        if (reason := self.missing()) is not None:
-            raise EngineError(self.name, reason)
 
     def _sheets(self, path: Path) -> list[str]:
         """The worksheets, once every part is well formed: some engines load damaged files."""
@@ -161,7 +153,7 @@ class PipEngine(Engine):
             return None
         return f"The Python package {self.name} is not installed: run pip install {self.name}."
 
-    def _version(self) -> str:
+    def version(self) -> str:
         return version(self.name)
 
 
@@ -233,10 +225,10 @@ class SystemEngine(Engine):
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
 
-    def _version_by(self, command: list[str], pattern: str) -> str:
-        found = re.search(pattern, self._run([*command, "--version"]))
+    def _version_of(self, program: str, pattern: str) -> str:
+        found = re.search(pattern, self._run([program, "--version"]))
         if found is None:
-            raise EngineError(self.name, f"{Path(command[0]).name} does not tell its version")
+            raise EngineError(self.name, f"{Path(program).name} does not tell its version")
         return found[1]
 
 
@@ -258,8 +250,8 @@ class LibreOffice(SystemEngine):
             return str(reason)
         return None
 
-    def _version(self) -> str:
-        return self._version_by([_soffice()], r"LibreOffice\S* (\S+)")
+    def version(self) -> str:
+        return self._version_of(_soffice(), r"LibreOffice\S* (\S+)")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         (cells,) = self._cells_of_each([path])
@@ -321,8 +313,8 @@ class Gnumeric(SystemEngine):
             return None
         return "The command ssconvert is not installed: install the system package gnumeric."
 
-    def _version(self) -> str:
-        return self._version_by(["ssconvert"], r"version '(.+)'")
+    def version(self) -> str:
+        return self._version_of("ssconvert", r"version '(.+)'")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -347,15 +339,6 @@ class Gnumeric(SystemEngine):
 
 
 ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeric())
-
-
-def engine(name: str) -> Engine:
-    """The engine of that name; an unknown name is an EngineError."""
-    for candidate in ENGINES:
-        if candidate.name == name:
-            return candidate
-    known = ", ".join(candidate.name for candidate in ENGINES)
-    raise EngineError(name, f"no such engine; known are {known}")
 
 
 def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
