@@ -121,31 +121,30 @@ _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
 def is_own(path: Path) -> bool:
     """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
 
-    Its seal must be that of its parts, and its parts must make this file again. One that was
-    packed by another version of zlib is not told from one that somebody repacked.
+    Its parts must give its seal, and make this file again. One that was packed by another version
+    of zlib is not told from one that somebody repacked.
     """
     content = path.read_bytes()
     try:
         parts = _unpacked(content)
-        seal = re.search(rb">([0-9a-f]{64})<", parts[_SEALED])
+        return _sealed(parts) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
-    if seal is None or _packed(parts) != content:
-        return False
-    unsealed = parts[_SEALED].replace(seal[1], _UNSEALED.encode())
-    return _digest({**parts, _SEALED: unsealed}) == seal[1].decode()
 
 
-def _digest(parts: Mapping[str, bytes]) -> str:
+def _sealed(parts: dict[str, bytes]) -> bytes:
+    """The file of these parts, with their digest in the place of whatever stands there."""
+    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
     digest = sha256()
     for name, content in parts.items():
         digest.update(b"%s\0%d\0" % (name.encode(), len(content)))
         digest.update(content)
-    return digest.hexdigest()
+    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.hexdigest().encode())
+    return _packed(parts)
 
 
-def _sealed(content: bytes) -> bytes:
-    """The file with its digest, without XlsxWriter's claim to be Excel, and without dates."""
+def _finished(content: bytes) -> bytes:
+    """The file with its seal, without XlsxWriter's claim to be Excel, and without dates."""
     parts = _unpacked(content)
     app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
     app = app.replace(">Microsoft Excel<", ">coldspray<")
@@ -157,9 +156,7 @@ def _sealed(content: bytes) -> bytes:
             # Where nothing is said, LibreOffice draws a smooth curve through the points.
             straight = b'</c:yVal><c:smooth val="0"/>'
             parts[name] = part.replace(b"</c:yVal>", straight)
-    seal = _digest(parts).encode()
-    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), seal)
-    return _packed(parts)
+    return _sealed(parts)
 
 
 def _unpacked(content: bytes) -> dict[str, bytes]:
@@ -216,7 +213,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         if sheet.chart:
             _draw(book, page, sheet.name, sheet.chart)
     book.close()
-    return _sealed(buffer.getvalue())
+    return _finished(buffer.getvalue())
 
 
 _LINE = 13.5

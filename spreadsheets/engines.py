@@ -17,9 +17,8 @@ import subprocess
 import sys
 import warnings
 import zipfile
-import zlib
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
@@ -35,7 +34,7 @@ from spreadsheets.plan import Value
 Recalculated = dict[str, dict[str, Value]]
 """Worksheet name -> address such as "B7" -> value.
 
-- Every worksheet is a key, even one without values. Chart sheets are left out.
+- A worksheet without values, or a chart sheet, is absent.
 - A number is a float, and so is a date (its serial number).
 - A boolean is a bool; LibreOffice stores booleans as numbers and gives 1.0 and 0.0, which compare
   equal to True and False.
@@ -75,7 +74,7 @@ class Engine(ABC):
 
     @abstractmethod
     def _cells(self, path: Path) -> Iterator[Cell]:
-        """Recalculate a sound workbook and yield its cells, blank ones included or not."""
+        """Recalculate a workbook and yield its cells, blank ones included or not."""
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
         """The same for several, in one run of the program where that saves time."""
@@ -90,26 +89,13 @@ class Engine(ABC):
         """The same for several files."""
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
-        found: list[Recalculated] = [{name: {} for name in self._sheets(path)} for path in paths]
-        for sheets, cells in zip(found, self._cells_of_each(paths), strict=True):
+        recalculated: list[Recalculated] = []
+        for cells in self._cells_of_each(paths):
+            recalculated.append({})
             for sheet, place, value in cells:
                 if value is not None and value != "":
-                    sheets.setdefault(sheet, {})[place] = value
-        return found
-
-    def _sheets(self, path: Path) -> list[str]:
-        """The worksheets, once every part is well formed: some engines load damaged files."""
-        try:
-            with zipfile.ZipFile(path) as archive:
-                for part in archive.namelist():
-                    if part.endswith((".xml", ".rels")):
-                        _parsed(archive, part)
-                sheets = worksheets(archive)
-                for part in sheets.values():
-                    archive.getinfo(part)
-                return list(sheets)
-        except (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError) as error:
-            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+                    recalculated[-1].setdefault(sheet, {})[place] = value
+        return recalculated
 
 
 # The parts of an .xlsx file: enough to find its worksheets and their cells
@@ -203,24 +189,37 @@ class Formualizer(PipEngine):
 # From the system
 
 
+def run_program(
+    command: list[str], seconds: float, before: Callable[[], None] | None = None
+) -> tuple[int, str, str]:
+    """Run a command in a group of its own; give its status, output and complaint.
+
+    None of its processes is left behind. before: called in the new process. Raises TimeoutExpired.
+    """
+    posix, pipe = os.name == "posix", subprocess.PIPE
+    with subprocess.Popen(
+        command, stdout=pipe, stderr=pipe, text=True, errors="replace", start_new_session=True,
+        preexec_fn=before if posix else None,
+    ) as process:  # fmt: skip
+        try:
+            output, complaint = process.communicate(timeout=seconds)
+        finally:
+            with suppress(ProcessLookupError):  # the good case: nothing is left
+                os.killpg(process.pid, signal.SIGKILL) if posix else process.kill()
+            process.communicate()  # its pipes end with the last process that holds them
+    return process.returncode, output, complaint
+
+
 class SystemEngine(Engine):
     """An engine that is a program of its own."""
 
     def _run(self, command: list[str], workbooks: int = 1) -> str:
-        """Run a command in a group of its own and leave none of its processes behind."""
-        limit, pipe = TIME_LIMIT_S * workbooks, subprocess.PIPE
-        with subprocess.Popen(
-            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
-        ) as process:
-            try:
-                output, complaint = process.communicate(timeout=limit)
-            except subprocess.TimeoutExpired as error:
-                raise EngineError(self.name, f"no answer within {limit} s") from error
-            finally:
-                with suppress(ProcessLookupError):  # the good case: nothing is left
-                    os.killpg(process.pid, signal.SIGKILL)
-                process.communicate()  # its pipes end with the last process that holds them
-        if process.returncode != 0:
+        limit = TIME_LIMIT_S * workbooks
+        try:
+            status, output, complaint = run_program(command, limit)
+        except subprocess.TimeoutExpired as error:
+            raise EngineError(self.name, f"no answer within {limit} s") from error
+        if status != 0:
             # The last line says why; those before it are the program's own chatter.
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
