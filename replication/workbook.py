@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from importlib.metadata import version
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -182,6 +181,7 @@ class _Builder:
         blocks = inputs.inputs_of(list(self.pages.values()), report=case is None)
         self.entries = {entry.name: entry for block in blocks.values() for entry in block}
         self.typed = {name: self._to_type(entry) for name, entry in self.entries.items()}
+        self.changed = {n for n, e in self.entries.items() if self.typed[n] != e.of_report(ledger)}
         self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
         # The cases with the numbers that their cells hold.
         held = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
@@ -246,9 +246,6 @@ class _Builder:
             cases,
             [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse],
             findings,
-            version=version("coldspray"),
-            warning_limits=(COARSE, DEEP),
-            shown=self._shown(),
         )
         values = {
             key: value if isinstance(value, str) else float(value) for key, value in self._values()
@@ -289,33 +286,29 @@ class _Builder:
                 yield f"{part}.{what}", value
 
     def _inputs(self) -> Iterator[tuple[str, Any]]:
-        for name, entry in self.entries.items():
-            same = self.typed[name] == entry.of_report(self.ledger)
+        for name in self.entries:
             yield name, self.si[name]
             yield f"{name}.typed", self.typed[name]
             own = "as inferred" if name == "rho_t" else "the report’s"
-            yield f"{name}.check", own if same else "yours"
+            yield f"{name}.check", "yours" if name in self.changed else own
         yield from {
             "from": "yours",
             "unusable": 0,
-            "changed": self._changed,
-            "message": inputs.MESSAGES["changed" if self._changed else "same"],
+            "changed": len(self.changed),
+            "message": inputs.MESSAGES["changed" if self.changed else "same"],
             "D_p": self.first.diameter,
             "M_p": self.first.mass,
             "half_step": self.first.step / 2 * 1e9,
             "mean_radius": self.si["D_mean"] / 2 * 1e6,
+            "travel_most": COARSE,
+            "excess_most": DEEP,
         }.items()
         for slug, impact in self.impacts.items():
             if impact.resistance is None:
                 yield self.pages[slug].named("R_t"), impact.target_resistance
 
-    @property
-    def _changed(self) -> int:
-        """How many inputs are not the report's."""
-        return sum(self.typed[n] != e.of_report(self.ledger) for n, e in self.entries.items())
-
     def _overview(self) -> Iterator[tuple[str, Any]]:
-        yield from {"inputs_changed": self._changed, "inputs_unusable": 0}.items()
+        yield from {"inputs_changed": len(self.changed), "inputs_unusable": 0}.items()
         for slug, sheet in self.sheets.items():
             yield f"{slug}.depth_um", sheet.final_depth * 1e6
             yield f"{slug}.normalized_depth", sheet.normalized_depth
@@ -387,30 +380,6 @@ class _Builder:
         for name, value in of_runs.items():
             yield from {f"run.{name}": value, f"in_use.{name}": value, f"same.{name}": 1}.items()
         yield "message", figures.CURRENT
-
-    def _shown(self) -> dict[str, str]:
-        """What the charts show as written, in words."""
-        ends = ", ".join(
-            f"{self.pages[slug].label} reaches {sheet.final_depth * 1e6:.4g} µm after "
-            f"{sheet.rows[-1].time * 1e9:.3g} ns"
-            for slug, sheet in self.sheets.items()
-        )
-        axis = (replace(self.last, velocity=self.si[name]) for name in ("V_from", "V_to"))
-        low, high = (
-            f"{depth.normalized_depth(*_materials(end)):.3g} at {end.velocity:.4g} m/s"
-            for end in axis
-        )
-        steps = [f"{step * 1e9:.3g} ns" for step in self.ladder]
-        errors = ", ".join(
-            f"{self.pages[slug].label} from {levels['size[0]']:.2g} µm at {steps[0]} "
-            f"to {levels[f'size[{figures.LEVELS - 1}]']:.2g} µm at {steps[-1]}"
-            for slug, levels in self.levels.items()
-        )
-        return {
-            "Figure 3": f"As written, {ends}.",
-            "Figure 5": f"As written, for {_label(self.last)}, from {low} to {high}.",
-            "Convergence": f"For {errors}.",
-        }
 
     def _frank_zook(self) -> Iterator[tuple[str, Any]]:
         impact, ratio, k_t = self.last, frank_zook.sphere_length_ratio(), self.si["k_t"]
@@ -574,7 +543,7 @@ def _row_values(sheet: Sheet, rows: int) -> Iterator[tuple[str, Any]]:
 
 
 def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, Any]:
-    """Final depths at a ladder of steps against the depth at rest, in um."""
+    """Final depths at steps, each half of the one before, against the depth at rest, in um."""
     rest = depth.final_depth(*impact.motion.values()) * 1e6
     held: dict[str, Any] = {"rest_um": rest}
     errors = []
@@ -584,10 +553,9 @@ def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, A
         errors.append(reached - rest)
         held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": reached}
         held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
-    ratios = [math.log(a / b) for a, b in pairwise(ladder)]
-    for k, ((above, here), ratio) in enumerate(zip(pairwise(errors), ratios, strict=True), 1):
+    for k, (above, here) in enumerate(pairwise(errors), 1):
         defined = min(above, here) > 0 or max(above, here) < 0
-        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else figures.NO_ORDER
+        held[f"order[{k}]"] = math.log(above / here) / math.log(2) if defined else figures.NO_ORDER
     return held
 
 

@@ -211,7 +211,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             if book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
                 raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         if sheet.chart:
-            _draw(book, page, sheet.name, sheet.chart)
+            _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
     book.close()
     return _finished(buffer.getvalue())
 
@@ -336,7 +336,7 @@ _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
-def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
+def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for series, look in zip(chart.series, DASHES, strict=False):
@@ -359,4 +359,4 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     drawn.set_y_axis({"name": chart.y_title, **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
-    page.insert_chart(chart.at, drawn, {"description": chart.description})
+    page.insert_chart(chart.at, drawn, {"description": description})

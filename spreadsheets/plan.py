@@ -84,8 +84,10 @@ def formula(key: str, expression: str, style: str = "number", **more: Any) -> Ce
     return Cell(key=key, formula=expression, style=style, **more)
 
 
-def recorded(number: float, **more: Any) -> Cell:
-    """A cell with a number that follows no change of the inputs."""
+def recorded(number: float | str, **more: Any) -> Cell:
+    """A cell with a number that follows no change of the inputs, or the key of such a number."""
+    if isinstance(number, str):
+        return Cell(key=number, style="recorded", **more)
     return Cell(number=number, style="recorded", **more)
 
 
@@ -122,8 +124,9 @@ class Series(NamedTuple):
 class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
-    Axis titles name quantity and unit; `description` says in words what the chart shows. With
-    `logarithmic` both axes are. size: width and height in pixels.
+    Axis titles name quantity and unit. With `logarithmic` both axes are. size: width and height in
+    pixels. description: says in words what the chart shows, with values by key as written:
+    "{high.depth_um:.4g}".
     """
 
     at: str
@@ -134,6 +137,10 @@ class Chart:
     series: tuple[Series, ...]
     logarithmic: bool = False
     size: tuple[int, int] = (820, 470)
+
+    def described(self, values: Mapping[str, Value]) -> str:
+        """The description with its values."""
+        return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
 
 
 LINE_HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")

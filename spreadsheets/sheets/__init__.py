@@ -4,6 +4,7 @@ It has the results, whether they can be trusted, what the audit found, and the s
 """
 
 from collections.abc import Mapping, Sequence
+from importlib.metadata import version
 from itertools import zip_longest
 from textwrap import wrap
 
@@ -23,33 +24,30 @@ from spreadsheets.sheets import audit, figures, inputs, models, steps, table_a1
 from spreadsheets.sheets.audit import KINDS, Findings
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
+PROGRAM = f"coldspray {version('coldspray')}"
+
 
 def workbook_plan(
     ledger: Ledger,
     cases: Sequence[CaseSheet],
     coarse: Sequence[CaseSheet] = (),
     findings: Findings | None = None,
-    *,
-    version: str,
-    warning_limits: tuple[float, float],
-    shown: Mapping[str, str],
 ) -> WorkbookPlan:
     """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
 
     With `coarse`, the same cases with the coarser step, and `findings`, the result of the audit, it
-    is the report's own workbook, with all that is about the report alone. version: the program's.
-    warning_limits: see `inputs.sheet`. shown: sheet -> what its chart shows as written, in words.
-    Raises ValueError where the ledger has a claim computed by a cell that is none.
+    is the report's own workbook, with all that is about the report alone. Raises ValueError where
+    the ledger has a claim computed by a cell that is none.
     """
     report, last = findings is not None, cases[-1]
     table = table_a1.sheet(ledger, last, report)
-    sheets = [inputs.sheet(ledger, cases, report, warning_limits), table]
+    sheets = [inputs.sheet(ledger, cases, report), table]
     sheets += [table_a1.check_sheet(ledger, table)] if report else []
     sheets += [steps.sheet(ledger, case) for case in (*cases, *coarse)]
     sheets += [
-        figures.figure_3(cases, shown["Figure 3"]),
-        figures.figure_5(last, shown["Figure 5"]),
-        figures.convergence(cases, shown["Convergence"]),
+        figures.figure_3(cases),
+        figures.figure_5(last),
+        figures.convergence(cases),
         models.frank_zook(ledger),
         models.crater(ledger),
         models.resistance(ledger, cases),
@@ -66,12 +64,12 @@ def workbook_plan(
                 )
     said = {sheet.name: _SAID.get(sheet.name, "") for sheet in sheets}
     said |= {case.name: _SHEET for case in cases} | {case.name: _COARSE for case in coarse}
-    first = _overview(ledger, cases, said, version, findings)
+    first = _overview(ledger, cases, said, findings)
     return WorkbookPlan(
         sheets=(first, *sheets),
         title=f"{ledger.report.title}: the model as a workbook",
         properties={
-            "author": f"coldspray {version}",
+            "author": PROGRAM,
             "subject": f"The model of a report by {ledger.report.author} "
             f"({ledger.report.year}), as live formulas beside their computed values",
             "keywords": "cold spray, penetration, replication, audit",
@@ -118,7 +116,6 @@ def _overview(
     ledger: Ledger,
     cases: Sequence[CaseSheet],
     sheets: Mapping[str, str],
-    version: str,
     findings: Findings | None,
 ) -> SheetPlan:
     """The first sheet; `sheets` says what each of the others shows."""
@@ -126,7 +123,7 @@ def _overview(
     page = SheetPlan(name=HOME, widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0})
     page.put(A=text(f"{report.title}: the model as a workbook", "title"))
     page.say(
-        f"After the report by {report.author} ({report.year}). Written by coldspray {version}; "
+        f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
         f"{scheme} scheme: {SCHEMES[scheme]}.",
         style="body",
     )

@@ -11,6 +11,7 @@ from spreadsheets.plan import (
     SheetPlan,
     formula,
     guarded,
+    recorded,
     text,
 )
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, rest_depth
@@ -19,9 +20,14 @@ _CHART_ROWS = 26
 """Rows that a chart covers, with the default height of 20 pixels, and some room."""
 
 
-def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
-    """Depth against time, one curve for each case; `written` says what it shows as written."""
+def figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
+    """Depth against time, one curve for each case."""
     first, series = 7, []
+    written = ", ".join(
+        f"{case.label} reaches {{{case.slug}.depth_um:.4g}} µm after "
+        f"{{figure_3.{case.slug}.time[{case.rows}]:.3g}} ns"
+        for case in cases
+    )
     page = SheetPlan(
         name="Figure 3", widths=dict.fromkeys("PQRS", 14.0), print_area=f"A1:N{5 + _CHART_ROWS}"
     )
@@ -53,7 +59,7 @@ def figure_3(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         at="A6",
         title="Penetration depth against time",
         description="Line chart: depth x in µm against time in ns, one curve for each case, the "
-        f"first solid and the second dashed. {written}",
+        f"first solid and the second dashed. As written, {written}.",
         x_title="Time [ns]",
         y_title="Penetration depth [µm]",
         series=tuple(series),
@@ -65,7 +71,7 @@ POINTS = 21
 """Velocities of Figure 5, both ends included."""
 
 
-def figure_5(case: CaseSheet, written: str) -> SheetPlan:
+def figure_5(case: CaseSheet) -> SheetPlan:
     """Normalized depth against velocity for one case; the report's is that of beta = 5."""
     first = 7
     last = first + POINTS - 1
@@ -105,11 +111,15 @@ def figure_5(case: CaseSheet, written: str) -> SheetPlan:
                 number_format="General" if column == "Q" else "0.0000",
                 transcendental=column in "STU",
             )
+    ends = [
+        f"{{figure_5.normalized_depth[{k}]:.3g}} at {{figure_5.velocity[{k}]:.4g}} m/s"
+        for k in (0, POINTS - 1)
+    ]
     page.chart = Chart(
         at="A7",
         title="Normalized penetration depth against impact velocity",
         description="Line chart: normalized depth X/R at rest against impact velocity in m/s. "
-        f"{written}",
+        f"As written, for {case.label}, from {ends[0]} to {ends[1]}.",
         x_title="Impact velocity [m/s]",
         y_title="Normalized depth X/R [–]",
         series=(Series((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}"),),
@@ -139,7 +149,7 @@ _LADDER = {
 """What stands in the columns of a case, and its number format."""
 
 
-def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
+def convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     """The final depth at a ladder of time steps against the depth at rest."""
     first = 11
     last = first + LEVELS - 1
@@ -163,14 +173,19 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
     for k in range(LEVELS):
         ns = f"=A{page.row}*1000000000"
         page.put(
-            A=_recorded(f"convergence.step[{k}]", "0.00E+00"),
+            A=recorded(f"convergence.step[{k}]", number_format="0.00E+00"),
             B=formula(f"convergence.step_ns[{k}]", ns, number_format="0.0000"),
         )
     page.put(A=text("At rest, without steps"))
-    series, names = [], list(RUN_INPUTS)
+    series, names, written = [], list(RUN_INPUTS), []
     for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
         names.append(case.named("R_t"))
         _levels(page, case, columns, first)
+        ends = (
+            f"{{convergence.{case.slug}.size[{k}]:.2g}} µm at {{convergence.step_ns[{k}]:.3g}} ns"
+            for k in (0, LEVELS - 1)
+        )
+        written.append(f"{case.label} from {' to '.join(ends)}")
         size = columns[3]
         # Called as it was when it was computed: the head of its columns.
         whose = "Convergence", f"{columns[0]}{first - 3}"
@@ -181,7 +196,8 @@ def convergence(cases: Sequence[CaseSheet], written: str) -> SheetPlan:
         at=f"A{last + 4}",
         title="Error of the final depth against the time step",
         description="Line chart with logarithmic axes: size of the error of the final depth in µm "
-        f"against the time step in ns, the first case solid, the second dashed. {written}",
+        "against the time step in ns, the first case solid, the second dashed. "
+        f"For {', '.join(written)}.",
         x_title="Time step [ns]",
         y_title="|final depth - depth at rest| [µm]",
         series=tuple(series),
@@ -201,23 +217,20 @@ def _levels(page: SheetPlan, case: CaseSheet, columns: str, first: int) -> None:
     page.row = first - 2
     page.heads(columns, words, columns, ("", "µm", "µm", "µm", "–"))
     page.cells[f"{columns[0]}{first - 3}"] = text(f"{case.name}, {case.label}", "block")
-    page.cells[f"{columns[1]}{first + LEVELS}"] = _recorded(f"{part}.rest_um", "0.000000")
+    page.cells[f"{columns[1]}{first + LEVELS}"] = recorded(
+        f"{part}.rest_um", number_format="0.000000"
+    )
     for k, row in enumerate(range(first, first + LEVELS)):
         for column, (what, shown) in zip(columns, _LADDER.items(), strict=True):
             key = f"{part}.{what}[{k}]"
             if what != "order":
-                page.cells[f"{column}{row}"] = _recorded(key, shown)
+                page.cells[f"{column}{row}"] = recorded(key, number_format=shown)
             elif k:
                 order = f"LN({error}{row - 1}/{error}{row})/LN(A{row - 1}/A{row})"
                 order = f'=IFERROR({order},"{NO_ORDER}")'
                 page.cells[f"{column}{row}"] = formula(
                     key, order, number_format=shown, transcendental=True
                 )
-
-
-def _recorded(key: str, shown: str) -> Cell:
-    """A number that was computed when the workbook was written."""
-    return Cell(key=key, style="recorded", number_format=shown)
 
 
 def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
@@ -230,7 +243,7 @@ def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
         page.put(
             I=text(name, "text"),
-            J=_recorded(f"convergence.run.{name}", shown),
+            J=recorded(f"convergence.run.{name}", number_format=shown),
             K=formula(f"convergence.in_use.{name}", f"={name}", number_format=shown),
             L=formula(f"convergence.same.{name}", same, "text", number_format='"same";;"other"'),
         )

@@ -157,14 +157,8 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input
     return blocks
 
 
-def sheet(
-    ledger: Ledger, cases: Sequence[CaseSheet], report: bool, warning_limits: tuple[float, float]
-) -> SheetPlan:
-    """The sheet for these cases, which share every input but the target resistance.
-
-    warning_limits: above which share of the radius a step, and above which share of the exact
-    depth the sheet's excess over it, deserves a warning.
-    """
+def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan:
+    """The sheet for these cases, which share every input but the target resistance."""
     page = SheetPlan(name="Inputs")
     page.title("Inputs")
     page.say(
@@ -189,8 +183,9 @@ def sheet(
     for name, meaning, value, unit in (
         ("pi_", "circumference over diameter, π", math.pi, "1"),
         ("ksi_Pa", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
-        ("travel_most", "a step may pass this share of the radius", warning_limits[0], "1"),
-        ("excess_most", "the sheet may exceed the exact depth by", warning_limits[1], "1"),
+        # Beyond these the command warns, too.
+        ("travel_most", "a step may pass this share of the radius", "inputs.travel_most", "1"),
+        ("excess_most", "the sheet may exceed the exact depth by", "inputs.excess_most", "1"),
     ):
         number, named = recorded(value, name=name, unit=unit), text(name, "unit")
         page.put(B=text(meaning), F=number, G=unit_text(unit), M=named)

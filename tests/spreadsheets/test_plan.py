@@ -280,7 +280,7 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
     ):
         chart = SHEETS[name].chart
-        assert words in chart.description
+        assert words in chart.described(BOOK.values)
         assert all("[" in title for title in (chart.x_title, chart.y_title))
         for sheet, at in (series.name for series in chart.series):
             assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
