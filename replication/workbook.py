@@ -117,6 +117,7 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under its scheme."""
     from replication.audit.verdict import Verdict
 
+    usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
     verdicts = {claim.id: str(claim.verdict) for claim in record.claims}
     explanations = {claim.id: claim.explanation for claim in record.claims}
     for name in explanations if scheme != SCHEMES[0] else ():
@@ -124,8 +125,7 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
             explanations[name] = f"With the {SCHEMES[0]} scheme: {explanations[name]}"
     for claim in record.claims:
         for judged in claim.otherwise:
-            usual = judged.rounding, judged.choices, judged.header, judged.scheme
-            if usual == (Rounding.AWAY.value, "exact", "rounded", scheme):
+            if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
                 verdicts[claim.id] = str(judged.verdict)
     counts = Counter(verdicts.values())
     return Findings(

@@ -30,14 +30,11 @@ def options(command: argparse.ArgumentParser) -> None:
         metavar="N",
         help="time steps to prepare (default: twice those needed)",
     )
-    command.add_argument("--quiet", action="store_true", help="no warnings and no other words")
     command.add_argument(
         "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
     )
-    command.add_argument("--json", action="store_true", help="print JSON")
-    command.add_argument(
-        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
-    )
+    shared.output_options(command, quiet="no warnings and no other words")
+    shared.scheme_option(command)
     shared.input_options(command, "the report's two cases")
 
 
