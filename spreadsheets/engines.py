@@ -16,7 +16,6 @@ import signal
 import subprocess
 import sys
 import warnings
-import zipfile
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -26,8 +25,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from urllib.parse import urljoin
-from xml.etree import ElementTree as ET
 
 from spreadsheets.plan import Value
 
@@ -98,29 +95,6 @@ class Engine(ABC):
         return recalculated
 
 
-# The parts of an .xlsx file: enough to find its worksheets and their cells
-
-
-def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
-    """Each worksheet's name, in the workbook's order -> the part that holds its cells."""
-    parts = {
-        # A target is relative to xl/ unless it starts at the root.
-        relation.attrib["Id"]: urljoin("/xl/", relation.attrib["Target"])[1:]
-        for relation in _parsed(archive, "xl/_rels/workbook.xml.rels")
-        if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
-    }
-    related = {
-        # The namespace of r:id differs between the two kinds of Office Open XML.
-        sheet.attrib["name"]: next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
-        for sheet in _parsed(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
-    }
-    return {name: parts[relation] for name, relation in related.items() if relation in parts}
-
-
-def _parsed(archive: zipfile.ZipFile, part: str) -> ET.Element:
-    return ET.fromstring(archive.read(part))
-
-
 def address(row: int, column: int) -> str:
     """The cell in that row and column, both counted from 1: (7, 2) is B7."""
     from openpyxl.utils import get_column_letter
@@ -149,26 +123,30 @@ class IronCalc(PipEngine):
     name = "ironcalc"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        import ironcalc
-
-        try:
-            model = ironcalc.load_from_xlsx(str(path))
-        except ironcalc.WorkbookError as error:
-            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+        model, sheets = _ironcalc(self.name, path)
         model.evaluate()
-        sheets = [sheet["name"] for sheet in model.get_worksheets_properties()]
         for sheet, row, column in model.get_all_cells():
             yield sheets[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
+def _ironcalc(engine: str, path: Path) -> tuple[Any, list[str]]:
+    """A workbook in IronCalc, and the names of its worksheets."""
+    import ironcalc
+
+    try:
+        model = ironcalc.load_from_xlsx(str(path))
+    except ironcalc.WorkbookError as error:
+        raise EngineError(engine, f"cannot read {path}: {error}") from error
+    return model, [sheet["name"] for sheet in model.get_worksheets_properties()]
+
+
 class Formualizer(PipEngine):
-    """Exact doubles and booleans; it cannot be asked which cells there are, so the file is."""
+    """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
 
     name = "formualizer"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         import formualizer
-        from openpyxl.utils.cell import coordinate_to_tuple
 
         try:
             workbook = formualizer.load_workbook(str(path))
@@ -177,13 +155,12 @@ class Formualizer(PipEngine):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        with zipfile.ZipFile(path) as archive:
-            for sheet, part in worksheets(archive).items():
-                for cell in _parsed(archive, part).iterfind("{*}sheetData/{*}row/{*}c"):
-                    value = workbook.get_value(sheet, *coordinate_to_tuple(cell.attrib["r"]))
-                    if isinstance(value, dict):  # an error
-                        value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
-                    yield sheet, cell.attrib["r"], value
+        model, sheets = _ironcalc(self.name, path)
+        for sheet, row, column in model.get_all_cells():
+            value = workbook.get_value(sheets[sheet], row, column)
+            if isinstance(value, dict):  # an error
+                value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
+            yield sheets[sheet], address(row, column), value
 
 
 # From the system
