@@ -9,9 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from importlib.metadata import version
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.ledger import Ledger, load
@@ -25,18 +23,12 @@ from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
-from spreadsheets.engines import ENGINES
-from spreadsheets.plan import Value, WorkbookPlan, place_of
-from spreadsheets.sheets import audit, figures, inputs, lines, steps, table_a1, workbook_plan
+from spreadsheets.plan import NOT_COMPUTED, Value, WorkbookPlan, place_of
+from spreadsheets.sheets import audit, figures, inputs, steps, table_a1, workbook_plan
 from spreadsheets.sheets.audit import Findings
-from spreadsheets.verify import EngineCheck, verify
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
-
-REPORT = (BETA_3, BETA_5)
-"""The cases of the report's own workbook, which has besides what is about the report alone: the
-sheets with its other time step, the check of Table A-1, and the audit."""
 
 
 @dataclass(frozen=True)
@@ -61,52 +53,40 @@ class Workbook:
         return emit.cell_values(self.plan, self.values)
 
 
-def write_verified(path: Path, book: Workbook, *, force: bool = False) -> list[EngineCheck]:
-    """Write the workbook and recalculate it in every engine of this machine.
-
-    Raises ValueError when there is no engine at all, and as `emit.write` does; nothing is written
-    then.
-    """
-    if all(engine.missing() for engine in ENGINES):
-        raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
-    emit.write(path, book.to_bytes(), force=force)
-    return verify(path, book.plan, book.cells, ENGINES, long_doubles=book.rounding)
-
-
 def build(
-    cases: Sequence[Impact] = REPORT,
+    case: Impact | None = None,
     scheme: str = "published",
     rows: int | None = None,
     record: "Record | None" = None,
     *,
     ledger: Ledger | None = None,
-    typed: Mapping[str, float] | None = None,
 ) -> Workbook:
-    """The workbook of one case, or the report's: that of two cases that differ only in beta.
+    """The workbook of a case; or, of none, the report's own.
 
-    The report's is written for `REPORT`; two other cases are as if typed into it. scheme: one of
-    `SCHEMES`. rows: those to prepare after row 0, by default twice as many as the longest case
-    takes. record: the finished audit, made where it is needed and not given. typed: other inputs
-    than the report's, by name and in the unit of their cells. A number that the cell of its unit
-    cannot hold to the last bit is taken as the nearest that it can.
+    That has both cases of the report, and what is about the report alone: the sheets with its other
+    time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: those to
+    prepare after row 0, by default twice as many as the longest case takes. record: the finished
+    audit, made where it is needed and not given. A number that the cell of its unit cannot hold to
+    the last bit is taken as the nearest that it can.
 
-    Raises ValueError where a number is outside of what the workbook takes, where a case takes more
-    steps than there are rows, and for cases that cannot share a workbook.
+    Raises ValueError where a number is outside of what the workbook takes, and where a case takes
+    more steps than there are rows.
 
-    >>> book = build([BETA_5])
+    >>> book = build(BETA_5)
     >>> place = book.plan.where["case.depth_um"]
     >>> place[0], f"{book.values['case.depth_um']:.2f}"
     ('Sheet beta 5', '7.67')
     """
     if scheme not in SCHEMES:
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
-    builder = _Builder(tuple(cases), scheme, rows, ledger or load(), typed or {})
-    if builder.report and record is None:
+    builder = _Builder(case, scheme, rows, ledger or load())
+    if case is not None:
+        return builder.workbook(None)
+    if record is None:
         from replication.audit.audit import audit
 
         record = audit()
-    findings = _findings(record, scheme, builder.ledger) if builder.report and record else None
-    return builder.workbook(findings)
+    return builder.workbook(findings_of(record, scheme, builder.ledger))
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -133,10 +113,11 @@ def rounding_bound(sheet: Sheet) -> float:
     return 4 * (2 * n + 41) * max(1.0, stretch) * 2.0**-53
 
 
-def _findings(record: "Record", scheme: str, ledger: Ledger) -> Findings:
+def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under its scheme."""
     from replication.audit.verdict import Verdict
 
+    usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
     verdicts = {claim.id: str(claim.verdict) for claim in record.claims}
     explanations = {claim.id: claim.explanation for claim in record.claims}
     for name in explanations if scheme != SCHEMES[0] else ():
@@ -144,8 +125,7 @@ def _findings(record: "Record", scheme: str, ledger: Ledger) -> Findings:
             explanations[name] = f"With the {SCHEMES[0]} scheme: {explanations[name]}"
     for claim in record.claims:
         for judged in claim.otherwise:
-            usual = judged.rounding, judged.choices, judged.header, judged.scheme
-            if usual == (Rounding.AWAY.value, "exact", "rounded", scheme):
+            if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
                 verdicts[claim.id] = str(judged.verdict)
     counts = Counter(verdicts.values())
     return Findings(
@@ -194,39 +174,26 @@ _TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resista
 class _Builder:
     """Computes the values of one workbook. A case is known by its slug: low and high, or case."""
 
-    def __init__(
-        self,
-        cases: Sequence[Impact],
-        scheme: str,
-        rows: int | None,
-        ledger: Ledger,
-        typed: Mapping[str, float],
-    ) -> None:
-        if not 1 <= len(cases) <= 2:
-            raise ValueError(f"a workbook holds one or two cases, not {len(cases)}")
-        self.report, self.scheme, self.ledger = len(cases) == 2, scheme, ledger
-        slugs = ("low", "high") if self.report else ("case",)
-        given = dict(zip(slugs, cases, strict=True))
-        self.written = dict(zip(slugs, REPORT, strict=True)) if self.report else given
-        self.pages = {slug: self._page(slug, impact) for slug, impact in self.written.items()}
-        blocks = inputs.inputs_of(list(self.pages.values()), self.report)
+    def __init__(self, case: Impact | None, scheme: str, rows: int | None, ledger: Ledger) -> None:
+        self.scheme, self.ledger = scheme, ledger
+        self.cases = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
+        self.pages = {slug: self._page(slug, impact) for slug, impact in self.cases.items()}
+        blocks = inputs.inputs_of(list(self.pages.values()), report=case is None)
         self.entries = {entry.name: entry for block in blocks.values() for entry in block}
-        self.typed = self._all_typed(given, typed)
+        self.typed = {name: self._to_type(entry) for name, entry in self.entries.items()}
+        self.changed = {n for n, e in self.entries.items() if self.typed[n] != e.of_report(ledger)}
         self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
-        self.impacts = {slug: self._held(impact) for slug, impact in given.items()}
-        self.runs = {slug: self._held(impact) for slug, impact in self.written.items()}
+        # The cases with the numbers that their cells hold.
+        held = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
+        self.impacts = {slug: replace(impact, **held) for slug, impact in self.cases.items()}
         self.first, self.last = (list(self.impacts.values())[k] for k in (0, -1))
         self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
         self.coarse: dict[str, Sheet] = {}
-        for slug, impact in self.impacts.items() if self.report else ():
+        for slug, impact in self.impacts.items() if case is None else ():
             self.coarse[slug] = run(replace(impact, step=self.si[inputs.COARSE]), scheme)
-        self.rows = steps.prepared_rows(max(run(i, scheme).steps for i in self.runs.values()), rows)
-        longest = max(sheet.steps for sheet in (*self.sheets.values(), *self.coarse.values()))
-        if longest > self.rows:
-            raise ValueError(f"the case needs {longest} steps, and the workbook has {self.rows}")
-        step = next(iter(self.runs.values())).step
-        self.ladder = [step * 2.0 ** (4 - k) for k in range(figures.LEVELS)]
-        self.levels = {slug: _levels(i, self.ladder, scheme) for slug, i in self.runs.items()}
+        self.rows = steps.prepared_rows(max(s.steps for s in self.sheets.values()), rows)
+        self.ladder = [self.first.step * 2.0 ** (4 - k) for k in range(figures.LEVELS)]
+        self.levels = {slug: _levels(i, self.ladder, scheme) for slug, i in self.impacts.items()}
 
     def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
         """What the plan must know of a case's sheet, but for its length."""
@@ -245,49 +212,30 @@ class _Builder:
             resistance_given=impact.resistance is not None,
         )
 
-    def _all_typed(
-        self, cases: Mapping[str, Impact], typed: Mapping[str, float]
-    ) -> dict[str, float]:
-        """The number to type into every input's cell. Raises ValueError outside of its limits."""
-        first, *others = cases.values()
-        for name in _CASE_INPUTS.values():
-            given = {getattr(impact, name) for impact in (first, *others)}
-            if len(given) > 1 or (others and name == "resistance" and given != {None}):
-                raise ValueError(f"the two cases may differ in beta only, not in {name}")
-        numbers = {}
-        for name, entry in self.entries.items():
-            if name in _CASE_INPUTS:
-                number = _typed(getattr(first, _CASE_INPUTS[name]), entry.unit)
-            elif name.startswith("beta"):
-                number = cases[name.partition("_")[2] or "case"].beta or 0.0
-            else:
-                number = typed.get(name, entry.of_report(self.ledger))
-            limits = entry.limits
-            if not limits.least <= number <= limits.most:
-                what = entry.meaning or self.ledger.title(entry.source)
-                most = with_unit(f"{limits.most:,.10g}", entry.unit)
-                raise ValueError(
-                    f"the workbook takes {limits.least:,.10g} to {most} for the {what}, "
-                    f"not {number!r}"
-                )
-            numbers[name] = number
-        return numbers
-
-    def _held(self, impact: Impact) -> Impact:
-        """The case with the numbers that its cells hold."""
-        held = {}
-        for name, attribute in _CASE_INPUTS.items():
-            if name in self.entries:
-                unit = self.entries[name].unit
-                held[attribute] = _si(_typed(getattr(impact, attribute), unit), unit)
-        return replace(impact, **held)
+    def _to_type(self, entry: inputs.Input) -> float:
+        """The number to type into an input's cell. Raises ValueError outside of its limits."""
+        name, limits = entry.name, entry.limits
+        if name in _CASE_INPUTS:
+            case = next(iter(self.cases.values()))
+            number = _typed(getattr(case, _CASE_INPUTS[name]), entry.unit)
+        elif name.startswith("beta"):
+            number = self.cases[name.partition("_")[2] or "case"].beta or 0.0
+        else:
+            number = entry.of_report(self.ledger)
+        if not limits.least <= number <= limits.most:
+            what = entry.meaning or self.ledger.title(entry.source)
+            most = with_unit(f"{limits.most:,.10g}", entry.unit)
+            raise ValueError(
+                f"the workbook takes {limits.least:,.10g} to {most} for the {what}, not {number!r}"
+            )
+        return number
 
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
-        longer = ["coldspray workbook", *([] if self.report else _flags(self.written["case"]))]
+        longer = [_flags(case) for slug, case in self.cases.items() if slug == "case"]
         longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
         longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
-        command = " ".join(longer) if self.rows < steps.MAX_ROWS else ""
+        command = " ".join(["coldspray workbook", *longer]) if self.rows < steps.MAX_ROWS else ""
         more: dict[str, Any] = {"rows": self.rows, "longer": command}
         cases, coarse = (
             [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
@@ -298,15 +246,12 @@ class _Builder:
             cases,
             [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse],
             findings,
-            version=version("coldspray"),
-            warning_limits=(COARSE, DEEP),
-            shown=self._shown(),
         )
         values = {
             key: value if isinstance(value, str) else float(value) for key, value in self._values()
         }
         if findings is not None:
-            values |= self._audit(plan, values, findings)
+            values |= live_verdicts(self.ledger, plan, values, findings)
         warnings = [
             f"{self.pages[slug].name}: {doubt.text}"
             for slug, sheet in self.sheets.items()
@@ -333,7 +278,7 @@ class _Builder:
             parts[slug] = self._sheet(slug, sheet)
         for slug, sheet in self.coarse.items():
             fine = self.sheets[slug].final_depth * 1e6
-            over = sheet.final_depth * 1e6 / fine if fine else lines.NOT_COMPUTED
+            over = sheet.final_depth * 1e6 / fine if fine else NOT_COMPUTED
             against = {"fine_depth_um": fine, "over_fine": over}
             parts[f"{slug}_coarse"] = self._sheet(slug, sheet) | against
         for part, held in parts.items():
@@ -341,39 +286,33 @@ class _Builder:
                 yield f"{part}.{what}", value
 
     def _inputs(self) -> Iterator[tuple[str, Any]]:
-        for name, entry in self.entries.items():
-            same = self.typed[name] == entry.of_report(self.ledger)
+        for name in self.entries:
             yield name, self.si[name]
             yield f"{name}.typed", self.typed[name]
             own = "as inferred" if name == "rho_t" else "the report’s"
-            yield f"{name}.check", own if same else "yours"
+            yield f"{name}.check", "yours" if name in self.changed else own
         yield from {
             "from": "yours",
             "unusable": 0,
-            "changed": self._changed,
-            "message": inputs.MESSAGES["changed" if self._changed else "same"],
+            "changed": len(self.changed),
+            "message": inputs.MESSAGES["changed" if self.changed else "same"],
             "D_p": self.first.diameter,
             "M_p": self.first.mass,
             "half_step": self.first.step / 2 * 1e9,
             "mean_radius": self.si["D_mean"] / 2 * 1e6,
+            "travel_most": COARSE,
+            "excess_most": DEEP,
         }.items()
         for slug, impact in self.impacts.items():
             if impact.resistance is None:
                 yield self.pages[slug].named("R_t"), impact.target_resistance
 
-    @property
-    def _changed(self) -> int:
-        """How many inputs are not the report's."""
-        return sum(self.typed[n] != e.of_report(self.ledger) for n, e in self.entries.items())
-
     def _overview(self) -> Iterator[tuple[str, Any]]:
-        yield from {"inputs_changed": self._changed, "inputs_unusable": 0}.items()
+        yield from {"inputs_changed": len(self.changed), "inputs_unusable": 0}.items()
         for slug, sheet in self.sheets.items():
             yield f"{slug}.depth_um", sheet.final_depth * 1e6
             yield f"{slug}.normalized_depth", sheet.normalized_depth
-            same = _label(sheet.impact) == _label(self.written[slug])
-            label = "" if same else f"{_label(sheet.impact)}: "
-            yield f"{slug}.message", label + _state(sheet)[1]
+            yield f"{slug}.message", _state(sheet)[1]
 
     def _table(self) -> dict[str, Any]:
         sheet, given = list(self.sheets.values())[-1], _given(self.last)
@@ -389,8 +328,7 @@ class _Builder:
         trust, message = _state(sheet)
         v, exact = impact.velocity, depth.normalized_depth(*_materials(impact))
         if impact.resistance is None:
-            same = _label(impact) == _label(self.written[slug])
-            held |= {"label": _label(impact), "renamed": "" if same else steps.KEPT_NAME}
+            held |= {"label": self.pages[slug].label, "renamed": ""}
         return held | {
             "message": message,
             "trust": trust,
@@ -416,7 +354,7 @@ class _Builder:
                 row = sheet.rows[min(k, sheet.steps)]
                 yield f"{slug}.time[{k}]", row.time * 1e9
                 yield f"{slug}.depth[{k}]", row.depth * 1e6
-            yield f"{slug}.message", f"{_label(sheet.impact)}: {_state(sheet)[1]}"
+            yield f"{slug}.message", f"{self.pages[slug].label}: {_state(sheet)[1]}"
 
     def _figure_5(self) -> Iterator[tuple[str, Any]]:
         low, high = self.si["V_from"], self.si["V_to"]
@@ -430,49 +368,18 @@ class _Builder:
                 yield f"{what}[{point}]", value
 
     def _convergence(self) -> Iterator[tuple[str, Any]]:
-        """The ladder of the cases as written; which inputs in use are the same now."""
+        """The ladder of the cases as written, with inputs that are as yet those in use."""
         for k, step in enumerate(self.ladder):
             yield f"step[{k}]", step
             yield f"step_ns[{k}]", step * 1e9
-        first = next(iter(self.runs.values()))
-        pairs = {
-            name: (getattr(first, _CASE_INPUTS[name]), self.si[name]) for name in figures.RUN_INPUTS
-        }
-        for slug, impact in self.runs.items():
-            resistances = impact.target_resistance, self.impacts[slug].target_resistance
-            pairs[self.pages[slug].named("R_t")] = resistances
+        of_runs = {name: self.si[name] for name in figures.RUN_INPUTS}
+        for slug, impact in self.impacts.items():
+            of_runs[self.pages[slug].named("R_t")] = impact.target_resistance
             for what, value in self.levels[slug].items():
                 yield f"{slug}.{what}", value
-        same = {n: abs(run - used) * 1e12 <= abs(run) for n, (run, used) in pairs.items()}
-        for name, (of_run, in_use) in pairs.items():
-            yield f"run.{name}", of_run
-            yield f"in_use.{name}", in_use
-            yield f"same.{name}", same[name]
-        yield "message", figures.CURRENT if all(same.values()) else figures.STALE
-
-    def _shown(self) -> dict[str, str]:
-        """What the charts show as written, in words."""
-        ends = ", ".join(
-            f"{_label(sheet.impact)} reaches {sheet.final_depth * 1e6:.4g} µm after "
-            f"{sheet.rows[-1].time * 1e9:.3g} ns"
-            for sheet in self.sheets.values()
-        )
-        axis = (replace(self.last, velocity=self.si[name]) for name in ("V_from", "V_to"))
-        low, high = (
-            f"{depth.normalized_depth(*_materials(end)):.3g} at {end.velocity:.4g} m/s"
-            for end in axis
-        )
-        steps = [f"{step * 1e9:.3g} ns" for step in self.ladder]
-        errors = ", ".join(
-            f"{_label(self.runs[slug])} from {levels['size[0]']:.2g} µm at {steps[0]} "
-            f"to {levels[f'size[{figures.LEVELS - 1}]']:.2g} µm at {steps[-1]}"
-            for slug, levels in self.levels.items()
-        )
-        return {
-            "Figure 3": f"As written, {ends}.",
-            "Figure 5": f"As written, for {_label(self.last)}, from {low} to {high}.",
-            "Convergence": f"For {errors}.",
-        }
+        for name, value in of_runs.items():
+            yield from {f"run.{name}": value, f"in_use.{name}": value, f"same.{name}": 1}.items()
+        yield "message", figures.CURRENT
 
     def _frank_zook(self) -> Iterator[tuple[str, Any]]:
         impact, ratio, k_t = self.last, frank_zook.sphere_length_ratio(), self.si["k_t"]
@@ -545,29 +452,30 @@ class _Builder:
             held[f"{slug}.over_copper"] = stress / self.si["Y_copper"]
         return held
 
-    def _audit(
-        self, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
-    ) -> dict[str, Value]:
-        """Live verdicts, and the check of Table A-1; the doubles are those of the claims' cells.
 
-        Whether a live verdict is the proven one, a test asks.
-        """
-        held: dict[str, Value] = {}
-        for claim in audit.computed_claims(self.ledger):
-            value = values[plan.cell(place_of(str(claim.workbook))).key]
-            held[f"audit.{claim.id}.computed"] = value
-            held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
-        verdicts = [value for key, value in held.items() if key.endswith(".verdict")]
-        for text, what in audit.KINDS:
-            held[f"audit.{what}"] = held[f"overview.audit_{what}"] = float(verdicts.count(text))
-        for name in (*findings.failing, *findings.differing):
-            if self.ledger.claims[name].workbook:
-                held[f"overview.{name}"] = held[f"audit.{name}.computed"]
-        for claim in self.ledger.claims.values():
-            if claim.place.cell and claim.printed:
-                value = values[plan.cell(("Table A-1", claim.place.cell)).key]
-                held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
-        return held
+def live_verdicts(
+    ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
+) -> dict[str, Value]:
+    """Live verdicts, and the check of Table A-1, of the doubles in the claims' cells.
+
+    Whether a live verdict is the proven one, a test asks.
+    """
+    held: dict[str, Value] = {}
+    for claim in audit.computed_claims(ledger):
+        value = values[plan.cell(place_of(str(claim.workbook))).key]
+        held[f"audit.{claim.id}.computed"] = value
+        held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
+    verdicts = [value for key, value in held.items() if key.endswith(".verdict")]
+    for text, what in audit.KINDS:
+        held[f"audit.{what}"] = held[f"overview.audit_{what}"] = float(verdicts.count(text))
+    for name in (*findings.failing, *findings.differing):
+        if ledger.claims[name].workbook:
+            held[f"overview.{name}"] = held[f"audit.{name}.computed"]
+    for claim in ledger.claims.values():
+        if claim.place.cell and claim.printed:
+            value = values[plan.cell(("Table A-1", claim.place.cell)).key]
+            held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
+    return held
 
 
 def _label(impact: Impact) -> str:
@@ -575,15 +483,15 @@ def _label(impact: Impact) -> str:
     return "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
 
 
-def _flags(impact: Impact) -> list[str]:
+def _flags(impact: Impact) -> str:
     """The options of `coldspray workbook` for a case."""
     name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
     given = {field.name: getattr(impact, field.name) for field in fields(impact)}
-    return [f"--case {name}"] + [
-        f"--{key.replace('_', '-')} {value!r}"
+    return f"--case {name}" + "".join(
+        f" --{key.replace('_', '-')} {value!r}"
         for key, value in given.items()
         if value is not None and value != getattr(base, key)
-    ]
+    )
 
 
 def _given(impact: Impact) -> dict[str, Any]:
@@ -635,7 +543,7 @@ def _row_values(sheet: Sheet, rows: int) -> Iterator[tuple[str, Any]]:
 
 
 def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, Any]:
-    """Final depths at a ladder of steps against the depth at rest, in um."""
+    """Final depths at steps, each half of the one before, against the depth at rest, in um."""
     rest = depth.final_depth(*impact.motion.values()) * 1e6
     held: dict[str, Any] = {"rest_um": rest}
     errors = []
@@ -645,17 +553,16 @@ def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, A
         errors.append(reached - rest)
         held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": reached}
         held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
-    ratios = [math.log(a / b) for a, b in pairwise(ladder)]
-    for k, ((above, here), ratio) in enumerate(zip(pairwise(errors), ratios, strict=True), 1):
+    for k, (above, here) in enumerate(pairwise(errors), 1):
         defined = min(above, here) > 0 or max(above, here) < 0
-        held[f"order[{k}]"] = math.log(above / here) / ratio if defined else figures.NO_ORDER
+        held[f"order[{k}]"] = math.log(above / here) / math.log(2) if defined else figures.NO_ORDER
     return held
 
 
 def _verdict(value: Value, interval: Interval) -> str:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
-        return lines.NOT_COMPUTED
+        return NOT_COMPUTED
     ends = interval.lower, interval.upper
     if interval.is_point:
         # Exact text, such as 2/3, which no double is: to nine digits.
@@ -670,7 +577,7 @@ def _verdict(value: Value, interval: Interval) -> str:
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
     """The check of one number of Table A-1; blank where the table has fewer rows."""
-    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": lines.NOT_COMPUTED}
+    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:

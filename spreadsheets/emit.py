@@ -9,7 +9,7 @@ import re
 import zipfile
 from collections.abc import Mapping
 from errno import EEXIST
-from functools import cache, reduce
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -121,31 +121,30 @@ _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
 def is_own(path: Path) -> bool:
     """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
 
-    Its seal must be that of its parts, and its parts must make this file again. One that was
-    packed by another version of zlib is not told from one that somebody repacked.
+    Its parts must give its seal, and make this file again. One that was packed by another version
+    of zlib is not told from one that somebody repacked.
     """
     content = path.read_bytes()
     try:
         parts = _unpacked(content)
-        seal = re.search(rb">([0-9a-f]{64})<", parts[_SEALED])
+        return _sealed(parts) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
-    if seal is None or _packed(parts) != content:
-        return False
-    unsealed = parts[_SEALED].replace(seal[1], _UNSEALED.encode())
-    return _digest({**parts, _SEALED: unsealed}) == seal[1].decode()
 
 
-def _digest(parts: Mapping[str, bytes]) -> str:
+def _sealed(parts: dict[str, bytes]) -> bytes:
+    """The file of these parts, with their digest in the place of whatever stands there."""
+    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
     digest = sha256()
     for name, content in parts.items():
         digest.update(b"%s\0%d\0" % (name.encode(), len(content)))
         digest.update(content)
-    return digest.hexdigest()
+    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.hexdigest().encode())
+    return _packed(parts)
 
 
-def _sealed(content: bytes) -> bytes:
-    """The file with its digest, without XlsxWriter's claim to be Excel, and without dates."""
+def _finished(content: bytes) -> bytes:
+    """The file with its seal, without XlsxWriter's claim to be Excel, and without dates."""
     parts = _unpacked(content)
     app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
     app = app.replace(">Microsoft Excel<", ">coldspray<")
@@ -157,9 +156,7 @@ def _sealed(content: bytes) -> bytes:
             # Where nothing is said, LibreOffice draws a smooth curve through the points.
             straight = b'</c:yVal><c:smooth val="0"/>'
             parts[name] = part.replace(b"</c:yVal>", straight)
-    seal = _digest(parts).encode()
-    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), seal)
-    return _packed(parts)
+    return _sealed(parts)
 
 
 def _unpacked(content: bytes) -> dict[str, bytes]:
@@ -213,10 +210,10 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
                 continue
             if book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
                 raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
-        for chart in sheet.charts:
-            _draw(book, page, sheet.name, chart)
+        if sheet.chart:
+            _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
     book.close()
-    return _sealed(buffer.getvalue())
+    return _finished(buffer.getvalue())
 
 
 _LINE = 13.5
@@ -267,20 +264,10 @@ def _lines(sheet: SheetPlan) -> dict[int, int]:
     return lines
 
 
-def _split(address: str) -> tuple[str, int]:
-    column = address.rstrip("0123456789")
-    return column, int(address[len(column) :])
-
-
-@cache
-def _column_number(letters: str) -> int:
-    """XlsxWriter's number of a column: 0 for A, 26 for AA."""
-    return reduce(lambda number, letter: 26 * number + ord(letter) - 64, letters, 0) - 1
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
-    letters, row = _split(address)
-    place = row - 1, _column_number(letters)
+    from xlsxwriter.utility import xl_cell_to_rowcol
+
+    place = xl_cell_to_rowcol(address)
     if cell.link:
         sheet, target = cell.link
         page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)
@@ -349,7 +336,7 @@ _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
-def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
+def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for series, look in zip(chart.series, DASHES, strict=False):
@@ -372,4 +359,4 @@ def _draw(book: Any, page: Any, sheet: str, chart: Chart) -> None:
     drawn.set_y_axis({"name": chart.y_title, **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
-    page.insert_chart(chart.at, drawn, {"description": chart.description})
+    page.insert_chart(chart.at, drawn, {"description": description})

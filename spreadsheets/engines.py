@@ -1,6 +1,6 @@
 """Real spreadsheet engines, all behind one small interface.
 
-    engine("ironcalc").recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
+    IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
 An engine opens a workbook, computes every formula again and gives the values by sheet and address;
 `Recalculated` says how each kind of value comes back. Two engines come with pip, two from the
@@ -16,10 +16,8 @@ import signal
 import subprocess
 import sys
 import warnings
-import zipfile
-import zlib
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
@@ -27,15 +25,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from urllib.parse import urljoin
-from xml.etree import ElementTree as ET
 
-Value = float | str | bool
+from spreadsheets.plan import Value
 
 Recalculated = dict[str, dict[str, Value]]
 """Worksheet name -> address such as "B7" -> value.
 
-- Every worksheet is a key, even one without values. Chart sheets are left out.
+- A worksheet without values, or a chart sheet, is absent.
 - A number is a float, and so is a date (its serial number).
 - A boolean is a bool; LibreOffice stores booleans as numbers and gives 1.0 and 0.0, which compare
   equal to True and False.
@@ -70,21 +66,16 @@ class Engine(ABC):
         """None when the engine can be used, or else a sentence on what to install."""
 
     @abstractmethod
-    def _version(self) -> str:
-        """The version; only asked for when the engine is not missing."""
+    def version(self) -> str:
+        """The version of the program that would be used; not asked for when it is missing."""
 
     @abstractmethod
     def _cells(self, path: Path) -> Iterator[Cell]:
-        """Recalculate a sound workbook and yield its cells, blank ones included or not."""
+        """Recalculate a workbook and yield its cells, blank ones included or not."""
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
         """The same for several, in one run of the program where that saves time."""
         return map(self._cells, paths)
-
-    def version(self) -> str:
-        """The version of the program that would be used."""
-        self._require()
-        return self._version()
 
     def recalculate(self, path: Path) -> Recalculated:
         """Compute every formula of an .xlsx file again; the file itself stays as it is."""
@@ -93,54 +84,15 @@ class Engine(ABC):
 
     def recalculate_many(self, paths: Sequence[Path]) -> list[Recalculated]:
         """The same for several files."""
-        self._require()
-        found: list[Recalculated] = [{name: {} for name in self._sheets(path)} for path in paths]
-        for sheets, cells in zip(found, self._cells_of_each(paths), strict=True):
-            for sheet, place, value in cells:
-                if value is not None and value != "":
-                    sheets.setdefault(sheet, {})[place] = value
-        return found
-
-    def _require(self) -> None:
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
-
-    def _sheets(self, path: Path) -> list[str]:
-        """The worksheets, once every part is well formed: some engines load damaged files."""
-        try:
-            with zipfile.ZipFile(path) as archive:
-                for part in archive.namelist():
-                    if part.endswith((".xml", ".rels")):
-                        _parsed(archive, part)
-                sheets = worksheets(archive)
-                for part in sheets.values():
-                    archive.getinfo(part)
-                return list(sheets)
-        except (OSError, KeyError, zipfile.BadZipFile, zlib.error, ET.ParseError) as error:
-            raise EngineError(self.name, f"cannot read {path}: {error}") from error
-
-
-# The parts of an .xlsx file: enough to find its worksheets and their cells
-
-
-def worksheets(archive: zipfile.ZipFile) -> dict[str, str]:
-    """Each worksheet's name, in the workbook's order -> the part that holds its cells."""
-    parts = {
-        # A target is relative to xl/ unless it starts at the root.
-        relation.attrib["Id"]: urljoin("/xl/", relation.attrib["Target"])[1:]
-        for relation in _parsed(archive, "xl/_rels/workbook.xml.rels")
-        if relation.attrib["Type"].endswith("/worksheet")  # and not "/chartsheet"
-    }
-    related = {
-        # The namespace of r:id differs between the two kinds of Office Open XML.
-        sheet.attrib["name"]: next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
-        for sheet in _parsed(archive, "xl/workbook.xml").iterfind("{*}sheets/{*}sheet")
-    }
-    return {name: parts[relation] for name, relation in related.items() if relation in parts}
-
-
-def _parsed(archive: zipfile.ZipFile, part: str) -> ET.Element:
-    return ET.fromstring(archive.read(part))
+        recalculated: list[Recalculated] = []
+        for cells in self._cells_of_each(paths):
+            recalculated.append({})
+            for sheet, place, value in cells:
+                if value is not None and value != "":
+                    recalculated[-1].setdefault(sheet, {})[place] = value
+        return recalculated
 
 
 def address(row: int, column: int) -> str:
@@ -161,7 +113,7 @@ class PipEngine(Engine):
             return None
         return f"The Python package {self.name} is not installed: run pip install {self.name}."
 
-    def _version(self) -> str:
+    def version(self) -> str:
         return version(self.name)
 
 
@@ -171,26 +123,30 @@ class IronCalc(PipEngine):
     name = "ironcalc"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        import ironcalc
-
-        try:
-            model = ironcalc.load_from_xlsx(str(path))
-        except ironcalc.WorkbookError as error:
-            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+        model, sheets = _ironcalc(self.name, path)
         model.evaluate()
-        sheets = [sheet["name"] for sheet in model.get_worksheets_properties()]
         for sheet, row, column in model.get_all_cells():
             yield sheets[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
+def _ironcalc(engine: str, path: Path) -> tuple[Any, list[str]]:
+    """A workbook in IronCalc, and the names of its worksheets."""
+    import ironcalc
+
+    try:
+        model = ironcalc.load_from_xlsx(str(path))
+    except ironcalc.WorkbookError as error:
+        raise EngineError(engine, f"cannot read {path}: {error}") from error
+    return model, [sheet["name"] for sheet in model.get_worksheets_properties()]
+
+
 class Formualizer(PipEngine):
-    """Exact doubles and booleans; it cannot be asked which cells there are, so the file is."""
+    """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
 
     name = "formualizer"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         import formualizer
-        from openpyxl.utils.cell import coordinate_to_tuple
 
         try:
             workbook = formualizer.load_workbook(str(path))
@@ -199,44 +155,56 @@ class Formualizer(PipEngine):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        with zipfile.ZipFile(path) as archive:
-            for sheet, part in worksheets(archive).items():
-                for cell in _parsed(archive, part).iterfind("{*}sheetData/{*}row/{*}c"):
-                    value = workbook.get_value(sheet, *coordinate_to_tuple(cell.attrib["r"]))
-                    if isinstance(value, dict):  # an error
-                        value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
-                    yield sheet, cell.attrib["r"], value
+        model, sheets = _ironcalc(self.name, path)
+        for sheet, row, column in model.get_all_cells():
+            value = workbook.get_value(sheets[sheet], row, column)
+            if isinstance(value, dict):  # an error
+                value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
+            yield sheets[sheet], address(row, column), value
 
 
 # From the system
+
+
+def run_program(
+    command: list[str], seconds: float, before: Callable[[], None] | None = None
+) -> tuple[int, str, str]:
+    """Run a command in a group of its own; give its status, output and complaint.
+
+    None of its processes is left behind. before: called in the new process. Raises TimeoutExpired.
+    """
+    posix, pipe = os.name == "posix", subprocess.PIPE
+    with subprocess.Popen(
+        command, stdout=pipe, stderr=pipe, text=True, errors="replace", start_new_session=True,
+        preexec_fn=before if posix else None,
+    ) as process:  # fmt: skip
+        try:
+            output, complaint = process.communicate(timeout=seconds)
+        finally:
+            with suppress(ProcessLookupError):  # the good case: nothing is left
+                os.killpg(process.pid, signal.SIGKILL) if posix else process.kill()
+            process.communicate()  # its pipes end with the last process that holds them
+    return process.returncode, output, complaint
 
 
 class SystemEngine(Engine):
     """An engine that is a program of its own."""
 
     def _run(self, command: list[str], workbooks: int = 1) -> str:
-        """Run a command in a group of its own and leave none of its processes behind."""
-        limit, pipe = TIME_LIMIT_S * workbooks, subprocess.PIPE
-        with subprocess.Popen(
-            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
-        ) as process:
-            try:
-                output, complaint = process.communicate(timeout=limit)
-            except subprocess.TimeoutExpired as error:
-                raise EngineError(self.name, f"no answer within {limit} s") from error
-            finally:
-                with suppress(ProcessLookupError):  # the good case: nothing is left
-                    os.killpg(process.pid, signal.SIGKILL)
-                process.communicate()  # its pipes end with the last process that holds them
-        if process.returncode != 0:
+        limit = TIME_LIMIT_S * workbooks
+        try:
+            status, output, complaint = run_program(command, limit)
+        except subprocess.TimeoutExpired as error:
+            raise EngineError(self.name, f"no answer within {limit} s") from error
+        if status != 0:
             # The last line says why; those before it are the program's own chatter.
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
 
-    def _version_by(self, command: list[str], pattern: str) -> str:
-        found = re.search(pattern, self._run([*command, "--version"]))
+    def _version_of(self, program: str, pattern: str) -> str:
+        found = re.search(pattern, self._run([program, "--version"]))
         if found is None:
-            raise EngineError(self.name, f"{Path(command[0]).name} does not tell its version")
+            raise EngineError(self.name, f"{Path(program).name} does not tell its version")
         return found[1]
 
 
@@ -258,8 +226,8 @@ class LibreOffice(SystemEngine):
             return str(reason)
         return None
 
-    def _version(self) -> str:
-        return self._version_by([_soffice()], r"LibreOffice\S* (\S+)")
+    def version(self) -> str:
+        return self._version_of(_soffice(), r"LibreOffice\S* (\S+)")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         (cells,) = self._cells_of_each([path])
@@ -321,8 +289,8 @@ class Gnumeric(SystemEngine):
             return None
         return "The command ssconvert is not installed: install the system package gnumeric."
 
-    def _version(self) -> str:
-        return self._version_by(["ssconvert"], r"version '(.+)'")
+    def version(self) -> str:
+        return self._version_of("ssconvert", r"version '(.+)'")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -349,15 +317,6 @@ class Gnumeric(SystemEngine):
 ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeric())
 
 
-def engine(name: str) -> Engine:
-    """The engine of that name; an unknown name is an EngineError."""
-    for candidate in ENGINES:
-        if candidate.name == name:
-            return candidate
-    known = ", ".join(candidate.name for candidate in ENGINES)
-    raise EngineError(name, f"no such engine; known are {known}")
-
-
 def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
     """Plant a wrong stored value beside a formula and tell whether the engine puts it right.
 
@@ -370,4 +329,4 @@ def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
         sheet = workbook.add_worksheet("planted")
         sheet.write_number("A1", 6)
         sheet.write_formula("A2", "=A1*7", value=41)
-    return engine.recalculate(path)["planted"].get("A2") == 42
+    return engine.recalculate(path).get("planted", {}).get("A2") == 42

@@ -7,10 +7,8 @@ a file of a kilobyte keeps it busy for hours, and it gives formulas or stored va
 """
 
 import math
-import os
 import re
 import shutil
-import signal
 import subprocess
 import zipfile
 import zlib
@@ -27,6 +25,8 @@ from xml.etree import ElementTree as ET
 
 from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import column_index_from_string, get_column_letter, range_boundaries
+
+from spreadsheets.engines import run_program
 
 Position = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""
@@ -165,7 +165,10 @@ def _opened(path: Path, shown: Path) -> "Iterator[_Reader]":
 
 
 def _converted(path: Path, folder: Path) -> Path:
-    """The same workbook as .xlsx, saved by LibreOffice in a new profile, where macros are off."""
+    """The same workbook as .xlsx, saved by LibreOffice in a new profile, where macros are off.
+
+    It runs within bounds of time, memory and disk.
+    """
     soffice = shutil.which("soffice") or shutil.which("libreoffice")
     if soffice is None:
         raise WorkbookError(
@@ -183,36 +186,21 @@ def _converted(path: Path, folder: Path) -> Path:
         "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source),
     ]  # fmt: skip
     for _ in range(2):  # a first run in a new profile may end with a wish to start again
-        _run(command, path)
+        try:
+            run_program(command, CONVERT_LIMIT_S, _limited)
+        except subprocess.TimeoutExpired as error:
+            reason = f"LibreOffice did not open it within {CONVERT_LIMIT_S} s"
+            raise WorkbookError(f"{path}: {reason}") from error
         if (folder / "out" / "workbook.xlsx").is_file():
             return folder / "out" / "workbook.xlsx"
     raise WorkbookError(f"{path}: LibreOffice cannot open it")
 
 
-def _run(command: list[str], path: Path) -> None:
-    """Run LibreOffice within bounds of time, memory and disk, and leave none of its processes."""
+def _limited() -> None:
+    import resource
 
-    def limited() -> None:
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
-
-    posix, quiet = os.name == "posix", subprocess.DEVNULL
-    with subprocess.Popen(
-        command, stdout=quiet, stderr=quiet, start_new_session=True,
-        preexec_fn=limited if posix else None,
-    ) as process:  # fmt: skip
-        try:
-            process.wait(CONVERT_LIMIT_S)
-        except subprocess.TimeoutExpired as error:
-            reason = f"LibreOffice did not open it within {CONVERT_LIMIT_S} s"
-            raise WorkbookError(f"{path}: {reason}") from error
-        finally:
-            if posix:
-                with suppress(ProcessLookupError):
-                    os.killpg(process.pid, signal.SIGKILL)
-            process.kill()
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
 class _Reader:

@@ -5,11 +5,22 @@ is supplied later under the cell's *key* (`high.row[17].depth`): an input, or a 
 supplies the values never sees the formulas, so that the two can be compared.
 """
 
+import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from textwrap import wrap
+from typing import Any, NamedTuple
+
+from reference.ledger import Ledger
+from reference.units import written
+
+NOT_COMPUTED = "not computed"
+"""What stands in place of a value that hangs on an input that cannot be used."""
+
+HOME = "Overview"
+"""The first sheet, to which a link leads back from every other."""
 
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
@@ -63,6 +74,35 @@ class Cell:
             raise ValueError(f"a formula starts with '=' and has a key: {self!r}")
 
 
+def text(words: str, style: str = "body", **more: Any) -> Cell:
+    """A cell with a text."""
+    return Cell(text=words, style=style, **more)
+
+
+def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:
+    """A cell with a formula, given with its "="; its value is supplied under the key."""
+    return Cell(key=key, formula=expression, style=style, **more)
+
+
+def recorded(number: float | str, **more: Any) -> Cell:
+    """A cell with a number that follows no change of the inputs, or the key of such a number."""
+    if isinstance(number, str):
+        return Cell(key=number, style="recorded", **more)
+    return Cell(number=number, style="recorded", **more)
+
+
+def unit_text(unit: str) -> Cell:
+    """The unit beside a number."""
+    return text(written(unit) or "–", "unit")
+
+
+def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
+    """The text of a claim as the report prints it, with its unit where that is another."""
+    claim = ledger.claims[name]
+    own = "" if claim.unit == unit else f" {written(claim.unit)}"
+    return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
     """A style that a range of cells takes while a formula, written for its first cell, is true."""
@@ -84,8 +124,9 @@ class Series(NamedTuple):
 class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
-    Axis titles name quantity and unit; `description` says in words what the chart shows. With
-    `logarithmic` both axes are. size: width and height in pixels.
+    Axis titles name quantity and unit. With `logarithmic` both axes are. size: width and height in
+    pixels. description: says in words what the chart shows, with values by key as written:
+    "{high.depth_um:.4g}".
     """
 
     at: str
@@ -97,26 +138,145 @@ class Chart:
     logarithmic: bool = False
     size: tuple[int, int] = (820, 470)
 
+    def described(self, values: Mapping[str, Value]) -> str:
+        """The description with its values."""
+        return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+
+LINE_HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
+
+    The key is that within its sheet: "rha.derived". The formula calls lines above it in its table
+    by their `id` in braces; `guard`: see `guarded`. claim: where the report prints the value.
+    shown: the number format. Others: as in `Cell`.
+    """
+
+    key: str
+    symbol: str
+    meaning: str
+    formula: str
+    unit: str = "1"
+    source: str = ""
+    claim: str = ""
+    shown: str = "0.0000"
+    name: str = ""
+    column: str = ""
+    guard: bool = True
+
+    @property
+    def id(self) -> str:
+        """What formulas call it: "rha.derived" is {rha_derived}."""
+        return self.key.replace(".", "_")
+
+
+@dataclass(slots=True, kw_only=True)
 class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
-    frozen: the first cell that scrolls. repeated_rows: first and last row that head every printed
-    page. print_area: the cells printed, all by default. page_break: the last row of page 1.
-    filtered: a table with a filter.
+    It is filled from the top; `row` is where the next cells go. frozen: the first cell that
+    scrolls. repeated_rows: first and last row that head every printed page. print_area: the cells
+    printed, all by default. page_break: the last row of page 1. filtered: a table with a filter.
     """
 
     name: str
-    cells: Mapping[str, Cell]
-    widths: Mapping[str, float]
+    cells: dict[str, Cell] = field(default_factory=dict)
+    widths: Mapping[str, float] = field(default_factory=dict)
+    row: int = 1
     frozen: str = ""
     repeated_rows: tuple[int, int] | None = None
-    rules: tuple[Rule, ...] = ()
-    charts: tuple[Chart, ...] = ()
+    rules: list[Rule] = field(default_factory=list)
+    chart: Chart | None = None
     print_area: str = ""
     page_break: int | None = None
     filtered: str = ""
+
+    def put(self, **cells: Cell | None) -> None:
+        """One row, by column."""
+        self.cells |= {f"{column}{self.row}": cell for column, cell in cells.items() if cell}
+        self.row += 1
+
+    def say(self, *texts: str, style: str = "note", width: int = 165) -> None:
+        """Running texts, each broken into lines that fit a page."""
+        for words in texts:
+            for line in wrap(words, width, break_on_hyphens=False):
+                self.put(A=text(line, style))
+
+    def title(self, words: str) -> None:
+        """The first two rows: the title, and the way back."""
+        self.put(A=text(words, "title"))
+        self.put(A=text(f"Back to {HOME}", "link", link=(HOME, "A1")))
+
+    def heads(
+        self, columns: str, words: Sequence[str], right: str, units: Sequence[str | None] = ()
+    ) -> None:
+        """Heads of columns, and units under them; `right` names the columns of numbers."""
+        styles = ("right" if c in right else "unit" if c != "A" else "" for c in columns)
+        cells = (text(w, f"head {style}".rstrip()) for w, style in zip(words, styles, strict=True))
+        self.put(**dict(zip(columns, cells, strict=True)))
+        if units:
+            under = (None if unit is None else text(unit, "unit right") for unit in units)
+            self.put(**dict(zip(columns, under, strict=True)))
+
+    def table(self, columns: Sequence[tuple[str, float]], right: str, frozen: str = "A") -> None:
+        """Heads with their columns' widths: they stay in sight and head every printed page.
+
+        frozen: the first column that scrolls.
+        """
+        letters = "ABCDEFGHIJKLM"[: len(columns)]
+        self.widths = {letter: width for letter, (_, width) in zip(letters, columns, strict=True)}
+        self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
+        self.heads(letters, [words for words, _ in columns], right)
+
+    def color(self, cells: str, styles: Mapping[str, str]) -> None:
+        """The style that each text has in these cells of one column."""
+        first = cells.partition(":")[0]
+        for words, style in styles.items():
+            self.rules.append(Rule(cells=cells, formula=f'=${first}="{words}"', style=style))
+
+    def lines(
+        self, ledger: Ledger, part: str, lines: Sequence[Line | str], columns: str = "ABCDEF"
+    ) -> None:
+        """A table of one quantity a line; a plain string heads a block, after a blank row.
+
+        part: what its keys begin with. columns: of symbol, meaning, value, unit, printed text,
+        source. A line is transcendental that calls such a function or such a line above it.
+        """
+        self.heads(columns, LINE_HEADS, columns[2] + columns[4])
+        addresses: dict[str, str] = {}
+        transcendental: set[str] = set()
+        for number, line in enumerate(lines):
+            if isinstance(line, str):
+                self.row += number > 0
+                self.put(**{columns[0]: text(line, "block")})
+                continue
+            called = set(re.findall(r"{(\w+)}", line.formula))
+            if re.search(r"LN\(|SIN\(|\^", line.formula) or called & transcendental:
+                transcendental.add(line.id)
+            expression = line.formula.format_map(addresses)
+            addresses[line.id] = f"{columns[2]}{self.row}"
+            value = formula(
+                f"{part}.{line.key}",
+                guarded(expression) if line.guard else expression,
+                number_format=line.shown,
+                name=line.name,
+                unit=line.unit,
+                column=line.column,
+                transcendental=line.id in transcendental,
+            )
+            source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
+            cells = (
+                text(line.symbol, "text") if line.symbol else None,
+                text(line.meaning) if line.meaning else None,
+                value,
+                unit_text(line.unit),
+                printed(ledger, line.claim, line.unit) if line.claim else None,
+                text(source, "unit") if source else None,
+            )
+            self.put(**dict(zip(columns, cells, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,3 +324,37 @@ def _require_unique(what: str, items: list[str]) -> None:
     twice = sorted(item for item, count in Counter(items).items() if count > 1)
     if twice:
         raise ValueError(f"{what} used twice in the workbook: {', '.join(twice)}")
+
+
+# Formulas
+
+_REFERENCE = re.compile(
+    r"""(?P<skip>"[^"]*"|(?:'[^']*'!)?\$?[A-Z]{1,2}\$?\d+:\$?[A-Z]{1,2}\$?\d+|[A-Za-z]\w*\()
+    |(?P<cell>(?:'[^']*'!)?\$?\b[A-Z]{1,2}\$?\d+\b|\b[A-Za-z]\w*\b)""",
+    re.VERBOSE,
+)
+
+
+def guarded(expression: str) -> str:
+    """The formula, calculated where all that it refers to are numbers.
+
+    Elsewhere it says that nothing was computed. A mere reference is left as it is: it shows what it
+    refers to.
+
+    >>> guarded("=2*R_p"), guarded("=R_p")
+    ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
+    """
+    found = [match["cell"] for match in _REFERENCE.finditer(expression)]
+    names = list(dict.fromkeys(name for name in found if name))
+    if not names or expression == f"={names[0]}":
+        return expression
+    return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'
+
+
+def log1p(x: str) -> str:
+    """The formula of ln(1 + x) for the cell x > 0, to the last digits however small x is.
+
+    Where 1 + x is rounded to u, ln(u) is right for u: times x/(u - 1) it is right for x. Below 1e-8
+    the series is, whose third term is less than the last digit of the first.
+    """
+    return f"IF({x}<0.00000001,{x}-{x}*{x}/2,{x}*LN(1+{x})/((1+{x})-1))"

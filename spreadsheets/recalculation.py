@@ -1,4 +1,7 @@
-"""A book -> every formula's value, computed afresh in bounded time.
+"""A book -> its formulas, read at their cells, and the value of each, computed in bounded time.
+
+Two formulas have the same shape when the one is the other filled down or across: references become
+distances, as in R1C1 notation (the fingerprints of ExceLint). Names are what they stand for.
 
 The engine is IronCalc: the lightest of those that pip installs, and it gives the doubles that other
 engines give. It never sees the file, only formulas that were read and found harmless; whatever else
@@ -6,16 +9,249 @@ a cell holds stands there as the value stored.
 """
 
 import math
+import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import NamedTuple
 
-from spreadsheets.foreign import Book, Position, Value
-from spreadsheets.references import Area, Formula, parse
+from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
+from openpyxl.utils.cell import column_index_from_string, get_column_letter
+
+from spreadsheets.foreign import MAX_FORMULA, Book, Position, Value
+
+MAX_DEPTH = 64
+"""Levels of nesting in Excel. One engine ends the process at some thousands."""
+_MAX_EXPANSIONS = 200
+LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
 _TOO_MUCH = "the formulas before it read too many cells already"
+
+FUNCTIONS = frozenset((
+    "ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN",
+    "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP",
+    "FALSE", "FLOOR", "HLOOKUP", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK",
+    "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH",
+    "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI",
+    "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH",
+    "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH",
+    "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
+))  # fmt: skip
+"""What an engine may be asked for: functions of bounded cost that reach nothing outside."""
+
+
+class Area(NamedTuple):
+    """All cells between two corners, both counted from 1."""
+
+    sheet: str
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    @property
+    def cells(self) -> int:
+        """How many."""
+        return (self.bottom - self.top + 1) * (self.right - self.left + 1)
+
+    @property
+    def corner(self) -> Position:
+        """The first cell."""
+        return self.sheet, self.top, self.left
+
+    @property
+    def ends(self) -> tuple[Position, Position]:
+        """The first cell and the last."""
+        return self.corner, (self.sheet, self.bottom, self.right)
+
+    def places(self) -> Iterator[Position]:
+        """Each of them, row by row."""
+        for row in range(self.top, self.bottom + 1):
+            for column in range(self.left, self.right + 1):
+                yield self.sheet, row, column
+
+    def covers(self, place: Position) -> bool:
+        """Whether a cell is one of them."""
+        sheet, row, column = place
+        inside = self.top <= row <= self.bottom and self.left <= column <= self.right
+        return sheet == self.sheet and inside
+
+
+class Piece(NamedTuple):
+    """One token: its kind, its text, and the area that it refers to.
+
+    `ends` are the area's rows and columns as they are written, each with whether "$" fixes it.
+    """
+
+    kind: str
+    text: str
+    area: Area | None = None
+    ends: tuple[tuple[int, bool], ...] = ()
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula, parsed at its place. `obstacle` says why no engine may compute it, if so."""
+
+    place: Position
+    pieces: tuple[Piece, ...]
+    obstacle: str | None
+
+    @cached_property
+    def areas(self) -> tuple[Area, ...]:
+        """Everything that it refers to."""
+        return tuple(piece.area for piece in self.pieces if piece.area is not None)
+
+    @cached_property
+    def shape(self) -> tuple[str, ...]:
+        """The same for every cell that it is filled into, piece by piece."""
+        return tuple(self._shape(piece) for piece in self.pieces)
+
+    @cached_property
+    def literals(self) -> tuple[float, ...]:
+        """The numbers that are typed into it."""
+        return tuple(float(piece.text) for piece in self.pieces if piece.kind == "number")
+
+    def reads(self, place: Position) -> bool:
+        """Whether a cell is among what it refers to."""
+        return any(area.covers(place) for area in self.areas)
+
+    def for_engine(self, sheets: Mapping[str, str]) -> str:
+        """The formula with names resolved and every sheet called as `sheets` says."""
+        return "=" + "".join(
+            piece.text if piece.area is None else _written(piece, sheets[piece.area.sheet])
+            for piece in self.pieces
+        )
+
+    def _shape(self, piece: Piece) -> str:
+        if piece.area is None:
+            return piece.text.upper() if piece.kind == "function" else piece.text
+        sheet, row, column = self.place
+        area, here = piece.area, (row, column, row, column)
+        steps = [
+            str(end) if fixed else f"[{end - own}]"
+            for (end, fixed), own in zip(piece.ends, here, strict=True)
+        ]
+        prefix = "" if area.sheet == sheet else f"{area.sheet}!"
+        first = f"{prefix}R{steps[0]}C{steps[1]}"
+        return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
+
+
+def parse(text: str, place: Position, book: Book) -> Formula:
+    """Read a formula at its place in a book. Never fails: what cannot be read is an obstacle."""
+    reader = _Reader(place, book)
+    depth = deepest = 0
+    for character in text if len(text) > MAX_DEPTH else "":
+        depth += (character in "([{") - (character in ")]}")
+        deepest = max(deepest, depth)
+    if len(text) > MAX_FORMULA:
+        reader.obstacle = f"it has more than {MAX_FORMULA:,} characters"
+    elif deepest > MAX_DEPTH:
+        reader.obstacle = f"it is nested more than {MAX_DEPTH} levels deep"
+    else:
+        with suppress(TokenizerError, IndexError, ValueError):
+            return Formula(place, tuple(reader.read(text)), reader.obstacle)
+        reader.obstacle = "it cannot be read"
+    return Formula(place, (Piece("text", text),), reader.obstacle)
+
+
+_COLUMN, _ROW = r"(\$?[A-Za-z]{1,3})", r"(\$?[1-9][0-9]{0,6})"
+_SHEET = r"(?:('(?:[^']|'')+'|[^'!\[\]]+)!)?"
+_REFERENCES = (  # a cell or some, whole columns, whole rows
+    re.compile(rf"{_SHEET}{_COLUMN}{_ROW}(?::{_COLUMN}{_ROW})?#?"),
+    re.compile(rf"{_SHEET}{_COLUMN}():{_COLUMN}()"),
+    re.compile(rf"{_SHEET}(){_ROW}:(){_ROW}"),
+)
+
+
+@lru_cache(maxsize=4096)
+def _tokens(text: str) -> tuple[Token, ...]:
+    """The tokens of a formula; names mean the same again and again."""
+    return tuple(Tokenizer(text).items)
+
+
+class _Reader:
+    """Turns tokens into pieces; `obstacle` is the first reason not to compute."""
+
+    def __init__(self, place: Position, book: Book) -> None:
+        self.place, self.book = place, book
+        self.obstacle: str | None = None
+        self.expansions = 0
+
+    def read(self, text: str) -> Iterator[Piece]:
+        for token in _tokens(text):
+            value, kind = token.value, token.type
+            if kind == Token.OPERAND and token.subtype == Token.RANGE:
+                yield from self.operand(value)
+            elif kind == Token.OPERAND and token.subtype == Token.NUMBER:
+                yield Piece("number", value)
+            elif kind == Token.FUNC and token.subtype == Token.OPEN:
+                name = value.rstrip("(").upper().removeprefix("_XLFN.").removeprefix("_XLWS.")
+                if name not in FUNCTIONS:
+                    self.stop(f"it uses {name[:40]}")
+                yield Piece("function", f"{name}(")
+            elif kind != Token.WSPACE:
+                if kind == Token.ARRAY:
+                    self.stop("it holds an array")
+                yield Piece("sign", value)
+
+    def stop(self, reason: str) -> None:
+        self.obstacle = self.obstacle or reason
+
+    def operand(self, value: str) -> Iterator[Piece]:
+        match = next((m for pattern in _REFERENCES if (m := pattern.fullmatch(value))), None)
+        if match is not None and (area := self.area(match)) is not None:
+            yield area
+            return
+        names = self.book.meanings
+        meaning = names.get(f"'{self.place[0]}'!{value}".upper(), names.get(value.upper()))
+        if meaning is None or self.expansions > _MAX_EXPANSIONS:
+            outside = "[" in value or "|" in value
+            self.stop(
+                "it refers outside the workbook" if outside else f"nothing is called {value[:40]}"
+            )
+            yield Piece("name", value)
+            return
+        self.expansions += 1
+        inner = tuple(self.read(f"={meaning.removeprefix('=')}"))
+        yield from inner if len(inner) == 1 else (Piece("sign", "("), *inner, Piece("sign", ")"))
+
+    def area(self, match: re.Match[str]) -> Piece | None:
+        named, left, top, right, bottom = match.groups()
+        if named and named.startswith("'"):
+            named = named[1:-1].replace("''", "'")
+        sheet = self.place[0] if named is None else self.book.called.get(named.upper())
+        if right is None:  # a lone cell is its own other end
+            right, bottom = left, top
+        ends = (
+            _end(top, "$1"), _end(left, "$A"),
+            _end(bottom, f"${LAST_ROW}"), _end(right, f"${get_column_letter(LAST_COLUMN)}"),
+        )  # fmt: skip
+        rows, columns = sorted((ends[0][0], ends[2][0])), sorted((ends[1][0], ends[3][0]))
+        if sheet is None or rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
+            return None
+        area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
+        return Piece("area", match[0], area, ends)
+
+
+def _end(text: str, whole: str) -> tuple[int, bool]:
+    """A row or column such as $7 or B, and whether it is fixed; `whole` where none is given."""
+    number = (text or whole).lstrip("$")
+    fixed = (text or whole).startswith("$")
+    return int(number) if number.isdigit() else column_index_from_string(number), fixed
+
+
+def _written(piece: Piece, sheet: str) -> str:
+    area = piece.area
+    assert area is not None
+    first = f"{sheet}!{get_column_letter(area.left)}{area.top}"
+    return first if area.cells == 1 else f"{first}:{get_column_letter(area.right)}{area.bottom}"
+
+
+# Values
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,13 @@ import math
 import struct
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from spreadsheets.engines import ENGINES, Engine, EngineError, repairs_wrong_value
+from spreadsheets.engines import Engine, EngineError, repairs_wrong_value
 from spreadsheets.plan import Place, Value, WorkbookPlan
 
 Values = Mapping[str, Mapping[str, Value]]
@@ -24,14 +24,19 @@ operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twel
 condition numbers of at most 2, so less than 32 ulp."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Difference:
-    """One cell that differs. None stands for a blank."""
+    """One cell that differs, by so many doubles where both are numbers. None stands for a blank."""
 
     sheet: str
     cell: str
     expected: Value | None
     found: Value | None
+    ulps: int | None = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        if isinstance(self.expected, float) and isinstance(self.found, float):
+            self.ulps = ulps_apart(self.expected, self.found)
 
     @property
     def distance(self) -> float:
@@ -42,13 +47,6 @@ class Difference:
         if isinstance(self.expected, float) and isinstance(self.found, float):
             return abs(self.expected - self.found)
         return math.inf
-
-    @property
-    def ulps(self) -> int | None:
-        """The same in doubles; None unless both are numbers."""
-        if isinstance(self.expected, float) and isinstance(self.found, float):
-            return ulps_apart(self.expected, self.found)
-        return None
 
     def __str__(self) -> str:
         apart = "" if self.ulps is None else f" ({self.ulps} ulp)"
@@ -115,35 +113,34 @@ def tolerances(
     return {place: distance for place, distance in allowed.items() if distance}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class SheetCheck:
     """One sheet in one engine. `cells` counts its formulas, which are all compared.
 
-    tolerated: cells that pass through a function and lie within its tolerance. explained: cells
-    that differ by no more than our doubles may lie from an engine's long doubles. unexplained:
-    cells that differ by more, or in kind.
+    differ: by more than the tolerance of a function. explained: differ by no more than our doubles
+    may lie from an engine's long doubles. unexplained: differ by more, or in kind. tolerated: pass
+    through a function and lie within its tolerance. largest_ulps: the distance of any two numbers.
     """
 
     sheet: str
     cells: int
-    tolerated: list[Difference] = field(default_factory=list)
-    explained: list[Difference] = field(default_factory=list)
+    differ: int = 0
+    explained: int = 0
+    largest_ulps: int = 0
+    tolerated: int = 0
     unexplained: list[Difference] = field(default_factory=list)
 
-    @property
-    def counts(self) -> dict[str, int]:
-        """How many cells there are of each kind, and the largest distance of any two numbers.
-
-        differ: by more than the tolerance of a function.
-        """
-        distances = (d.ulps or 0 for d in self.tolerated + self.explained + self.unexplained)
-        return {
-            "cells": self.cells,
-            "differ": len(self.explained) + len(self.unexplained),
-            "explained": len(self.explained),
-            "largest_ulps": max(distances, default=0),
-            "tolerated": len(self.tolerated),
-        }
+    def add(self, left: Difference, of_functions: float, of_doubles: float) -> None:
+        """Count a difference; the bounds are those of its cell."""
+        self.largest_ulps = max(self.largest_ulps, left.ulps or 0)
+        if left.distance <= of_functions:
+            self.tolerated += 1
+            return
+        self.differ += 1
+        if left.distance <= of_doubles:
+            self.explained += 1
+        else:
+            self.unexplained.append(left)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,10 +153,10 @@ class EngineCheck:
     """
 
     engine: str
+    version: str | None = None
     outcome: str
-    version: str = ""
-    reason: str = ""
-    seconds: float = 0.0
+    reason: str | None = None
+    seconds: float | None = None
     sheets: tuple[SheetCheck, ...] = ()
 
     @property
@@ -169,23 +166,12 @@ class EngineCheck:
 
 
 def verify(
-    path: Path,
-    plan: WorkbookPlan,
-    expected: Values,
-    engines: Sequence[Engine] = ENGINES,
-    *,
-    long_doubles: float,
-) -> list[EngineCheck]:
-    """Recalculate a file in every engine and compare every cell with the value it must have.
+    path: Path, plan: WorkbookPlan, expected: Values, engine: Engine, *, long_doubles: float
+) -> EngineCheck:
+    """Recalculate a file in an engine and compare every cell with the value it must have.
 
     Numbers must be the same double, but for the `tolerances`.
     """
-    return [_check(engine, path, plan, expected, long_doubles) for engine in engines]
-
-
-def _check(
-    engine: Engine, path: Path, plan: WorkbookPlan, expected: Values, long_doubles: float
-) -> EngineCheck:
     made = partial(EngineCheck, engine=engine.name)
     if (reason := engine.missing()) is not None:
         return made(outcome="missing", reason=reason)
@@ -209,12 +195,7 @@ def _check(
     of_functions = tolerances(plan, expected)
     of_doubles = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
     for left in compare(expected, found):
-        check, place = sheets[left.sheet], (left.sheet, left.cell)
-        if left.distance <= of_functions.get(place, 0.0):
-            check.tolerated.append(left)
-        elif left.distance <= of_doubles.get(place, 0.0):
-            check.explained.append(left)
-        else:
-            check.unexplained.append(left)
-    outcome = "differs" if any(check.unexplained for check in sheets.values()) else "verified"
+        place = left.sheet, left.cell
+        sheets[left.sheet].add(left, of_functions.get(place, 0.0), of_doubles.get(place, 0.0))
+    outcome = "differs" if any(sheet.unexplained for sheet in sheets.values()) else "verified"
     return made(outcome=outcome, seconds=seconds, sheets=tuple(sheets.values()))

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from openpyxl import load_workbook
 
-from spreadsheets.engines import Cell, Engine, EngineError, engine
+from spreadsheets.engines import ENGINES, Cell, Engine, EngineError
 
 
 def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
@@ -37,13 +37,15 @@ def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
     return buffer.getvalue()
 
 
+BY_NAME = {engine.name: engine for engine in ENGINES}
+
 FROM_PIP = ("ironcalc", "formualizer")
 """Required for the tests, so a missing one fails; the others come from the system."""
 
 
 def usable(name: str) -> Engine:
     """An engine; skips or fails the test when it is missing."""
-    found = engine(name)
+    found = BY_NAME[name]
     if (reason := found.missing()) is None:
         return found
     if name in FROM_PIP or os.environ.get("COLDSPRAY_REQUIRE_ENGINES") == "1":
@@ -69,13 +71,13 @@ class Fake(Engine):
     def missing(self) -> str | None:
         return self.reason
 
-    def _version(self) -> str:
+    def version(self) -> str:
         return "1.0"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         if self.failure and not path.name.startswith("planted"):
             raise EngineError(self.name, self.failure)
-        for sheet, cells in engine("ironcalc").recalculate(path).items():
+        for sheet, cells in BY_NAME["ironcalc"].recalculate(path).items():
             for address, value in cells.items():
                 yield sheet, address, self.told(sheet, address, value)
         if not path.name.startswith("planted"):

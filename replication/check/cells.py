@@ -17,8 +17,7 @@ from replication.check.scheme import BEYOND, REPORT, Case, orders
 from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation
-from spreadsheets.references import Formula
+from spreadsheets.recalculation import Calculation, Formula
 
 
 def each_cell(f: Verdict) -> None:

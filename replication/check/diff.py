@@ -19,8 +19,7 @@ from replication.check.findings import Difference
 from replication.check.table import area_of, runs
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
-from spreadsheets.recalculation import Calculation, calculate
-from spreadsheets.references import Piece
+from spreadsheets.recalculation import Calculation, Piece, calculate
 
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""

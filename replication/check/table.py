@@ -16,8 +16,7 @@ from statistics import median
 
 from replication.check.words import COLUMNS, column_roles, is_unit, unit_in
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation
-from spreadsheets.references import Formula
+from spreadsheets.recalculation import Calculation, Formula
 
 LEAST = 4
 """Fewer numbers are no line; the report itself prints five rows."""

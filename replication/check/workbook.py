@@ -16,8 +16,7 @@ from replication.check.table import LEAST, Line, Table, address, lines, runs, ta
 from replication.check.words import COLUMNS, INPUTS, count, result_of
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
-from spreadsheets.recalculation import Calculation, calculate
-from spreadsheets.references import Area, parse
+from spreadsheets.recalculation import Area, Calculation, calculate, parse
 
 _STALE = 1e-14
 """Relative distance beyond which a stored value is stale: LibreOffice saves 15 digits."""

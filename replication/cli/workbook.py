@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,34 +30,36 @@ def options(command: argparse.ArgumentParser) -> None:
         metavar="N",
         help="time steps to prepare (default: twice those needed)",
     )
-    command.add_argument("--quiet", action="store_true", help="no warnings and no other words")
     command.add_argument(
         "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
     )
-    command.add_argument("--json", action="store_true", help="print JSON")
-    command.add_argument(
-        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
-    )
+    shared.output_options(command, quiet="no warnings and no other words")
+    shared.scheme_option(command)
     shared.input_options(command, "the report's two cases")
 
 
 def run(options: argparse.Namespace) -> int:
     """Write, and verify if asked to."""
     from replication import workbook
-    from spreadsheets import emit
+    from spreadsheets import emit, engines
+    from spreadsheets.verify import verify
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{name_of(options.output)}: a workbook's name ends in .xlsx")
     own = options.case is not None or options.case_file is not None or shared.given(options)
-    cases = [shared.case(options)] if own else workbook.REPORT
-    book = workbook.build(cases, options.scheme, options.rows)
+    case = shared.case(options) if own else None
+    book = workbook.build(case, options.scheme, options.rows)
+    if options.verify and all(engine.missing() for engine in engines.ENGINES):
+        raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
+    emit.write(options.output, book.to_bytes(), force=options.force)
     said, checks = [f"Written: {name_of(options.output)}"], []
     if options.verify:
-        checks = workbook.write_verified(options.output, book, force=options.force)
+        compared = partial(
+            verify, options.output, book.plan, book.cells, long_doubles=book.rounding
+        )
+        checks = list(map(compared, engines.ENGINES))
         said += ["", _text(checks, book.rounding)]
-    else:
-        emit.write(options.output, book.to_bytes(), force=options.force)
     passed = all(check.passed for check in checks)
     if options.json:
         shared.print_json(
@@ -64,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
                 "file": str(options.output),
                 "passed": passed if options.verify else None,
                 "long_double_bound": book.rounding,
-                "engines": [_engine_record(check) for check in checks],
+                "engines": _engine_records(checks),
                 "warnings": list(book.warnings),
             }
         )
@@ -77,23 +80,13 @@ def run(options: argparse.Namespace) -> int:
 # What the engines make of the workbook
 
 
-def _engine_record(check: "EngineCheck") -> dict[str, Any]:
-    keys = ("cell", "expected", "found", "ulps")
-    return {
-        "engine": check.engine,
-        "version": check.version or None,
-        "outcome": check.outcome,
-        "reason": check.reason or None,
-        "seconds": check.seconds if check.sheets else None,
-        "sheets": [
-            {
-                "sheet": sheet.sheet,
-                **sheet.counts,
-                "unexplained": [{k: getattr(d, k) for k in keys} for d in sheet.unexplained],
-            }
-            for sheet in check.sheets
-        ],
-    }
+def _engine_records(checks: "Sequence[EngineCheck]") -> list[dict[str, Any]]:
+    import msgspec
+
+    records: list[dict[str, Any]] = msgspec.to_builtins(checks)
+    for left in (d for of in records for sheet in of["sheets"] for d in sheet["unexplained"]):
+        del left["sheet"]  # it stands above
+    return records
 
 
 _SHOWN = 5
@@ -119,17 +112,19 @@ def _text(checks: "Sequence[EngineCheck]", bound: float) -> str:
 
 
 def _engine_lines(check: "EngineCheck") -> Iterator[str]:
-    head = f"{check.engine} {check.version}".rstrip()
+    head = f"{check.engine} {check.version or ''}".rstrip()
     if not check.sheets:
         yield from (f"{head}: {check.outcome}", f"  {check.reason}")
         return
     yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
-    counts = {sheet.sheet: sheet.counts for sheet in check.sheets}
-    whole = {key: sum(of[key] for of in counts.values()) for key in next(iter(counts.values()))}
-    whole["largest_ulps"] = max(of["largest_ulps"] for of in counts.values())
-    rows = [(name, *map(str, of.values())) for name, of in (*counts.items(), ("all", whole))]
-    widths = [max(map(len, column)) for column in zip(_HEADS, _UNITS, *rows, strict=True)]
-    for name, *numbers in (_HEADS, _UNITS, *rows):
+    rows: list[tuple[Any, ...]] = [
+        (s.sheet, s.cells, s.differ, s.explained, s.largest_ulps, s.tolerated) for s in check.sheets
+    ]
+    _, *columns = zip(_HEADS, *rows, strict=True)
+    rows.append(("all", *((max if head == "largest" else sum)(of) for head, *of in columns)))
+    table = [_HEADS, _UNITS, *(tuple(map(str, row)) for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    for name, *numbers in table:
         right = (f"{text:>{width}}" for text, width in zip(numbers, widths[1:], strict=True))
         yield "  ".join(["", f"{name:{widths[0]}}", *right]).rstrip()
     wrong = [left for sheet in check.sheets for left in sheet.unexplained]

@@ -4,17 +4,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.ledger import Claim, Ledger
-from spreadsheets.plan import Cell, SheetPlan, place_of
-from spreadsheets.sheets.lines import (
+from spreadsheets.plan import (
     NOT_COMPUTED,
-    colored,
+    Cell,
+    SheetPlan,
     formula,
-    heads,
-    notes,
+    place_of,
     printed,
-    row_of,
+    recorded,
     text,
-    title,
     unit_text,
 )
 
@@ -39,12 +37,11 @@ class Findings:
     differing: Sequence[str]
 
 
-_HEADS = (
-    "Claim", "What", "Printed", "Unit", "Computed", "Live verdict", "The audit’s verdict", "From",
-    "To", "Where", "Computed in", "Explanation",
+_COLUMNS = (
+    ("Claim", 24.0), ("What", 50.0), ("Printed", 15.0), ("Unit", 8.0), ("Computed", 13.0),
+    ("Live verdict", 14.0), ("The audit’s verdict", 25.0), ("From", 11.0), ("To", 11.0),
+    ("Where", 34.0), ("Computed in", 20.0), ("Explanation", 60.0),
 )  # fmt: skip
-_COLUMNS = "ABCDEFGHIJKL"
-_WIDTHS = (24.0, 50.0, 15.0, 8.0, 13.0, 14.0, 25.0, 11.0, 11.0, 34.0, 20.0, 60.0)
 _HEAD_ROW = 11
 
 
@@ -55,36 +52,28 @@ def computed_claims(ledger: Ledger) -> list[Claim]:
 
 def sheet(ledger: Ledger, findings: Findings) -> SheetPlan:
     """The sheet. Each claim's entry in the ledger names the cell that computes it."""
-    first = _HEAD_ROW + 1
     last = _HEAD_ROW + len(ledger.claims)
-    cells = title("Audit: every number that the report prints") | notes(
-        3,
+    verdicts = f"F{_HEAD_ROW + 1}:F{last}"
+    page = SheetPlan(name="Audit", print_area=f"A1:I{last}", filtered=f"A{_HEAD_ROW}:L{last}")
+    page.title("Audit: every number that the report prints")
+    page.say(
         "Live verdict: whether the computed cell, with the inputs in use, prints as the report "
         "does; From and To are the values that print so. The audit’s verdict is about the report: "
         "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
         width=150,
     )
-    cells["A6"] = text("Live verdicts", "block")
-    for row, (words, what) in enumerate(KINDS, start=7):
-        count = f'=COUNTIF(F{first}:F{last},"{words}")'
-        cells[f"A{row}"] = text(words, "text")
-        cells[f"B{row}"] = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
-    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CEHI")
-    for row, claim in enumerate(ledger.claims.values(), start=first):
-        cells |= row_of(row, _row(ledger, claim, findings, row))
-    return SheetPlan(
-        name="Audit",
-        cells=cells,
-        widths=dict(zip(_COLUMNS, _WIDTHS, strict=True)),
-        frozen=f"B{first}",
-        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
-        print_area=f"A1:I{last}",
-        filtered=f"A{_HEAD_ROW}:L{last}",
-        rules=colored(
-            f"F{first}:F{last}",
-            {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"},
-        ),
-    )
+    page.row = 6
+    page.put(A=text("Live verdicts", "block"))
+    for words, what in KINDS:
+        count = f'=COUNTIF({verdicts},"{words}")'
+        counted = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
+        page.put(A=text(words, "text"), B=counted)
+    page.row = _HEAD_ROW
+    page.table(_COLUMNS, "CEHI", "B")
+    for claim in ledger.claims.values():
+        page.put(**_row(ledger, claim, findings, page.row))
+    page.color(verdicts, {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"})
+    return page
 
 
 def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
@@ -106,9 +95,7 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
     key, place, interval = f"audit.{claim.id}", place_of(claim.workbook), claim.interval()
     for column, end in (("H", interval.lower), ("I", interval.upper)):
         if end is not None:
-            cells[column] = Cell(
-                number=float(end), style="recorded", number_format=shown, claim=claim.id
-            )
+            cells[column] = recorded(float(end), number_format=shown, claim=claim.id)
     return cells | {
         "E": formula(
             f"{key}.computed", "='{}'!{}".format(*place), number_format=shown, unit=claim.unit,

@@ -5,22 +5,22 @@ within what limits a number is taken. What follows from the inputs stands apart,
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reference.ledger import INFERRED, Ledger
 from reference.units import to_si
-from spreadsheets.plan import Cell, Limits, Rule, SheetPlan
-from spreadsheets.sheets.lines import (
+from spreadsheets.plan import (
     NOT_COMPUTED,
+    Cell,
+    Limits,
+    Rule,
+    SheetPlan,
     formula,
     guarded,
-    heads,
-    notes,
     printed,
-    row_of,
+    recorded,
     text,
-    title,
     unit_text,
 )
 from spreadsheets.sheets.steps import CaseSheet
@@ -122,13 +122,11 @@ _BLOCKS = {
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input that does not differ between the cases, by its name."""
 
-_HEADS = (
-    "Symbol", "Quantity", "Type here", "Unit", "Check", "In use", "Unit", "The report’s",
-    "It prints", "Where", "Least", "Greatest", "Name",
+_COLUMNS = (
+    ("Symbol", 9.0), ("Quantity", 50.0), ("Type here", 13.0), ("Unit", 8.0), ("Check", 12.0),
+    ("In use", 14.0), ("Unit", 8.0), ("The report’s", 12.0), ("It prints", 15.0), ("Where", 27.0),
+    ("Least", 10.0), ("Greatest", 12.0), ("Name", 14.0),
 )  # fmt: skip
-_COLUMNS = "ABCDEFGHIJKLM"
-_WIDTHS = (9.0, 50.0, 13.0, 8.0, 12.0, 14.0, 8.0, 12.0, 15.0, 27.0, 10.0, 12.0, 14.0)
-_HEAD_ROW = 9
 _SCIENTIFIC = "0.0####E+00"
 
 _SAME, _INFERRED, _YOURS = "the report’s", "as inferred", "yours"
@@ -159,55 +157,49 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input
     return blocks
 
 
-def sheet(
-    ledger: Ledger, cases: Sequence[CaseSheet], report: bool, warning_limits: tuple[float, float]
-) -> SheetPlan:
-    """The sheet for these cases, which share every input but the target resistance.
-
-    warning_limits: above which share of the radius a step, and above which share of the exact
-    depth the sheet's excess over it, deserves a warning.
-    """
-    cells = title("Inputs") | notes(
-        3,
+def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan:
+    """The sheet for these cases, which share every input but the target resistance."""
+    page = SheetPlan(name="Inputs")
+    page.title("Inputs")
+    page.say(
         "Type into the yellow cells, in the unit beside them; every sheet follows. On orange: an "
-        "input that the report never prints, inferred from Table A-1.",
+        "input that the report never prints, inferred from Table A-1."
     )
-    cells |= heads(_HEAD_ROW, _COLUMNS, _HEADS, "CFHIKL")
-    row = first = _HEAD_ROW + 1
+    page.row = 9
+    page.table(_COLUMNS, "CFHIKL", "C")
+    first = page.row
     for block, entries in inputs_of(cases, report).items():
-        cells[f"A{row}"] = text(block, "block")
+        page.put(A=text(block, "block"))
         for entry in entries:
-            row += 1
-            cells |= row_of(row, _input(ledger, entry, row))
-        row += 2
-    checks = f"E{first}:E{row}"
-    cells |= _status(checks)
-    for block, rows in (
-        ("What follows from them", _derived(ledger, cases)),
-        ("Constants", _constants(warning_limits)),
+            page.put(**_input(ledger, entry, page.row))
+        page.row += 1
+    checks = f"E{first}:E{page.row}"
+    _status(page, checks)
+    page.put(A=text("What follows from them", "block"))
+    _derived(page, ledger, cases)
+    page.row += 1
+    page.put(A=text("Constants", "block"))
+    # Programs differ in the digits of their own pi, so it stands in a cell.
+    for name, meaning, value, unit in (
+        ("pi_", "circumference over diameter, π", math.pi, "1"),
+        ("ksi_Pa", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
+        # Beyond these the command warns, too.
+        ("travel_most", "a step may pass this share of the radius", "inputs.travel_most", "1"),
+        ("excess_most", "the sheet may exceed the exact depth by", "inputs.excess_most", "1"),
     ):
-        cells[f"A{row}"] = text(block, "block")
-        for follows in rows:
-            row += 1
-            cells |= row_of(row, follows)
-        row += 2
+        number, named = recorded(value, name=name, unit=unit), text(name, "unit")
+        page.put(B=text(meaning), F=number, G=unit_text(unit), M=named)
+    page.print_area = f"A1:J{page.row - 1}"
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
-    return SheetPlan(
-        name="Inputs",
-        cells=cells,
-        widths=dict(zip(_COLUMNS, _WIDTHS, strict=True)),
-        frozen=f"C{first}",
-        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
-        print_area=f"A1:J{row - 2}",
-        rules=(
-            Rule(cells=checks, formula=f"=OR({bad})", style="warning"),
-            Rule(cells=checks, formula=f'=$E{first}="{_YOURS}"', style="changed"),
-            Rule(cells="A7", formula="=inputs_unusable>0", style="warning"),
-        ),
-    )
+    page.rules = [
+        Rule(cells=checks, formula=f"=OR({bad})", style="warning"),
+        Rule(cells=checks, formula=f'=$E{first}="{_YOURS}"', style="changed"),
+        Rule(cells="A7", formula="=inputs_unusable>0", style="warning"),
+    ]
+    return page
 
 
-def _status(checks: str) -> dict[str, Cell]:
+def _status(page: SheetPlan, checks: str) -> None:
     """The switch, and how many inputs differ from the report's or cannot be used."""
     unusable = "+".join(f'COUNTIF({checks},"{word}")' for word in _BAD)
     said = {name: f'"{words}"' for name, words in MESSAGES.items()}
@@ -215,11 +207,10 @@ def _status(checks: str) -> dict[str, Cell]:
         f'=IF(inputs_unusable>0,{said["unusable"]},IF(inputs_from="{REPORT}",{said["report"]},'
         f"IF(inputs_changed>0,{said['changed']},{said['same']})))"
     )
-    switch = Cell(key="inputs.from", style="input", name="inputs_from", choices=("yours", REPORT))
     changed = f'=COUNTIF({checks},"{_YOURS}")'
-    return {
+    page.cells |= {
         "B4": text("Inputs to take: yours, or the report’s"),
-        "C4": switch,
+        "C4": Cell(key="inputs.from", style="input", name="inputs_from", choices=("yours", REPORT)),
         "B5": text("Inputs in use that are not the report’s"),
         "C5": formula("inputs.changed", changed, "result", name="inputs_changed"),
         "B6": text("Inputs that cannot be used"),
@@ -247,11 +238,11 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "E": formula(f"{key}.check", f"=IF(ISNUMBER({in_use}),{good},{bad})", "text"),
         "F": formula(key, taken, name=entry.name, unit=si, number_format=shown),
         "G": unit_text(si),
-        "H": Cell(number=entry.of_report(ledger), style="recorded"),
+        "H": recorded(entry.of_report(ledger)),
         "I": text("nowhere", "recorded"),
         "J": text("inferred from Table A-1", "unit"),
-        "K": Cell(number=entry.limits.least, style="recorded"),
-        "L": Cell(number=entry.limits.most, style="recorded"),
+        "K": recorded(entry.limits.least),
+        "L": recorded(entry.limits.most),
         "M": text(entry.name, "unit"),
     }
     return cells if inferred else cells | _as_printed(ledger, entry.source, entry.unit)
@@ -278,7 +269,7 @@ def _factor(unit: str) -> str:
     return "*ksi_Pa" if unit == "ksi" else f"*{factor}" if factor > 1 else f"/{1 / factor}"
 
 
-def _derived(ledger: Ledger, cases: Sequence[CaseSheet]) -> Iterator[dict[str, Cell]]:
+def _derived(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
     """The rows of what follows from the inputs; what is not in SI units is used nowhere else."""
     rows = [
         ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
@@ -300,17 +291,4 @@ def _derived(ledger: Ledger, cases: Sequence[CaseSheet]) -> Iterator[dict[str, C
             number_format=_SCIENTIFIC if in_si else "General",
         )  # fmt: skip
         cells = {"A": text(symbol, "text"), "B": text(meaning), "F": value, "G": unit_text(unit)}
-        yield cells | (_as_printed(ledger, claim, unit) if claim else {})
-
-
-def _constants(warning_limits: tuple[float, float]) -> Iterator[dict[str, Cell]]:
-    # Programs differ in the digits of their own pi, so it stands in a cell.
-    for name, meaning, value, unit in (
-        ("pi_", "circumference over diameter, π", math.pi, "1"),
-        ("ksi_Pa", "1000 pound-force per square inch", float(to_si("ksi")), "Pa"),
-        ("travel_most", "a step may pass this share of the radius", warning_limits[0], "1"),
-        ("excess_most", "the sheet may exceed the exact depth by", warning_limits[1], "1"),
-    ):
-        number = Cell(number=value, style="recorded", name=name, unit=unit)
-        named = text(name, "unit")
-        yield {"B": text(meaning), "F": number, "G": unit_text(unit), "M": named}
+        page.put(**cells, **(_as_printed(ledger, claim, unit) if claim else {}))

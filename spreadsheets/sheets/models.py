@@ -3,14 +3,27 @@
 from collections.abc import Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import SheetPlan
-from spreadsheets.sheets.lines import Line, log1p, sheet_of_lines
+from spreadsheets.plan import Line, SheetPlan, log1p
 from spreadsheets.sheets.steps import CaseSheet
 
 # One quantity a line reads as a table.
 # fmt: off
 
 _SI = "0.000E+00"
+
+
+def _sheet(
+    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
+) -> SheetPlan:
+    """One table under notes; its keys begin with the sheet's name."""
+    widths = dict(zip("ABCDEF", (9.0, 44.0, 14.0, 8.0, 20.0, 46.0), strict=True))
+    page = SheetPlan(name=name, widths=widths)
+    page.title(heading)
+    page.say(*said)
+    page.row += 1
+    page.repeated_rows, page.frozen = (page.row, page.row), f"A{page.row + 1}"
+    page.lines(ledger, name.lower().replace("-", "_"), lines)
+    return page
 
 
 def crater(ledger: Ledger) -> SheetPlan:
@@ -49,7 +62,7 @@ def crater(ledger: Ledger) -> SheetPlan:
         "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. "
         "Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3."
     )
-    return sheet_of_lines(ledger, "Crater", "Crater and particle", [said], lines)
+    return _sheet(ledger, "Crater", "Crater and particle", [said], lines)
 
 
 def _cubed(volume: str) -> str:
@@ -125,7 +138,7 @@ def resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         Line("strain_rate", "V/L", "impact velocity over a typical dimension", "=V_impact/L_typ",
              "1/s", claim="strain-rate", shown="0.0E+00"),
     ]
-    return sheet_of_lines(ledger, "Resistance", "Target resistance", [], lines)
+    return _sheet(ledger, "Resistance", "Target resistance", [], lines)
 
 
 def frank_zook(ledger: Ledger) -> SheetPlan:
@@ -161,4 +174,4 @@ def frank_zook(ledger: Ledger) -> SheetPlan:
         "one is twice the printed one."
     )
     heading = "Frank-Zook depth of a noneroding penetrator"
-    return sheet_of_lines(ledger, "Frank-Zook", heading, [said], lines)
+    return _sheet(ledger, "Frank-Zook", heading, [said], lines)

@@ -8,18 +8,7 @@ from dataclasses import dataclass
 
 from reference.ledger import Ledger
 from reference.units import written
-from spreadsheets.plan import Cell, Rule, SheetPlan
-from spreadsheets.sheets.lines import (
-    NOT_COMPUTED,
-    Line,
-    formula,
-    heads,
-    log1p,
-    notes,
-    place,
-    text,
-    title,
-)
+from spreadsheets.plan import NOT_COMPUTED, Cell, Line, Rule, SheetPlan, formula, log1p, text
 
 FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
@@ -75,13 +64,12 @@ class CaseSheet:
         """The defined name of a result of its sheet: depth_um_low, or depth_um_low_coarse."""
         return f"{self.named(what)}_coarse" if self.coarse else self.named(what)
 
-    def rules(self, cells: str) -> tuple[Rule, ...]:
+    def rules(self, cells: str) -> list[Rule]:
         """How cells look that say whether the run can be trusted."""
-        trust = self.result("trust")
-        return tuple(
-            Rule(cells=cells, formula=f"={trust}={state}", style=style)
+        return [
+            Rule(cells=cells, formula=f"={self.result('trust')}={state}", style=style)
             for state, style in ((0, "warning"), (1, "changed"))
-        )
+        ]
 
     @property
     def step_name(self) -> str:
@@ -127,63 +115,61 @@ _COLUMNS = {
 """Column -> the end of its keys, its unit, its number format, and the cells of like size; the last
 is that of the centered scheme."""
 
-_RESULTS = "IJKLMN"
-_WIDTHS = (8.0, 33.0, 13.0, 7.0, 24.0, 26.0)
+_WIDTHS = {"I": 8.0, "J": 33.0, "K": 13.0, "L": 7.0, "M": 24.0, "N": 26.0}
 
 
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
-    centered = case.scheme == "centered"
-    columns = "ABCDEFGH" if centered else "ABCDEFG"
-    results = _results(ledger, case)
-    cells = _head(case, columns) | results
-    last = max(FIRST_ROW + case.steps, *(int(address[1:]) for address in results))
+    columns = "ABCDEFGH" if case.scheme == "centered" else "ABCDEFG"
+    widths = {
+        "A": 5.0,
+        **dict.fromkeys("BCDEF", 11.0),
+        "G": 8.0,
+        "H": 3.0 if "H" not in columns else 13.0,
+    }
+    page = SheetPlan(name=case.name, widths=widths | _WIDTHS)
+    _head(page, case, columns)
+    page.row = FIRST_ROW - 2
+    page.lines(ledger, case.part, _results(case), "IJKLMN")
+    last = max(FIRST_ROW + case.steps, page.row - 1)
     for step in range(case.rows + 1):
-        cells |= _row(step, case)
-    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, "H": 13.0 if centered else 3.0}
+        page.cells |= _row(step, case)
     used = f"A{FIRST_ROW}:{columns[-1]}{case.last_row}"
-    return SheetPlan(
-        name=case.name,
-        cells=cells,
-        widths=widths | dict(zip(_RESULTS, _WIDTHS, strict=True)),
-        frozen=f"A{FIRST_ROW}",
-        repeated_rows=(FIRST_ROW - 2, FIRST_ROW - 1),
-        print_area=f"A1:M{last}",
-        rules=(
-            Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
-            Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
-            *case.rules("A3"),
-        ),
-    )
+    page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (FIRST_ROW - 2, FIRST_ROW - 1)
+    page.print_area = f"A1:M{last}"
+    page.rules = [
+        Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
+        Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
+        *case.rules("A3"),
+    ]
+    return page
 
 
-def _head(case: CaseSheet, columns: str) -> dict[str, Cell]:
+def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
     """The title with the live β, the state of the run, notes, and the heads of the columns."""
-    top = FIRST_ROW - 2
     more = f"; for more: {case.longer}" if case.longer else ", and no workbook takes more."
-    cells = title("Rigid-body penetration, row by row") | notes(
-        4,
+    page.title("Rigid-body penetration, row by row")
+    state = formula(f"{case.part}.message", _message(case), "message", name=case.result("message"))
+    page.put(A=state)
+    page.say(
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
         f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
         "The run stops with the first row below v_stop; printed pages end with the last row as "
         f"written. {case.rows} rows are prepared{more}",
         width=205,
     )
-    cells["A3"] = formula(
-        f"{case.part}.message", _message(case), "message", name=case.result("message")
-    )
-    cells["I1"] = text(case.label, "title")
+    page.cells["I1"] = text(case.label, "title")
     if not case.resistance_given:
         beta = case.named("beta")
         # Programs join a number to a text with 15 digits or 17; Gnumeric, even a rounded one, with
         # those of a long double.
         label = f'="β = "&IF(ISNUMBER({beta}),ROUND({beta},6),{beta})'
         renamed = f'=IF(ISNUMBER({beta}),IF(I1="{case.label}","","{KEPT_NAME}"),"")'
-        cells["I1"] = formula(f"{case.part}.label", label, "title")
-        cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
-    cells |= heads(top, columns, _HEADS[: len(columns)], columns)
-    units = {column: written(_COLUMNS[column][1]) for column in columns}
-    return cells | {f"{c}{top + 1}": text(unit, "unit right") for c, unit in units.items() if unit}
+        page.cells["I1"] = formula(f"{case.part}.label", label, "title")
+        page.cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
+    page.row = FIRST_ROW - 2
+    units = [written(_COLUMNS[column][1]) or None for column in columns]
+    page.heads(columns, _HEADS[: len(columns)], columns, units)
 
 
 def step_formulas(
@@ -272,7 +258,7 @@ def _message(case: CaseSheet) -> str:
     return f'=IF(ISNUMBER({stopped}),{run},"{INVALID}")'
 
 
-def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
+def _results(case: CaseSheet) -> list[Line | str]:
     lines: list[Line | str] = [
         "",  # no title here, since every printed page repeats this row
         *_inputs(case),
@@ -293,7 +279,7 @@ def _results(ledger: Ledger, case: CaseSheet) -> dict[str, Cell]:
             Line("over_fine", "", "depth of this sheet over that", over,
                  claim="coarse-step-remark", shown="0.00%"),
         ]  # fmt: skip
-    return place(ledger, case.part, lines, FIRST_ROW - 2, _RESULTS)
+    return lines
 
 
 def _inputs(case: CaseSheet) -> list[Line]:

@@ -5,17 +5,15 @@ prints, `6E-10` in General included. From column H on stands the printed text it
 """
 
 from reference.ledger import Claim, Ledger
-from spreadsheets.plan import Cell, SheetPlan
-from spreadsheets.sheets.lines import (
+from spreadsheets.plan import (
+    HOME,
     NOT_COMPUTED,
-    colored,
+    Cell,
+    SheetPlan,
     formula,
-    heads,
-    notes,
     printed,
-    row_of,
+    recorded,
     text,
-    title,
     unit_text,
 )
 from spreadsheets.sheets.steps import FIRST_ROW, CaseSheet, step_formulas
@@ -66,12 +64,16 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         unit = "m/s" if claim is None else claim.unit
         return formula(f"table.{what}", expression, number_format=shown, unit=unit)
 
-    cells = {f"A{row}": text(words) for row, words in enumerate(_LABELS, start=1)}
+    columns = "ABCDEFG" if centered else "ABCDEF"
+    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
+    page = SheetPlan(name="Table A-1", widths=widths)
+    cells = page.cells
+    for row, words in enumerate(_LABELS, start=1):
+        cells[f"A{row}"] = text(words)
     for address, (what, symbol) in _HEADER.items():
         cells[address] = live(address, what, f"={resistance if symbol == 'R_t' else symbol}")
-    for column, words in zip("ABCDEFG"[: 7 if centered else 6], _HEADS, strict=False):
-        style = "head" if column in "AB" else "head right"
-        cells[f"{column}{_FIRST - 1}"] = text(words, style)
+    for column, words in zip(columns, _HEADS, strict=False):
+        cells[f"{column}{_FIRST - 1}"] = text(words, "head" if column in "AB" else "head right")
     for step in range(ROWS):
         row = _FIRST + step
         if step:
@@ -87,16 +89,15 @@ def sheet(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
             cells[address] = live(address, f"row[{step}].{_COLUMNS[column]}", expression)
     if report:
         cells |= _beside(ledger, claims)
-    cells |= notes(
-        14,
-        f"Table A-1, rigid body penetration. Columns A to {'G' if centered else 'F'} are live, "
+    page.row = 14
+    page.say(
+        f"Table A-1, rigid body penetration. Columns A to {columns[-1]} are live, "
         f"with the inputs of {case.name}."
         + (" Columns H to M are the report’s text." if report else ""),
         "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
     )
-    cells["A18"] = title("")["A2"]
-    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
-    return SheetPlan(name="Table A-1", cells=cells, widths=widths)
+    cells["A18"] = text(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    return page
 
 
 def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
@@ -116,10 +117,9 @@ def _beside(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
 DIGITS = 4
 """Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
 
-_HEAD_ROW = 6
-_CHECK_HEADS = (
-    "Cell", "Quantity", "Unit", "The report prints", "Computed", "Difference", "",
-    "Last printed digit",
+_CHECK_COLUMNS = (
+    ("Cell", 8.0), ("Quantity", 26.0), ("Unit", 9.0), ("The report prints", 17.0),
+    ("Computed", 25.0), ("Difference", 12.0), ("", 18.0), ("Last printed digit", 17.0),
 )  # fmt: skip
 _FULL = "0.0000000000000000E+00"
 SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
@@ -127,24 +127,20 @@ SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
 
 def check_sheet(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
-    cells = title("Table A-1: printed and computed") | notes(
-        3,
+    page = SheetPlan(name="Table A-1 check")
+    page.title("Table A-1: printed and computed")
+    page.say(
         "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
-        "minus printed, in units of the last printed digit; up to 0.5 it prints the same.",
+        "minus printed, in units of the last printed digit; up to 0.5 it prints the same."
     )
-    cells |= heads(_HEAD_ROW, "ABCDEFGH", _CHECK_HEADS, "DEFH")
-    first = _HEAD_ROW + 1
-    for row, (address, claim) in enumerate(_claims(ledger).items(), start=first):
-        cells |= row_of(row, _check(claim, address, row, table))
-    widths = (8.0, 26.0, 9.0, 17.0, 25.0, 12.0, 18.0, 17.0)
-    return SheetPlan(
-        name="Table A-1 check",
-        cells=cells,
-        widths=dict(zip("ABCDEFGH", widths, strict=True)),
-        frozen=f"B{first}",
-        repeated_rows=(_HEAD_ROW, _HEAD_ROW),
-        rules=colored(f"G{first}:G{row}", {SAME_TEXT: "good", OTHER_TEXT: "warning"}),
-    )
+    page.row = 6
+    page.table(_CHECK_COLUMNS, "DEFH", "B")
+    first = page.row
+    for address, claim in _claims(ledger).items():
+        page.put(**_check(claim, address, page.row, table))
+    verdicts = f"G{first}:G{page.row - 1}"
+    page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})
+    return page
 
 
 def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
@@ -158,10 +154,8 @@ def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, 
     difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
     verdict = f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
     shown = table.cells[address].number_format
-    number = Cell(
-        number=float(claim.printed.value), style="recorded", number_format=shown, claim=claim.id
-    )
-    digit = Cell(number=float(claim.printed.quantum), style="recorded", number_format="0E+00")
+    number = recorded(float(claim.printed.value), number_format=shown, claim=claim.id)
+    digit = recorded(float(claim.printed.quantum), number_format="0E+00")
     return {
         "A": text(address, "link", link=(table.name, address)),
         "B": text(claim.title),

@@ -31,9 +31,9 @@ def with_openpyxl(f: Foreign, path: Path) -> Path:
 
 def calculated(f: Foreign, path: Path) -> Values:
     """What each formula gives, by an engine that the program under test does not use."""
-    from spreadsheets.engines import address, engine
+    from spreadsheets.engines import Formualizer, address
 
-    found = engine("formualizer").recalculate(with_openpyxl(f, path))
+    found = Formualizer().recalculate(with_openpyxl(f, path))
     return {
         place: found[place[0]][address(place[1], place[2])]
         for place in f.cells

@@ -63,7 +63,7 @@ def test_rows_and_the_command_that_the_sheet_advises(run: Run, tmp_path: Path) -
     assert status == 0
     longer = tmp_path / "longer.xlsx"
     assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 2000 * 7
-    depth = workbook.build([workbook.BETA_5]).plan.where["case.depth_um"][1]
+    depth = workbook.build(workbook.BETA_5).plan.where["case.depth_um"][1]
     assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
 
 
@@ -98,7 +98,7 @@ def test_the_longest_command_is_advised_whole(run: Run, tmp_path: Path) -> None:
 
 def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(steps, "MAX_ROWS", 200)
-    book = workbook.build([replace(workbook.BETA_5, step=1e-9)], rows=200)
+    book = workbook.build(replace(workbook.BETA_5, step=1e-9), rows=200)
     said = note(book.cells["Sheet beta 5"])
     assert said.endswith("200 rows are prepared, and no workbook takes more.")
 
@@ -156,7 +156,7 @@ def check(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Return a function that verifies in other engines than those of this machine."""
 
     def command(engines: list[Engine], *options: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(workbook, "ENGINES", tuple(engines))
+        monkeypatch.setattr("spreadsheets.engines.ENGINES", tuple(engines))
         return run("--verify", *OWN, *options)
 
     return command

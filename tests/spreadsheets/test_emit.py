@@ -119,7 +119,7 @@ def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path)
 def test_same_bytes_whatever_the_surroundings(tmp_path: Path) -> None:
     code = (
         "import sys; from pathlib import Path; from replication import workbook; "
-        "book = workbook.build([workbook.BETA_5]); "
+        "book = workbook.build(workbook.BETA_5); "
         "contents = {book.to_bytes(), book.to_bytes()}; "
         "Path(sys.argv[1]).write_bytes(b''.join(contents))"
     )

@@ -30,7 +30,7 @@ BOOK = BOOKS["published"]
 PLAN = BOOK.plan
 SHEETS = {sheet.name: sheet for sheet in PLAN.sheets}
 FORMULAS = {place: cell.formula for place, cell in PLAN.cells() if cell.formula}
-OWN = build([replace(BETA_5, velocity=600.0)])
+OWN = build(replace(BETA_5, velocity=600.0))
 
 # Formulas
 
@@ -237,10 +237,10 @@ def test_an_own_workbook_leaves_out_what_is_about_the_report() -> None:
     ]
     printed = {cell.claim for (s, _), cell in OWN.plan.cells() if s in ("Overview", "Sheet beta 5")}
     assert printed == {"", "excess"}
-    claims = {cell.claim for _, cell in build([BETA_5]).plan.cells()}
+    claims = {cell.claim for _, cell in build(BETA_5).plan.cells()}
     assert {"depth-beta-5", "ratio-beta-5"} <= claims
     given = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
-    assert not {"inputs.beta", "inputs.Y_t"} & build([given]).values.keys()
+    assert not {"inputs.beta", "inputs.Y_t"} & build(given).values.keys()
 
 
 # Layout
@@ -279,8 +279,8 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
         ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
     ):
-        (chart,) = SHEETS[name].charts
-        assert words in chart.description
+        chart = SHEETS[name].chart
+        assert words in chart.described(BOOK.values)
         assert all("[" in title for title in (chart.x_title, chart.y_title))
         for sheet, at in (series.name for series in chart.series):
             assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
@@ -305,7 +305,7 @@ def test_a_case_that_the_workbook_does_not_take_is_refused(
     changes: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
-        build([replace(BETA_5, **changes)])
+        build(replace(BETA_5, **changes))
 
 
 def test_derived_cells_stand_apart_from_those_that_are_typed() -> None:

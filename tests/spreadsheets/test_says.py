@@ -15,11 +15,10 @@ from replication.cases import BETA_5
 from replication.error import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Recalculated
-from spreadsheets.plan import Value
+from spreadsheets.plan import NOT_COMPUTED, Value
 from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.figures import CURRENT, STALE
 from spreadsheets.sheets.inputs import INPUTS, MESSAGES
-from spreadsheets.sheets.lines import NOT_COMPUTED
 from spreadsheets.sheets.steps import (
     COMPLETE,
     DOUBTFUL,
