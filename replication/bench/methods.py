@@ -27,14 +27,11 @@ njit: Callable[[Function], Function] = numba.njit  # which has no types
 STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
 """Of the sheet, over that of the case."""
 
-OURS = {"closed form", "Taylor series", "Taylor series, plain Python"}.union(
-    f"sheet, {scheme}" for scheme in SCHEMES
+OURS = {"Taylor series, plain Python"}.union(
+    f"{method}{many}"
+    for method in ("closed form", "Taylor series", *(f"sheet, {scheme}" for scheme in SCHEMES))
+    for many in ("", ", many")
 )
-
-
-def is_ours(method: str) -> bool:
-    """Whether a method is this project's, for one case or for many."""
-    return method.removesuffix(", many") in OURS
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +56,7 @@ def tasks(case: Case) -> Iterator[Task]:
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
     for scheme, (step, setting) in product(SCHEMES, steps):
         name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
-        depth = partial(_final_depth, impact, scheme)
-        yield Task(name, setting, "depth", depth, stop)
+        yield Task(name, setting, "depth", partial(_final_depth, impact, scheme), stop)
         yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
         sheets = partial(arrays.run_many, step=step, stop_velocity=stop, scheme=scheme)
         yield _many(name, setting, case, sheets, 1001, stop)
@@ -114,19 +110,13 @@ def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
 
 def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
     """Final depth and history by what gives y at times, for b and c."""
-    impact, compiled = case.impact, not method.startswith("solve_ivp")
+    impact, R = case.impact, case.impact.radius
     b = 3 * impact.target_density / (8 * impact.particle_density)
     c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
-    times = case.times * impact.velocity / impact.radius
-
-    def depth() -> float:
-        return impact.radius * float(solve(b, c, times[[0, -1]])[-1])
-
-    def history() -> Any:
-        return impact.radius * np.asarray(solve(b, c, times))
-
-    yield Task(method, setting, "depth", depth, compiled=compiled)
-    yield Task(method, setting, "history", history, compiled=compiled)
+    times = case.times * impact.velocity / R
+    task = partial(Task, method, setting, compiled=not method.startswith("solve_ivp"))
+    yield task("depth", lambda: R * float(solve(b, c, times[[0, -1]])[-1]))
+    yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
 @njit

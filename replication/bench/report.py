@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from replication.bench.cases import MEASURES
-from replication.bench.methods import is_ours
+from replication.bench.methods import OURS
 from replication.bench.run import Point, met, ranked, title
 from replication.plain import json_text, rows_csv
 from replication.text import aligned, number
@@ -68,12 +68,9 @@ def _table(points: Sequence[Point]) -> Iterator[str]:
 def _cells(point: Point | None) -> tuple[str, ...]:
     if point is None or point["gap"]:
         return ("-" if point else "", "", "", "")
-    times = (_microseconds(point["best"]), _microseconds(point["median"]))
+    seconds = (point["best"], point["median"])
+    times = (f"{1e6 * s:.0f}" if s >= 1e-3 else number(1e6 * s, 4) for s in seconds)
     return (f"{point['error']:.1e}", *times, "*" if point["front"] else "")
-
-
-def _microseconds(seconds: float) -> str:
-    return f"{1e6 * seconds:.0f}" if seconds >= 1e-3 else number(1e6 * seconds, 4)
 
 
 def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
@@ -150,7 +147,7 @@ def figure(case: dict[str, Any], kind: str) -> bytes:
             points = [point for point in case["points"] if point["measure"] == measure]
             for method in methods:
                 line = _line(point for point in points if point["method"] == method)
-                panel.plot(*line, marker="s" if is_ours(method) else "o", label=method)
+                panel.plot(*line, marker="s" if method in OURS else "o", label=method)
             front = [point for point in ranked(points, measure, many=False) if point["front"]]
             edge: Any = {"label": "Pareto front, one case at a time", "color": "#D55E00"}
             panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)

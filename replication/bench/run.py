@@ -16,17 +16,12 @@ import numba
 from tqdm import tqdm
 
 from replication.bench.cases import MEASURES, Case, Measure, build
-from replication.bench.methods import Task, is_ours, tasks
+from replication.bench.methods import OURS, Task, tasks
 from replication.cases import inputs_of
 from replication.models import arrays
 
 Point = dict[str, Any]
-"""A method at a setting, measured: its relative error, and times [s] a case; or the gap's reason.
-
-`best` and `median` are of `repeats` batches of `calls` calls; `compile` is what the first call took
-longer, where something is compiled. On the `front` are those of one case at a time that no other
-beats in time without loss of accuracy. What is not known is None.
-"""
+"""What `trial` measures of a task, as in the JSON."""
 
 DIGITS = range(1, 16)
 
@@ -56,14 +51,9 @@ def bench(
 
 
 def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[str, Any]:
-    points: list[Point] = []
-    trials = []
-    for task in tasks(case):
-        points.append({})
-        trials.append(trial(case, task, points[-1], repeat, limit))
+    trials = [trial(case, task, repeat, limit) for task in tasks(case)]
     with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
-        for turn in turns:
-            next(turn, None)
+        points = [next(turn, {}) for turn in turns][: len(trials)]  # later turns fill them in
     mark_front(points)
     return {
         "name": case.name,
@@ -75,14 +65,16 @@ def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[
     }
 
 
-def trial(case: Case, task: Task, point: Point, repeat: int, limit: float) -> Iterator[None]:
-    """Measure a task in turns: the first warms it up, the others time a batch each.
+def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
+    """A task's point, measured in turns: the first warms it up, the others time a batch each.
 
-    A task that fails, or takes longer than the limit, is left alone from then.
+    It has the relative error, and in s a case `best` and `median` of `repeats` batches of `calls`
+    calls, and what the first call took longer where something is compiled. A task that fails, or
+    takes longer than the limit, is left alone from then: a `gap`, for this reason.
     """
-    point |= {"method": task.method, "setting": task.setting, "measure": task.measure}
-    point |= {"cases": task.cases, "error": None, "compile": None, "best": None, "median": None}
-    point |= {"repeats": None, "calls": None, "gap": None, "front": False}
+    names = ("error", "compile", "best", "median", "repeats", "calls", "gap")
+    point: Point = {"method": task.method, "setting": task.setting, "measure": task.measure}
+    point |= {"cases": task.cases, **dict.fromkeys(names), "front": False}
     answers: list[Any] = []
     try:
         first = timeit.timeit(lambda: answers.append(task.run()), number=1)
@@ -94,6 +86,7 @@ def trial(case: Case, task: Task, point: Point, repeat: int, limit: float) -> It
             raise ArithmeticError("the answer is not finite")
     except (ArithmeticError, ValueError, OSError) as failure:
         point["gap"] = str(failure)
+        yield point
         return
     calls = max(1, round(BATCH / once))
     repeats = max(1, int(min(repeat, limit / (once * calls))))
@@ -101,7 +94,7 @@ def trial(case: Case, task: Task, point: Point, repeat: int, limit: float) -> It
     point |= {"error": error, "compile": compiling, "repeats": repeats, "calls": calls}
     batches = []
     for _ in range(repeats):
-        yield
+        yield point
         batches.append(timeit.timeit(task.run, number=calls) / calls / task.cases)
         point |= {"best": min(batches), "median": median(batches)}
 
@@ -119,7 +112,7 @@ def ranked(points: Sequence[Point], measure: Measure, many: bool) -> list[Point]
 
 
 def mark_front(points: Sequence[Point]) -> None:
-    """Mark the points that are on the front of their measure."""
+    """Mark those of one case at a time that no other beats in time without loss of accuracy."""
     for measure in MEASURES:
         least = math.inf
         for point in ranked(points, measure, many=False):
@@ -139,8 +132,8 @@ def error_for(digits: int) -> float:
 def ratio(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
     """For so many digits, the fastest of this project's methods and of the others."""
     able = [point for point in ranked(points, measure, many) if met(point) <= error_for(digits)]
-    ours = next((point for point in able if is_ours(point["method"])), None)
-    peer = next((point for point in able if not is_ours(point["method"])), None)
+    ours = next((point for point in able if point["method"] in OURS), None)
+    peer = next((point for point in able if point["method"] not in OURS), None)
     return {
         "measure": measure,
         "many": many,
