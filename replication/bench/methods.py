@@ -202,7 +202,7 @@ def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
 
 
 @cache
-def _taylor(tolerance: float, b: float, c: float) -> tuple[Any, Any]:
+def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
     """Integrators for up to y = 1, where the first one stops, and beyond."""
     try:
         import heyoka
@@ -211,11 +211,10 @@ def _taylor(tolerance: float, b: float, c: float) -> tuple[Any, Any]:
     y, u = heyoka.make_vars("y", "u")
     crosses = math.log1p(b / c) / (2 * b) > 2 / 3
     events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses else {}
-    first, beyond = (
+    return [
         heyoka.taylor_adaptive([(y, u), (u, -(b * u * u + c) * area)], tol=tolerance, **more)
         for area, more in ((2 * y - y * y, events), (1.0, {}))
-    )
-    return first, beyond
+    ]
 
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)

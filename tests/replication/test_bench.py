@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from importlib.util import find_spec
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Any
 
@@ -26,38 +26,36 @@ from replication.bench.report import figure, texts
 from replication.bench.run import DIGITS, Point, bench, error_for, mark_front, met, ratio, trial
 
 Command = Callable[..., tuple[int, str, str]]
-HALF_ULP = 2.0**-53
 
 
-def point(
-    error: float | None, seconds: float | None, method: str = "closed form", **more: Any
-) -> Point:
-    times = {"best": seconds, "median": seconds and 1.5 * seconds, "repeats": 7, "calls": 10}
-    head = {"method": method, "setting": "setting", "measure": "depth", "cases": 1, "error": error}
-    return head | {"compile": None, **times, "gap": None, "front": False} | more
+def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
+    task = {"method": method, "setting": "setting", "measure": "depth", "cases": 1}
+    times = {"compile": None, "best": seconds, "median": 1.5 * seconds, "repeats": 7, "calls": 10}
+    return task | {"error": error} | times | {"gap": None, "front": False} | more
 
 
-GAP = point(None, None, "RK45", gap="takes 7 s, more than 5 s", repeats=None, calls=None)
+UNKNOWN = dict.fromkeys(("error", "best", "median", "repeats", "calls"))
+GAP = point(1.0, 1.0, "RK45") | UNKNOWN | {"gap": "takes 7 s, more than 5 s"}
 
-POINTS = st.lists(
-    st.builds(
-        point, st.floats(0, 1), st.floats(1e-9, 1e3), st.sampled_from(["closed form", "RK45"])
-    )
-    | st.builds(GAP.copy)
-)
+ERRORS = st.floats(0, 1) | st.floats(0, 1e-15)
+METHODS = st.sampled_from(["closed form", "RK45"])
+POINTS = st.lists(st.builds(point, ERRORS, st.floats(1e-9, 1e3), METHODS) | st.builds(GAP.copy))
+
+
+def counted(point: Point) -> float:
+    """Luck below half an ulp earns nothing."""
+    return max(point["error"], 2.0**-53)
 
 
 @given(POINTS)
 def test_nothing_measured_beats_the_front(points: list[Point]) -> None:
     mark_front(points)
-    front = sorted((p for p in points if p["front"]), key=lambda p: p["best"])
-    for p in points:
-        if not p["gap"]:
-            assert any(f["best"] <= p["best"] and met(f) <= met(p) for f in front)
-            better = (f for f in front if p["best"] <= f["best"] and met(p) <= met(f))
-            assert all((p["best"], met(p)) == (f["best"], met(f)) for f in better)
-    assert all(a["best"] < b["best"] and met(a) > met(b) for a, b in pairwise(front))
-    assert not any(p["gap"] for p in front)
+    assert not any(point["front"] for point in points if point["gap"])
+    known = [(p["best"], counted(p)) for p in points if not p["gap"]]
+    front = sorted((p["best"], counted(p)) for p in points if p["front"])
+    for best, error in known:
+        assert any(f <= best and e <= error for f, e in front)
+    assert all(a < b and e > f for (a, e), (b, f) in pairwise(front))
 
 
 @given(points=POINTS, digits=st.sampled_from(DIGITS))
@@ -65,17 +63,11 @@ def test_a_choice_is_the_fastest_of_each_side_that_is_good_enough(
     points: list[Point], digits: int
 ) -> None:
     choice = ratio(points, False, "depth", digits)
-    for side, ours in (("ours", True), ("peer", False)):
-        able = [p for p in points if met(p) <= error_for(digits) and (p["method"] in OURS) == ours]
-        assert choice[side] == min((p["best"] for p in able), default=None)
-
-
-@given(st.floats(0, HALF_ULP))
-def test_luck_below_half_an_ulp_earns_nothing(error: float) -> None:
-    lucky, honest = point(error, 2.0), point(HALF_ULP, 1.0, setting="honest")
-    mark_front([lucky, honest])
-    assert (lucky["front"], honest["front"]) == (False, True)
-    assert ratio([lucky, honest], False, "depth", 15)["fastest"] == "closed form, honest"
+    able = [p for p in points if not p["gap"] and counted(p) <= error_for(digits)]
+    for side, method in (("ours", "closed form"), ("peer", "RK45")):
+        times = [p["best"] for p in able if p["method"] == method]
+        assert choice[side] == min(times, default=None)
+    assert (choice["fastest"] is None) == (not able)
 
 
 @pytest.fixture(scope="module")
@@ -99,25 +91,25 @@ def test_the_exact_history_is_exact(beta_5: Case) -> None:
 
 
 @pytest.mark.parametrize("scheme", ["published", "centered"])
-def test_the_sheet_converges(scheme: str, beta_5: Case) -> None:
+def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(scheme: str, beta_5: Case) -> None:
     name = f"sheet, {scheme}"
-    depth, history, many = (
-        errors(beta_5, *asked)
-        for asked in ((name, "depth"), (name, "history"), (f"{name}, many", "depth"))
-    )
-    for ladder in (depth, history):
+    depth, many = (errors(beta_5, method, "depth") for method in (name, f"{name}, many"))
+    for ladder in (depth, errors(beta_5, name, "history")):
         assert len(ladder) == len(STEPS)
         # To within its stopping rule: a step more or less.
         assert ladder[-1] < 2e-5 < 1e-3 < ladder[0]
     assert many == sorted(many, reverse=True)
     # The fastest of the cases takes a tenth fewer steps, and its error is the greatest.
     assert many[2] == pytest.approx(depth[2], abs=2e-4)
+    if scheme == "published":
+        for suffix, sheets in (("", depth), (", many", many)):
+            bare = errors(beta_5, f"sheet, Numba loop{suffix}", "depth")
+            assert bare == pytest.approx(sheets, rel=1e-9)
 
 
 def test_the_sheet_s_history_is_compared_down_to_where_the_sheet_ends(beta_5: Case) -> None:
-    held = np.minimum(beta_5.times, 2e-8)
     depths = [float(depth) for depth in beta_5.depths]
-    late = np.interp(held, beta_5.times, depths)
+    late = np.interp(np.minimum(beta_5.times, 2e-8), beta_5.times, depths)
     assert beta_5.error("history", late) > 1e-2
     # Until there only the straight lines between the exact depths are off.
     velocity = float(beta_5.motion.velocity_at_depth(beta_5.motion.depth_at_time(2e-8)))
@@ -155,66 +147,56 @@ def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPat
     assert met == {*EXACT, *FINE}
 
 
-@pytest.mark.parametrize("many", ["", ", many"])
-def test_the_bare_loop_of_the_sheet_is_the_sheet(many: str, beta_5: Case) -> None:
-    bare = errors(beta_5, f"sheet, Numba loop{many}", "depth")
-    assert bare == pytest.approx(errors(beta_5, f"sheet, published{many}", "depth"), rel=1e-9)
-
-
-@pytest.fixture
-def measure(beta_5: Case) -> Callable[..., Point]:
-    def to_the_end(task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
-        point, *_ = trial(beta_5, task, repeat, limit)
-        return point
-
-    return to_the_end
+def measure(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
+    point, *_ = trial(case, task, repeat, limit)
+    return point
 
 
 TASK = Task("a", "b", "depth", lambda: 7.67e-6)
 
 
 def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason(
-    beta_5: Case, measure: Callable[..., Point], monkeypatch: pytest.MonkeyPatch
+    beta_5: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail() -> float:
         raise ArithmeticError("never at rest")
 
-    assert measure(replace(TASK, run=fail))["gap"] == "never at rest"
-    assert measure(replace(TASK, run=lambda: math.nan))["gap"] == "the answer is not finite"
-    slow = measure(replace(TASK, run=lambda: time.sleep(0.02) or 0.0), limit=0.01)
+    assert measure(beta_5, replace(TASK, run=fail))["gap"] == "never at rest"
+    assert measure(beta_5, replace(TASK, run=lambda: math.nan))["gap"] == "the answer is not finite"
+    slow = measure(beta_5, replace(TASK, run=lambda: time.sleep(0.02) or 0.0), limit=0.01)
     assert slow["gap"].startswith("takes 0.02")
     assert slow["gap"].endswith("s, more than 0.01 s")
     assert (slow["best"], slow["error"], met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
     _taylor.cache_clear()
     task = next(task for task in tasks(beta_5) if task.method == "heyoka")
-    assert measure(task)["gap"] == "not installed: python -m pip install 'coldspray[bench]'"
+    reason = "not installed: python -m pip install 'coldspray[bench]'"
+    assert measure(beta_5, task)["gap"] == reason
     _taylor.cache_clear()
 
 
-def test_a_point_has_times_a_case(measure: Callable[..., Point]) -> None:
-    alone = measure(replace(TASK, compiled=True), repeat=3)
-    assert (alone["repeats"], alone["gap"]) == (3, None)
-    assert alone["error"] == pytest.approx(6.4e-4, rel=0.01)
-    assert 0 < alone["best"] <= alone["median"]
-    assert alone["compile"] is not None
-    assert measure(TASK)["compile"] is None
-
-
 def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
-    measure: Callable[..., Point], monkeypatch: pytest.MonkeyPatch
+    beta_5: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    seconds = iter([0.251, 0.001, *(5 * 1e-3 * k for k in (4, 1, 2))])
+
     def timed(run: Callable[[], Any], number: int) -> float:
         run()
-        return 1e-3 * number
+        return next(seconds)
 
     monkeypatch.setattr(run.timeit, "timeit", timed)
-    four = measure(replace(TASK, cases=4))
-    assert (four["calls"], four["best"], four["median"]) == (5, 2.5e-4, 2.5e-4)
+    point = measure(beta_5, replace(TASK, cases=4, run=lambda: [7.67e-6] * 4), repeat=3)
+    assert (point["repeats"], point["calls"], point["compile"]) == (3, 5, None)
+    assert (point["best"], point["median"]) == (2.5e-4, 5e-4)
+    assert point["error"] > 0.1  # of the cases with other velocities
+    seconds = iter([0.251, 0.001, 1.0])
+    alone = measure(beta_5, replace(TASK, compiled=True))
+    assert (alone["compile"], alone["gap"]) == (0.25, None)
+    assert alone["error"] == pytest.approx(6.4e-4, rel=0.01)
 
 
 def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
-    monkeypatch: pytest.MonkeyPatch,
+    beta_5: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     turns: list[str] = []
 
@@ -231,8 +213,8 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
             super().close()
 
     both = [replace(TASK, run=partial(turn, name)) for name in "ab"]
-    monkeypatch.setattr(run, "tasks", lambda _: both)
-    monkeypatch.setattr(run, "tqdm", Bar)
+    for name, instead in (("tasks", lambda _: both), ("build", lambda _: beta_5), ("tqdm", Bar)):
+        monkeypatch.setattr(run, name, instead)
     (case,) = bench(["beta-5"], repeat=3)["cases"]
     assert "".join(turns[:10]) == "aabb" + "ab" * 3  # warmed up, then in turn
     assert [point["repeats"] for point in case["points"]] == [3, 3]
@@ -244,10 +226,10 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
 
 @pytest.fixture
 def run_of_fakes() -> dict[str, Any]:
-    fine, coarse, history = {"setting": "0.2 ns"}, {"setting": "rtol 1e-06"}, {"measure": "history"}
+    coarse, history = {"setting": "rtol 1e-06"}, {"measure": "history"}
     points = [
-        point(7e-4, 1e-4, "sheet, published", **fine),
-        point(7e-4, 1.2e-4, "sheet, published", **fine, **history),
+        point(7e-4, 1e-4, "sheet, published"),
+        point(7e-4, 1.2e-4, "sheet, published", **history),
         point(1e-16, 1e-5, compile=0.25),
         point(1e-15, 2e-4, "Taylor series", **history),
         point(1e-16, 1e-7, "closed form, many", cases=10),
@@ -257,8 +239,7 @@ def run_of_fakes() -> dict[str, Any]:
         point(2e-6, 4e-5, "RK4", **history),
     ]
     mark_front(points)
-    asked = [(many, measure, n) for many in (False, True) for measure in MEASURES for n in DIGITS]
-    ratios = [ratio(points, *question) for question in asked]
+    ratios = [ratio(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "ratios": ratios}
     machine = {"processor": "abacus", "cores": 1}
     return {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case]}
@@ -285,15 +266,11 @@ def test_the_table_says_it_all(run_of_fakes: dict[str, Any]) -> None:
         "others",
         "  history of many cases, 15 digits: none of these",
     ]
-    once = texts(run_of_fakes | {"repeat": 1})["bench.txt"]
-    assert "best and median of 1 repeat that" in once
-
-
-def test_cases_that_differ_in_their_answer_are_named(run_of_fakes: dict[str, Any]) -> None:
     (case,) = run_of_fakes["cases"]
     other = case | {"name": "beta-3", "ratios": [dict(ratio) for ratio in case["ratios"]]}
     other["ratios"][0] |= {"fastest": "RK4, 100 steps", "peer": 1e-6, "ratio": 0.1}
-    text = texts(run_of_fakes | {"cases": [case, other]})["bench.txt"]
+    text = texts(run_of_fakes | {"repeat": 1, "cases": [case, other]})["bench.txt"]
+    assert "best and median of 1 repeat that" in text
     assert (
         "  final depth, 1 digit: closed form (beta-5), RK4 (beta-3), 1 to 10 us; the others' best "
         "takes 300 times as long\n"
