@@ -119,6 +119,9 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
     yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
+# Solvers of the equation
+
+
 @njit
 def _acceleration(y: Any, u: Any, b: Any, c: Any) -> Any:
     return -(b * u * u + c) * (y * (2 - y) if y < 1 else 1.0)
@@ -169,12 +172,12 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
 
 @njit
 def _rk4(steps: Any, b: Any, c: Any, times: Any) -> Any:
-    """Runge and Kutta's method with so many steps, shared out to the times evenly."""
+    """Runge and Kutta's method with so many steps, as many from any time to the next."""
     depths, y, u = np.zeros(times.size), 0.0, 1.0
+    steps //= times.size - 1
     for k in range(1, times.size):
-        steps_here = steps // (times.size - 1)
-        h = (times[k] - times[k - 1]) / steps_here
-        for _ in range(steps_here):
+        h = (times[k] - times[k - 1]) / steps
+        for _ in range(steps):
             a1 = _acceleration(y, u, b, c)
             u2 = u + h / 2 * a1
             a2 = _acceleration(y + h / 2 * u, u2, b, c)

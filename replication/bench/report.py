@@ -76,26 +76,25 @@ def _cells(point: Point | None) -> tuple[str, ...]:
 def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
     """For one case at a time, then for many: what is the fastest for how many digits."""
 
-    def advice(row: Sequence[dict[str, Any]]) -> str:
-        """The method that is the fastest in all cases, or each with its cases."""
+    def advice(row: Sequence[dict[str, Any]]) -> tuple[str, str]:
+        """What is asked; the method that is the fastest in all cases, or each with its cases."""
+        asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
         where: dict[str, list[str]] = {}
         for case, ratio in zip(cases, row, strict=True):
-            method = (ratio["fastest"] or "none of these").rpartition(", ")
-            where.setdefault(method[0] or method[2], []).append(case["name"])
+            best = ratio["fastest"]
+            method = best.rpartition(", ")[0] if best else "none of these"
+            where.setdefault(method, []).append(case["name"])
         if len(where) == 1:
-            return next(iter(where))
-        return ", ".join(f"{method} ({', '.join(names)})" for method, names in where.items())
+            return asked, next(iter(where))
+        named = (f"{method} ({', '.join(names)})" for method, names in where.items())
+        return asked, ", ".join(named)
 
     questions = zip(*(case["ratios"] for case in cases), strict=True)
-    for (many, measure), rows in groupby(
-        questions, lambda row: (row[0]["many"], row[0]["measure"])
-    ):
-        name = f"{MEASURES[measure]} of many cases" if many else MEASURES[measure]
-        for answer, group in groupby(rows, advice):
-            ratios = [ratio for row in group for ratio in row]
-            first, last = ratios[0]["digits"], ratios[-1]["digits"]
-            digits = f"{first} to {last}" if first < last else f"{last}"
-            yield f"{name}, {digits} digit{'s' if last > 1 else ''}: {answer}{_lead(ratios)}"
+    for (asked, answer), group in groupby(questions, advice):
+        ratios = [ratio for row in group for ratio in row]
+        first, last = ratios[0]["digits"], ratios[-1]["digits"]
+        digits = f"{first} to {last}" if first < last else f"{last}"
+        yield f"{asked}, {digits} digit{'s' if last > 1 else ''}: {answer}{_lead(ratios)}"
 
 
 def _lead(ratios: Sequence[dict[str, Any]]) -> str:

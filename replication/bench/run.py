@@ -132,20 +132,12 @@ def error_for(digits: int) -> float:
 def ratio(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
     """For so many digits, the fastest of this project's methods and of the others."""
     able = [point for point in ranked(points, measure, many) if met(point) <= error_for(digits)]
-    ours = next((point for point in able if point["method"] in OURS), None)
-    peer = next((point for point in able if point["method"] not in OURS), None)
-    return {
-        "measure": measure,
-        "many": many,
-        "digits": digits,
-        "error": error_for(digits),
-        "fastest": title(able[0]) if able else None,
-        "ours": ours and ours["best"],
-        "ours_method": ours and title(ours),
-        "peer": peer and peer["best"],
-        "peer_method": peer and title(peer),
-        "ratio": peer["best"] / ours["best"] if ours and peer else None,
-    }
+    row: dict[str, Any] = {"measure": measure, "many": many, "digits": digits}
+    row |= {"error": error_for(digits), "fastest": title(able[0]) if able else None}
+    for side, ours in (("ours", True), ("peer", False)):
+        best = next((point for point in able if (point["method"] in OURS) == ours), None)
+        row |= {side: best and best["best"], f"{side}_method": best and title(best)}
+    return row | {"ratio": row["peer"] / row["ours"] if row["peer"] and row["ours"] else None}
 
 
 def title(point: Point) -> str:
