@@ -90,14 +90,17 @@ def test_the_exact_history_is_exact(beta_5: Case) -> None:
     assert abs(beta_5.depths[-1] / motion.final_depth - 1) < 1e-30
 
 
-@pytest.mark.parametrize("scheme", ["published", "centered"])
-def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(scheme: str, beta_5: Case) -> None:
+# Of second order, the centered sheet is only as near as it is where it is compared at its stop.
+@pytest.mark.parametrize(("scheme", "bound"), [("published", 2e-5), ("centered", 1e-6)])
+def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(
+    scheme: str, bound: float, beta_5: Case
+) -> None:
     name = f"sheet, {scheme}"
     depth, many = (errors(beta_5, method, "depth") for method in (name, f"{name}, many"))
     for ladder in (depth, errors(beta_5, name, "history")):
         assert len(ladder) == len(STEPS)
         # To within its stopping rule: a step more or less.
-        assert ladder[-1] < 2e-5 < 1e-3 < ladder[0]
+        assert ladder[-1] < bound < 1e-3 < ladder[0]
     assert many == sorted(many, reverse=True)
     # The fastest of the cases takes a tenth fewer steps, and its error is the greatest.
     assert many[2] == pytest.approx(depth[2], abs=2e-4)
