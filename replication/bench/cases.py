@@ -1,9 +1,8 @@
-"""The cases that are timed, each with its exact depths and an exact history."""
+"""The cases that are timed, and how far an answer is off the truth to 50 digits."""
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +12,10 @@ from reference.motion import Trajectory
 from replication.error.hard_cases import HARD_CASES, impact_of
 from replication.error.ladder import exact_motion
 from replication.models.impact import Impact
+
+Measure = Literal["depth", "history"]
+MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
+"""What is asked of a method, and the title of that."""
 
 CASES = {
     "beta-5": "the report's beta-5",
@@ -29,7 +32,7 @@ POINTS = 101
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One case with the truth about it, to 50 digits.
+    """One case with its exact motion.
 
     `times` [s], shape (POINTS,), run from the impact to rest; `depths` [m] are the exact ones.
     """
@@ -40,23 +43,40 @@ class Case:
     times: npt.NDArray[np.float64]
     depths: tuple[Number, ...]
 
-    def depth_error(self, depth: float, at_velocity: float = 0.0) -> float:
-        """Relative error of a depth [m], against the exact one at a velocity [m/s], 0 for rest."""
-        return relative_error(depth, self.motion.depth_at_velocity(at_velocity))
+    def columns(self, count: int) -> list[Any]:
+        """The inputs of so many cases, their velocities within 10 % of this one in the middle."""
+        spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
+        velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
+        return [velocity * (1 + spread), *others]
 
-    def history_error(self, depths: Sequence[float], until: float = math.inf) -> float:
-        """The worst error of depths [m] at `times` up to one [s], relative to the depth at rest."""
-        mpf, whole = self.motion.context.mpf, self.motion.final_depth
-        triples = zip(self.times, depths, self.depths, strict=True)
-        errors = [abs(mpf(float(x)) - exact) / whole for time, x, exact in triples if time <= until]
-        return float(np.max([float(error) for error in errors]))
+    def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
+        """The worst relative error of depths [m], measured down to a velocity [m/s], 0 for rest.
+
+        Of a "depth", these are the final ones of `columns`, of which eleven are compared; of a
+        "history", those at `times`, relative to the depth at rest; where there is a row for each of
+        `columns`, the middle one is. Of several results, as of depth and velocity, the first is.
+        """
+        found = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
+        if measure == "depth":
+            some = np.unique(np.linspace(0, len(found) - 1, 11, dtype=int))
+            velocities = self.columns(len(found))[0][some].tolist()
+            motions = [exact_motion(replace(self.impact, velocity=v)) for v in velocities]
+            exact = wholes = [motion.depth_at_velocity(stop) for motion in motions]
+            found = found[some]
+        else:
+            end = self.motion.depth_at_velocity(stop)
+            exact = [depth for depth in self.depths if stop == 0 or depth <= end]
+            wholes = [self.motion.final_depth] * len(exact)
+            found = (found if found.ndim == 1 else found[len(found) // 2])[: len(exact)]
+        terms = zip(map(self.motion.context.mpf, found.tolist()), exact, wholes, strict=True)
+        return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
 
 def build(name: str) -> Case:
     """One of `CASES`. Raises ValueError for another name.
 
     >>> case = build("beta-5")
-    >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.depth_error(7.67e-6):.1e}"
+    >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
     ('26.079 ns', '6.4e-04')
     """
     if name not in CASES:
@@ -79,8 +99,3 @@ def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
     exact = motion.time_to_depth(depth)
     time = float(exact)
     return time, depth + motion.velocity_at_depth(depth) * (motion.context.mpf(time) - exact)
-
-
-def relative_error(depth: float, exact: Number) -> float:
-    """Of a double [m], without rounding; NaN for one that is not finite."""
-    return float(abs(exact.context.mpf(float(depth)) / exact - 1))

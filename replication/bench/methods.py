@@ -1,85 +1,95 @@
-"""`Task`: one thing to time; and what this project has for it."""
+"""What is timed: this project's methods, and what a user would take otherwise.
 
-from collections.abc import Callable, Iterator
+The latter are written as a user would. SciPy's `solve_ivp` finds rest by an event. The other
+solvers are told when rest comes, and integrate up to there: nothing that they lack is held against
+them. All have depth over R and velocity over V, in units of R / V of time: y' = u and
+u' = -(b u^2 + c) A(y) (Eqs. 12-13). A solver takes its setting, b, c and times, and gives y there.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any, Literal
+from functools import cache, partial
+from itertools import product
+from typing import Any
 
+import numba
 import numpy as np
 
-from replication.bench.cases import Case, relative_error
-from replication.error.ladder import exact_motion
+from replication.bench.cases import Case, Measure
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, run
 
-Measure = Literal["depth", "history"]
-MEASURES: tuple[Measure, ...] = ("depth", "history")
-TITLES = {"depth": "final depth", "history": "history"}
+Function = Callable[..., Any]
+njit: Callable[[Function], Function] = numba.njit  # which has no types
+
+STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
+"""Of the sheet, over that of the case."""
+
+OURS = {"Taylor series, plain Python"}.union(
+    f"{method}{many}"
+    for method in ("closed form", "Taylor series", *(f"sheet, {scheme}" for scheme in SCHEMES))
+    for many in ("", ", many")
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A method at a setting: what to time, and how far off its answer is.
+    """A method at a setting: `run` answers what `measure` asks, down to a velocity `stop` [m/s].
 
-    `measure` is "depth" (relative error of the final depth) or "history" (worst error of the depth
-    at the case's times, relative to the final one); `error` turns what `run` returns into it. A run
-    does `cases` cases at once. Where it is `compiled`, the first run takes that long, too.
+    A run does `cases` cases at once. Where it is `compiled`, the first run takes that long, too.
     """
 
     method: str
     setting: str
     measure: Measure
     run: Callable[[], Any]
-    error: Callable[[Any], float]
-    compiled: bool = False
+    stop: float = 0.0
     cases: int = 1
+    compiled: bool = False
 
 
-DEPTH, SERIES, PLAIN = "closed form", "Taylor series", "Taylor series, plain Python"
-SHEETS = {scheme: f"sheet, {scheme}" for scheme in SCHEMES}
-OURS = {DEPTH, SERIES, PLAIN, *SHEETS.values()} | {
-    f"{name}, many" for name in (DEPTH, SERIES, *SHEETS.values())
-}
+def tasks(case: Case) -> Iterator[Task]:
+    """Every method at every setting: this project's, solvers of the equation, and bare loops."""
+    given, stop = tuple(case.impact.motion.values()), case.impact.stop_velocity
+    steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
+    for scheme, (step, setting) in product(SCHEMES, steps):
+        name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
+        yield Task(name, setting, "depth", partial(_final_depth, impact, scheme), stop)
+        yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
+        sheets = partial(arrays.run_many, step=step, stop_velocity=stop, scheme=scheme)
+        yield _many(name, setting, case, sheets, 1001, stop)
+    yield Task("closed form", "no steps", "depth", partial(arrays.final_depth, *given))
+    yield _many("closed form", "no steps", case, arrays.final_depth, 100_001)
+    series = partial(Task, setting="order 20", measure="history")
+    yield series("Taylor series, plain Python", run=partial(_plain_history, case.times, given))
+    alone = partial(arrays.history, case.times, *given)
+    yield series("Taylor series", run=alone, compiled=True)
+    columns = [column[:, None] for column in case.columns(1001)]
+    many = partial(arrays.history, case.times, *columns)
+    yield series("Taylor series, many", run=many, cases=1001, compiled=True)
 
-STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
-"""Of the sheet, over that of the case."""
+    for method, (form, levels, solve) in SOLVERS.items():
+        for level in levels:
+            yield from _solver(case, method, form.format(level), partial(solve, level))
+    yield _many("closed form, Numba loop", "no steps", case, _depth_loop, 100_001)
+    for step, setting in steps:
+        name, loop = "sheet, Numba loop", partial(_sheet_loop, step, stop)
+        yield _many(name, setting, case, loop, 1001, stop)
+        alone = partial(loop, *case.columns(1))
+        yield Task(name, setting, "depth", alone, stop, compiled=True)
 
 
-def own_tasks(case: Case) -> Iterator[Task]:
-    """The sheet in both schemes at every step, the closed form, and the Taylor series."""
-    impact, times, given = case.impact, case.times, tuple(case.impact.motion.values())
-    for scheme in SCHEMES:
-        yield from _sheets(case, scheme)
-    depth = partial(arrays.final_depth, *given)
-    yield Task(DEPTH, "no steps", "depth", depth, case.depth_error)
-    yield many(DEPTH, "no steps", impact, 0.0, 100_001, arrays.final_depth)
-    histories = [column[:, None] for column in columns(impact, 1001)]
-    error = case.history_error
-    for name, history in (
-        (PLAIN, lambda: _plain_history(times.tolist(), given)),
-        (SERIES, lambda: arrays.history(times, *given)[0]),
-    ):
-        yield Task(name, "order 20", "history", history, error, compiled=name == SERIES)
-    all_of_them: Any = lambda: arrays.history(times, *histories)[0]  # noqa: E731
-    middle: Any = lambda found: error(found[500])  # noqa: E731
-    yield Task(f"{SERIES}, many", "order 20", "history", all_of_them, middle, True, 1001)
+def _many(
+    method: str, setting: str, case: Case, work: Function, count: int, stop: float = 0.0
+) -> Task:
+    work = partial(work, *case.columns(count))
+    return Task(f"{method}, many", setting, "depth", work, stop, count, compiled=True)
 
 
-def _sheets(case: Case, scheme: str) -> Iterator[Task]:
-    """A scheme at every step, measured down to the stop velocity, where the sheet ends."""
-    stop, name = case.impact.stop_velocity, SHEETS[scheme]
-    until = float(case.motion.stop_time(stop))
-    for factor in STEPS:
-        impact = replace(case.impact, step=case.impact.step * factor)
-        setting = f"{impact.step * 1e9:.5g} ns"
-        depth = partial(lambda impact: run(impact, scheme).final_depth, impact)
-        error = partial(case.depth_error, at_velocity=stop)
-        yield Task(name, setting, "depth", depth, error)
-        history = partial(_rows, impact, scheme, case.times)
-        yield Task(name, setting, "history", history, partial(case.history_error, until=until))
-        sheets = partial(arrays.run_many, step=impact.step, stop_velocity=stop, scheme=scheme)
-        yield many(name, setting, impact, stop, 1001, lambda *c, sheets=sheets: sheets(*c)[0])
+def _final_depth(impact: Impact, scheme: str) -> float:
+    return run(impact, scheme).final_depth
 
 
 def _rows(impact: Impact, scheme: str, times: Any) -> Any:
@@ -92,30 +102,163 @@ def _rows(impact: Impact, scheme: str, times: Any) -> Any:
     return np.interp(times, middles, [row.depth for row in rows])
 
 
-def _plain_history(times: list[float], given: tuple[float, ...]) -> list[float]:
+def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
     depth, speed = [0.0] * len(times), [0.0] * len(times)
-    motion.history(times, *given, depth=depth, speed=speed)  # type: ignore[misc]
+    motion.history(times.tolist(), *given, depth=depth, speed=speed)  # type: ignore[misc]
     return depth
 
 
-def columns(impact: Impact, count: int) -> list[Any]:
-    """So many cases, their velocities within 10 % of the one in the middle."""
-    velocity, *others = (np.full(count, value) for value in impact.motion.values())
-    return [velocity * (1 + 0.1 * np.linspace(-1, 1, count)), *others]
+def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
+    """Final depth and history by what gives y at times, for b and c."""
+    impact, R = case.impact, case.impact.radius
+    b = 3 * impact.target_density / (8 * impact.particle_density)
+    c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
+    times = case.times * impact.velocity / R
+    task = partial(Task, method, setting, compiled=not method.startswith("solve_ivp"))
+    yield task("depth", lambda: R * float(solve(b, c, times[[0, -1]])[-1]))
+    yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
-def many(
-    method: str, setting: str, impact: Impact, stop: float, count: int, work: Callable[..., Any]
-) -> Task:
-    """The task of so many final depths; eleven of them are compared with exact ones."""
-    inputs = columns(impact, count)
+# Solvers of the equation
 
-    def error(depths: Any) -> float:
-        errors = []
-        for k in np.linspace(0, count - 1, 11, dtype=int):
-            exact = exact_motion(replace(impact, velocity=float(inputs[0][k])))
-            errors.append(relative_error(depths[k], exact.depth_at_velocity(stop)))
-        return max(errors)
 
-    run = partial(work, *inputs)
-    return Task(f"{method}, many", setting, "depth", run, error, compiled=True, cases=count)
+@njit
+def _acceleration(y: Any, u: Any, b: Any, c: Any) -> Any:
+    return -(b * u * u + c) * (y * (2 - y) if y < 1 else 1.0)
+
+
+@njit
+def _slope(_: Any, state: Any, b: Any, c: Any) -> Any:
+    return np.array((state[1], _acceleration(state[0], state[1], b, c)))
+
+
+def _solve_ivp(method: str, tolerance: float, b: float, c: float, times: Any) -> Any:
+    from scipy.integrate import solve_ivp
+
+    def motion(_: float, state: Any) -> tuple[float, float]:
+        y, u = state.tolist()  # Python's floats are several times faster than NumPy's scalars
+        return u, -(b * u * u + c) * (y * (2 - y) if y < 1 else 1.0)
+
+    def rest(_: float, state: Any) -> Any:
+        return state[1]
+
+    vars(rest).update(terminal=True, direction=-1)  # which is how SciPy is told
+    options: Any = {"method": method, "rtol": tolerance, "atol": tolerance, "events": rest}
+    wanted = times if len(times) > 2 else None
+    with np.errstate(all="ignore"):  # of a trial step that went too far, and is rejected
+        solved = solve_ivp(motion, (0.0, 2 * times[-1]), (0.0, 1.0), t_eval=wanted, **options)
+    if solved.status != 1:
+        raise ArithmeticError(f"never at rest: {solved.message}")
+    final = solved.y_events[0][0, 0]
+    before = [] if wanted is None else solved.y[0]
+    return np.append(before, [final] * (len(times) - len(before)))
+
+
+def _odeint(tolerance: float, b: float, c: float, times: Any) -> Any:
+    from scipy.integrate import odeint
+
+    options: Any = {"tfirst": True, "rtol": tolerance, "atol": tolerance, "mxstep": 100_000}
+    return odeint(_slope, (0.0, 1.0), times, args=(b, c), **options)[:, 0]
+
+
+def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
+    from scipy.integrate import ode
+
+    solver = ode(_slope).set_f_params(b, c)
+    solver.set_integrator("dop853", rtol=tolerance, atol=tolerance, nsteps=100_000)
+    solver.set_initial_value((0.0, 1.0), 0.0)
+    return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]
+
+
+@njit
+def _rk4(steps: Any, b: Any, c: Any, times: Any) -> Any:
+    """Runge and Kutta's method with so many steps, as many from any time to the next."""
+    depths, y, u = np.zeros(times.size), 0.0, 1.0
+    steps //= times.size - 1
+    for k in range(1, times.size):
+        h = (times[k] - times[k - 1]) / steps
+        for _ in range(steps):
+            a1 = _acceleration(y, u, b, c)
+            u2 = u + h / 2 * a1
+            a2 = _acceleration(y + h / 2 * u, u2, b, c)
+            u3 = u + h / 2 * a2
+            a3 = _acceleration(y + h / 2 * u2, u3, b, c)
+            u4 = u + h * a3
+            a4 = _acceleration(y + h * u3, u4, b, c)
+            y += h / 6 * (u + 2 * u2 + 2 * u3 + u4)
+            u += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        depths[k] = y
+    return depths
+
+
+def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
+    first, beyond = _taylor(tolerance, b, c)
+    first.time, first.state[:] = 0.0, (0.0, 1.0)
+    if first.with_events:
+        first.reset_cooldowns()
+    depths = first.propagate_grid(times)[-1][:, 0]
+    if len(depths) == len(times):
+        return depths
+    beyond.time, beyond.state[:] = first.time, first.state
+    rest = np.concatenate([[first.time], times[len(depths) :]])
+    return np.concatenate([depths, beyond.propagate_grid(rest)[-1][1:, 0]])
+
+
+@cache
+def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
+    """Integrators for up to y = 1, where the first one stops, and beyond."""
+    try:
+        import heyoka
+    except ImportError as error:
+        raise ValueError("not installed: python -m pip install 'coldspray[bench]'") from error
+    y, u = heyoka.make_vars("y", "u")
+    crosses = math.log1p(b / c) / (2 * b) > 2 / 3
+    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses else {}
+    return [
+        heyoka.taylor_adaptive([(y, u), (u, -(b * u * u + c) * area)], tol=tolerance, **more)
+        for area, more in ((2 * y - y * y, events), (1.0, {}))
+    ]
+
+
+TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
+"""Relative and absolute; SciPy takes no relative one below 2.2e-14."""
+
+SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
+    **{
+        f"solve_ivp {name}": ("rtol {:g}", TOLERANCES, partial(_solve_ivp, name))
+        for name in ("RK45", "DOP853", "LSODA", "Radau")
+    },
+    "odeint, Numba": ("rtol {:g}", TOLERANCES, _odeint),
+    "dop853, Numba": ("rtol {:g}", TOLERANCES, _dop853),
+    "RK4, Numba": ("{} steps", (100, 200, 400, 800, 1600, 6400), _rk4),
+    "heyoka": ("tol {:g}", (1e-6, 1e-10, 2.2e-16), _heyoka),
+}
+"""How a setting is shown, the settings, and the solver."""
+
+
+# Bare loops over cases, on one core, without any check
+
+
+@njit
+def _depth_loop(V: Any, R: Any, rho_p: Any, rho_t: Any, R_t: Any) -> Any:
+    depths = np.empty(V.size)
+    for i in range(V.size):
+        c = 4 * rho_p[i] / (3 * rho_t[i]) * math.log1p(rho_t[i] * V[i] ** 2 / (2 * R_t[i]))
+        h = math.asin(math.sqrt(3 * min(c, 2 / 3)) / 2) / 3
+        y = 4 * math.sin(h) * math.sin(h + math.pi / 3) if c < 2 / 3 else c + 1 / 3
+        depths[i] = R[i] * y
+    return depths
+
+
+@njit
+def _sheet_loop(dt: float, stop: float, V: Any, R: Any, rho_p: Any, rho_t: Any, R_t: Any) -> Any:
+    depths = np.empty(V.size)
+    for i in range(V.size):
+        v, r, x, part = V[i], R[i], 0.0, dt / 2
+        mass = rho_p[i] * 4 / 3 * math.pi * r * r * r
+        while v >= stop:
+            x, part = x + v * part, dt
+            area = 2 * r * x - x * x if x < r else r * r
+            v -= (0.5 * rho_t[i] * v * v + R_t[i]) * math.pi * area / mass * dt
+        depths[i] = x
+    return depths

@@ -2,15 +2,9 @@
 
 import argparse
 import sys
-from collections.abc import Iterable, Sequence
-from contextlib import AbstractContextManager
-from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
 from replication.reading import place, read_number
-
-if TYPE_CHECKING:
-    from replication.bench.run import Trial, Watch
 
 HELP = "speed against error: every method and its peers"
 
@@ -32,47 +26,20 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from replication.bench.cases import CASES
-    from replication.bench.report import bench_record, bench_rows, bench_text, check, write
+    from replication.bench.report import check, texts, write
     from replication.bench.run import bench
-    from replication.plain import rows_csv
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:
         check(options.out, names)
-    done = bench(names, **_effort(options), watch=_watch(options))
-    if options.out is not None:
-        write(done, options.out)
-    if options.json:
-        shared.print_json(bench_record(done))
-    elif options.csv:
-        sys.stdout.write(rows_csv(bench_rows(done)))
-    else:
-        print(bench_text(done))
-    return 0
-
-
-def _effort(options: argparse.Namespace) -> dict[str, Any]:
-    """Repeats and limit: as given, or as much as a quick or a full run takes."""
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
     if options.limit is not None:
         with place("--limit"):
             limit = read_number(options.limit, "s")
-    return {
-        "repeat": repeat if options.repeat is None else options.repeat,
-        "limit": limit,
-    }
-
-
-def _watch(options: argparse.Namespace) -> "Watch":
-    """A progress bar on standard error, if that is a terminal."""
-    from tqdm import tqdm
-
-    quiet = True if options.quiet else None  # None: tqdm looks whether it is a terminal
-
-    def watch(visits: "Sequence[Trial]", name: str) -> "AbstractContextManager[Iterable[Trial]]":
-        bar: AbstractContextManager[Iterable[Trial]] = tqdm(
-            visits, desc=name, disable=quiet, leave=False
-        )
-        return bar
-
-    return watch
+    # Without a terminal (None) there is no bar.
+    record = bench(names, options.repeat or repeat, limit, quiet=options.quiet or None)
+    if options.out is not None:
+        write(options.out, record)
+    form = "json" if options.json else "csv" if options.csv else "txt"
+    sys.stdout.write(texts(record)[f"bench.{form}"])
+    return 0
