@@ -259,26 +259,7 @@ def test_a_contact_area_that_shrinks_beyond_the_radius_is_named(tmp_path: Path) 
 
 def by_hand(rows: int = 131, **changes: str | float | None) -> Foreign:
     """A plain sheet whose mass, diameter and resistance are formulas, with some cells changed."""
-    f, s = Foreign("by-hand", BETA_5), "Sheet1"
-    f.given(
-        s, "A1",
-        ("", "R =", 11e-6), ("", "Density =", 8900.0), ("", "M =", "=4/3*PI()*B1^3*B2"),
-        ("", "D =", "=2*B1"), ("", "Initial vel =", 500.0), ("", "Rt =", "=H1*H2"),
-    )  # fmt: skip
-    f.line(s, "D1", "target density", 7850.0, None, "beta", 5.0)
-    f.line(s, "D2", "dt", 2e-10, None, "Yt", 7e8)
-    f.table(s, 8, [
-        Column(TIME, "A", "Time", 0.0, "=A{p}+$E$2"),
-        Column(START, "C", "dx/dt initial", "=B5", "=F{p}", "=C8"),
-        Column(DEPTH, "D", "x", 0.0, "=D{p}+C{r}*$E$2", "=D8+C9*$E$2/2"),
-        Column(BRAKE, "E", "d²x/dt²", 0.0,
-               "=(0.5*$E$1*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"),
-        Column(END, "F", "dx/dt final", None, "=C{r}-E{r}*$E$2"),
-    ], steps=rows)  # fmt: skip
-    for address, content in changes.items():
-        f.cells[layouts.place(s, address)] = content
-    f.cells = {where: content for where, content in f.cells.items() if content is not None}
-    return f
+    return layouts.changed(layouts.plain(BETA_5, rows), changes)
 
 
 @pytest.mark.parametrize(
