@@ -256,6 +256,16 @@ COLUMNS: dict[str, Cells] = {
         "F9:": "=C{r}-" + force(drag="$E$1*C{r}^2")[1:] + "*$E$2"},
     "no times": {"A7:": None},
     "no heads": {f"{letter}7": None for letter in "ACDEF"},
+    "no heads, a deceleration at the mean velocity nearer to the depth": {
+        **{f"{letter}7": None for letter in "ACDEF"},
+        "E9:": force(drag="0.5*$E$1*((C{r}+F{r})/2)^2"), "H8": 0, "H9:": force(),
+        "F9:": "=C{r}-H{r}*$E$2"},
+    "no heads, and the depth again in um and over the radius": {
+        **{f"{letter}7": None for letter in "ACDEF"},
+        "G8:": "=D{r}*1E6", "H8:": "=D{r}/$B$1"},
+    "no times, the step typed into the formulas": {
+        "A7:": None, "D2": None, "E2": None, "D9": "=C9*0.0000000005/2",
+        "D10:": "=D{p}+C{r}*0.0000000005", "F9:": "=C{r}-E{r}*0.0000000005"},
     "heads of the velocities swapped": {"C7": "dx/dt final", "F7": "dx/dt initial"},
     "heads five rows above": {
         f"{letter}{row}": None if row == 7 else head
