@@ -540,8 +540,11 @@ def said(
         yield f"  {len(claims) - len(unmet)} of {len(claims)} printed numbers{not_so}"
     before = _taken(like) if like else [[]]
     for taken, usual in zip(_taken_of(record), before * len(record["taken"]), strict=False):
-        if other := ", ".join(entry for entry in taken if entry not in usual):
-            yield f"  taken: {other}"
+        here = {entry.partition(" ")[0] for entry in taken}
+        gone = [role for entry in usual[1:] if (role := entry.partition(" ")[0]) not in here]
+        other = [entry for entry in taken if entry not in usual] + [f"no {role}" for role in gone]
+        if other:
+            yield f"  taken: {', '.join(other)}"
 
 
 _RIGHT: dict[tuple[str, Impact], list[list[str]]] = {}
