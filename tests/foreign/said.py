@@ -396,6 +396,10 @@ def several() -> Iterator[str]:
     f = layouts.table_a1(BETA_5)
     layouts.moved(f, lambda r: r + (r >= 50) + 2 * (r >= 90), lambda c: c)
     yield from said("blank rows that the formulas step over", f)
+    f = layouts.pasted(COARSE)
+    for row, value in ((1, 11e-6), (2, 12e-6)):
+        f.line("Sheet1", f"H{row}", "particle radius (m)", value)
+    yield from said("two radii beside bare numbers", f, layouts.pasted(COARSE))
     for row in (3, 20):
         f = layouts.sideways(COARSE)
         f.cells["Sheet 1", 13, row] = 1e-6
@@ -406,6 +410,10 @@ def given() -> Iterator[str]:
     """What --map says."""
     columns = {"depth": "Sheet1!AC510:AC641", "velocity": "AB510:AB641", "target_density": "T503"}
     yield from said("--map of what it is", layouts.no_words(BETA_5), given=columns)
+    f = changed(plain(COARSE), {f"{letter}7": None for letter in "ACDEF"})
+    yield from said(
+        "--map of the velocity at the end, no heads", f, f, given={"velocity": "F9:F60"}
+    )
     for name, where in (
         ("radius", "B1"), ("radius", "B4"), ("depth", "D8:D61"), ("depth", "A8:A61"),
         ("velocity_initial", "C8:C61"), ("velocity_final", "C8:C61"), ("velocity", "F9:F61"),
