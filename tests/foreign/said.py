@@ -411,6 +411,7 @@ def given() -> Iterator[str]:
     columns = {"depth": "Sheet1!AC510:AC641", "velocity": "AB510:AB641", "target_density": "T503"}
     yield from said("--map of what it is", layouts.no_words(BETA_5), given=columns)
     f = changed(plain(COARSE), {f"{letter}7": None for letter in "ACDEF"})
+    f.name = "plain, without heads"
     yield from said(
         "--map of the velocity at the end, no heads", f, f, given={"velocity": "F9:F60"}
     )
