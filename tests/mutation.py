@@ -85,7 +85,13 @@ def tests_of(module: Path) -> list[list[Path]]:
     name = module_of(module)
     files = sorted((ROOT / "tests").rglob("test_*.py"))
     importers = {module_of(path) for path in EVERY if name in ours(path)}
-    own = [path for path in files if path.stem[5:] in (module.stem, module.parent.name)]
+    # `test_check_said.py` is one of the folder `check`, too.
+    called = {path: path.stem.removeprefix("test_") for path in files}
+    own = [
+        path
+        for path, about in called.items()
+        if about == module.stem or about.partition("_")[0] == module.parent.name
+    ]
     near = [path for path in files if name in ours(path) and path not in own]
     far = [path for path in files if importers & ours(path) and path not in own + near]
     return [tests for tests in ([module, *own], near, far) if tests]

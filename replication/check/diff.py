@@ -10,6 +10,7 @@ from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
+from functools import cached_property
 from itertools import groupby, takewhile
 from pathlib import Path
 
@@ -167,9 +168,7 @@ class _Diff:
                 (row, column), (new_row, new_column) = _corner(block), _corner(new_block)
                 for r, c in block:
                     put((r, c), (r - row + new_row, c - column + new_column))
-                was, now = _span(block), _span(new_block)
-                cells = [(other, *cell) for cell in new_block]
-                self.add("moved", cells, was, now, f"{was} now stands at {now}")
+                self.moved(other, block, new_block)
         self.shifts(name, other, rows, "rows")
         self.shifts(name, other, columns, "columns")
         for block in _blocks(left):
@@ -178,6 +177,13 @@ class _Diff:
         for block in _blocks(free):
             cells = [(other, *cell) for cell in block]
             self.add("added", cells, None, _span(block), _cells_are(len(block), "new"))
+
+    def moved(self, other: str, block: Sequence[Cell], new_block: Sequence[Cell]) -> None:
+        """A block that stands elsewhere, unless only its rows or columns were not known again."""
+        was, now = _span(block), _span(new_block)
+        if was != now:
+            cells = [(other, *cell) for cell in new_block]
+            self.add("moved", cells, was, now, f"{was} now stands at {now}")
 
     def shifts(self, name: str, other: str, lines: Mapping[int, int], what: str) -> None:
         """Rows or columns that stand further down or right, each run of them once."""
@@ -225,9 +231,18 @@ class _Diff:
             texts = [each.text.upper() if each.kind == "function" else each.text for each in (p, q)]
             return p.kind == q.kind and texts[0] == texts[1]
         return all(
-            self.where.get(old, None if old in self.before.values else new) == new
+            self.where[old] == new if old in self.where else self.replaced(old, new)
             for old, new in zip(p.area.ends, q.area.ends, strict=True)
         )
+
+    def replaced(self, old: Position, new: Position) -> bool:
+        """Whether a cell that is gone, or was blank, is where another is read now."""
+        return old not in self.before.values or (old == new and new not in self.there)
+
+    @cached_property
+    def there(self) -> set[Position]:
+        """The cells of the second workbook that the first one has, too."""
+        return set(self.where.values())
 
     def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)

@@ -319,9 +319,17 @@ def _hinted(table: Table) -> Report:
 
 
 def _like_the_report(cell: Input, report: Report) -> list[str]:
-    """The roles that have the same digits in the report."""
-    ratios = {role: [cell.si / value for value in values] for role, values in report.items()}
-    return [r for r, values in ratios.items() if any(power_of_ten(v) is not None for v in values)]
+    """The roles that have the same digits in the report; a number without a unit has no other."""
+
+    def alike(ratio: float, unit: str) -> bool:
+        power = power_of_ten(ratio)
+        return power is not None and (power == 0 or unit != "1")
+
+    return [
+        role
+        for role, values in report.items()
+        if any(alike(cell.si / value, INPUTS[role]) for value in values)
+    ]
 
 
 def _distance(cell: Input, role: str, report: Report) -> float:
@@ -486,6 +494,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
         }
         against = sum(named[role] not in (None, power) for role, power in powers.items())
         untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
+        if step and named.get("time") is not None and "step" in inputs:
+            against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
         far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
         options.append(((against, untied, far), powers))
     powers = min(options, key=lambda option: option[0])[1]

@@ -12,7 +12,7 @@ from functools import partial
 from statistics import median
 
 from replication.check.cells import each_cell, order, types
-from replication.check.findings import Difference, Verdict
+from replication.check.findings import Difference, Verdict, rank
 from replication.check.inputs import NEAR, Input, Setting, report_inputs
 from replication.check.scheme import (
     BEYOND,
@@ -431,19 +431,27 @@ def _with_effect(f: Verdict, difference: Difference) -> Difference:
     rules, case = REPORT, f.intended
     if not f.rules.brake.says:
         rules = replace(rules, brake=f.rules.brake)
-    if difference.kind == "other scheme":
-        others = f.rules.others.items()
-        named = {part: rule for part, rule in others if rule.says in difference.explanation}
+    others = f.rules.others.items() if difference.kind == "other scheme" else ()
+    named = {part: rule for part, rule in others if rule.says in difference.explanation}
+    if named or difference.explanation.startswith("other stop"):
         rules = replace(rules, **named)
     elif difference.place in f.spoils:
         case = f.spoils[difference.place](case)
-    elif difference.kind in ("typed number", "odd formula", "typed constant"):
+    elif difference.kind in ("typed number", "odd formula", "typed constant", "other scheme"):
         for place in difference.cells:
-            role, k = f.table.places.get(place, ("", 0))
-            value = f.setting.rows.columns.get(role, {}).get(k)
-            if value is not None:
-                fixed[role, k] = value
+            if place in f.table.places and (value := _counted(f, place)) is not None:
+                fixed[f.table.places[place]] = value
+        if not fixed and rank(difference.place, f.setting)[0] == 1:
+            return difference  # a text, an error, or a cell beside the table: nothing to go on with
     else:
         return difference
     depths = march(case, rules, fixed, steps=f.table.steps)["depth"]
     return replace(difference, effect=depths.get(f.table.steps))
+
+
+def _counted(f: Verdict, place: Position) -> float | None:
+    """What formulas take a cell of the table for, in SI: its number; zero if it is blank."""
+    role, k = f.table.places[place]
+    value = f.setting.rows.columns[role].get(k)
+    blank = place not in f.calculation.values and place not in f.calculation.formulas
+    return 0.0 if value is None and blank else value

@@ -114,7 +114,8 @@ def _mapped(
         ):
             columns.append(_named_line(given, where, area, calculation))
         else:
-            wanted = "one cell" if given in INPUTS else "one column or one row"
+            columns_too = "one column or one row" if given in COLUMNS or given == "velocity" else ""
+            wanted = " or ".join(filter(None, [columns_too, "one cell" if given in INPUTS else ""]))
             raise ValueError(f"--map {given}={where}: give {wanted}")
     return columns, cells
 

@@ -6,8 +6,9 @@ is the impact, row 1 the first step. `faults.py` spoils them, `writers.py` makes
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
@@ -72,7 +73,7 @@ class Foreign:
 
     @property
     def steps(self) -> int:
-        return run(self.impact).steps
+        return _steps(self.impact)
 
     def put(self, sheet: str, address: str, content: str | float) -> None:
         self.cells[place(sheet, address)] = content
@@ -116,6 +117,11 @@ class Foreign:
                     self.cells[here] = content
                     if column.role and k <= self.steps:
                         self.where[column.role, k] = here
+
+
+@cache
+def _steps(impact: Impact) -> int:
+    return run(impact).steps
 
 
 def moved(f: Foreign, rows: Callable[[int], int], columns: Callable[[int], int]) -> None:
@@ -626,6 +632,45 @@ def _values(
                 here = place(sheet, f"{letter}{zero + k}")
                 f.cells[here] = float(f"{value * factor:.{digits}g}")
                 f.where[role, k] = here
+
+
+def plain(impact: Impact, rows: int | None = None) -> Foreign:
+    """A sheet in which everything has its cell, to be changed: so many rows of it."""
+    f, s = Foreign("plain", impact), "Sheet1"
+    f.given(
+        s, "A1",
+        ("radius", "R ="), ("particle_density", "Density ="), ("", "M =", "=4/3*PI()*B1^3*B2"),
+        ("", "D =", "=2*B1"), ("velocity", "Initial vel ="), ("", "Rt =", "=H1*H2"),
+    )  # fmt: skip
+    f.given(s, "D1", ("target_density", "target density"), ("step", "dt"))
+    f.given(s, "G1", ("beta", "beta"), ("flow_stress", "Yt"))
+    f.table(s, 8, [
+        Column(TIME, "A", "Time", 0.0, "=A{p}+$E$2"),
+        Column(START, "C", "dx/dt initial", "=B5", "=F{p}", "=C8"),
+        Column(DEPTH, "D", "x", 0.0, "=D{p}+C{r}*$E$2", "=D8+C9*$E$2/2"),
+        Column(BRAKE, "E", "d²x/dt²", 0.0,
+               "=(0.5*$E$1*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"),
+        Column(END, "F", "dx/dt final", None, "=C{r}-E{r}*$E$2"),
+    ], steps=rows)  # fmt: skip
+    return f
+
+
+def changed(f: Foreign, cells: Mapping[str, Content]) -> Foreign:
+    """A lone sheet with other contents: by cell, or from a cell down to the last row ("D10:").
+
+    In those {r} is their own row, {p} the row before.
+    """
+    (sheet,) = {at[0] for at in f.cells}
+    last = max(row for _, row, _ in f.cells)
+    for address, content in cells.items():
+        _, first, column = place(sheet, address.rstrip(":"))
+        for row in range(first, last + 1 if address.endswith(":") else first + 1):
+            filled = content.format(r=row, p=row - 1) if isinstance(content, str) else content
+            if filled is None:
+                f.cells.pop((sheet, row, column), None)
+            else:
+                f.cells[sheet, row, column] = filled
+    return f
 
 
 BY_HAND: tuple[Callable[[Impact], Foreign], ...] = (
