@@ -407,7 +407,8 @@ def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
         for role in table.lines
     }
     brakes = columns.get("deceleration", {})
-    negative = bool(brakes) and median(brakes.values()) < 0
+    # By the first rows: where a motion goes wrong, its deceleration may change its sign.
+    negative = median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
     inputs = _completed(table, chosen, columns)

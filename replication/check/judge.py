@@ -400,10 +400,12 @@ def _stop(f: Verdict) -> None:
     text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
     of = f"{whole:,} steps" if whole < MOST_ROWS else f"more than {MOST_ROWS:,} steps"
     place = f.table.place(role, steps)
-    # With other inputs than the report's the rows prepared for those run out, and an excerpt has
-    # few; but who leaves off shortly before the report does stops at another velocity.
+    # With other inputs, or the report's other beta, rows prepared for those before run out, and an
+    # excerpt has few; but who leaves off shortly before the report does stops at another velocity.
     changed = any(difference.kind == "other input" for difference in f.differences)
-    if changed or 2 * steps < whole:
+    cases = [replace(f.case, resistance=pressure) for pressure in report_inputs()["resistance"]]
+    prepared = any(max(march(case, f.rules)["depth"]) == steps for case in cases)
+    if changed or prepared or 2 * steps < whole:
         f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
     else:
         f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
