@@ -27,7 +27,11 @@ from replication.text import number, powers_of_ten
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a copy of its ledger with a misprint."""
+    """Audit every number and equation of the report, or of a copy of its ledger with a misprint.
+
+    >>> print(audit().claim("depth-beta-5").verdict)
+    reproduced
+    """
     return Audit(ledger or ledgers.load()).record()
 
 
