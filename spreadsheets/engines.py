@@ -145,6 +145,9 @@ class Formualizer(PipEngine):
 
     name = "formualizer"
 
+    def missing(self) -> str | None:
+        return super().missing() or IronCalc().missing()
+
     def _cells(self, path: Path) -> Iterator[Cell]:
         import formualizer
 
