@@ -123,14 +123,23 @@ def _calibrate(f: Verdict) -> None:
             value = scaled(own.si, factor)
             change = partial(_scaled_input, role=role, value=value, by=float(factor))
             setting = f.setting.with_case(change(f.case))
-            if setting.agreement() >= 0.9:
+            if setting.agreement() < 0.9:
+                continue
+            if own.unit and any(_near(value, number) for number in report_inputs()[role]):
+                taken = replace(own, si=value, factor=own.factor * factor)
+                inputs = {**setting.inputs, role: taken}
+                f.setting = replace(setting, inputs=inputs, intended=change(f.intended))
+                right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
+                text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
+                f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+            else:
                 f.setting, f.spoils[own.place] = setting, change
                 text = (
                     f"the formulas take {title(role)} as {quantity(value, role)}, not "
                     f"{quantity(own.si, role)}: a factor of 1e{abs(power)} is missing"
                 )
                 f.add("unit", [own.place], scaled(own.si, 1 / factor / own.factor), text)
-                return
+            return
 
 
 def _derived(f: Verdict) -> None:
