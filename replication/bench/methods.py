@@ -114,8 +114,9 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
     b = 3 * impact.target_density / (8 * impact.particle_density)
     c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
     times = case.times * impact.velocity / R
+    ends = times[[0, -1]]
     task = partial(Task, method, setting, compiled=not method.startswith("solve_ivp"))
-    yield task("depth", lambda: R * float(solve(b, c, times[[0, -1]])[-1]))
+    yield task("depth", lambda: R * float(solve(b, c, ends)[-1]))
     yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
