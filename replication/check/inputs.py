@@ -483,14 +483,14 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
     steps = [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]
     options = []
     for power, dt in product(speeds, steps):
-        v = 10.0 ** (power or 0)
+        v = 10.0**power
         wanted = {
             "time": dt / step if step else 0.0,
             "depth": dt * v / move if move else 0.0,
             "deceleration": v / dt * brake,
         }
         powers = {
-            role: _whole(wanted[role], named[role]) if role in wanted else power or 0
+            role: _whole(wanted[role], named[role]) if role in wanted else power
             for role in table.lines
         }
         against = sum(named[role] not in (None, power) for role, power in powers.items())

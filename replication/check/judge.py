@@ -370,13 +370,10 @@ def _misprints(
             found, wanted = f.table.number(role, k), f.shown(role, value)
             if found is None or wanted is None or (k == 0 and role == "velocity_final"):
                 continue
-            bounded = math.isfinite(wanted)
-            expected = float(f"{wanted:.{digits}g}") if bounded else None
-            last = (
-                10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
-                if wanted and bounded
-                else 0.0
-            )
+            expected = float(f"{wanted:.{digits}g}") if math.isfinite(wanted) else None
+            last = 0.0
+            if wanted and expected is not None:
+                last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
             if not abs(found - wanted) <= last * (0.5 + 1e-9):
                 text = f"{title(role)} of row {k} is not what the scheme gives"
                 yield f.table.place(role, k), expected, text

@@ -14,6 +14,7 @@ from replication.check.inputs import find, numbers_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
 from replication.check.words import COLUMNS, INPUTS, count, result_of
+from replication.reading import place as named
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Area, Calculation, calculate, parse
@@ -71,14 +72,12 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     """
     calculation = calculate(read(path))
     given, cells = _mapped(mapping or {}, calculation)
-    try:
+    with named(str(path)):
         found = tables(calculation, given)
         if not found:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, found))
         settings = [find(table, beside, cells) for table in found]
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
     verdicts = [judge(setting) for setting in settings]
     held = [number for verdict in verdicts for number in _held(verdict, len(verdicts) == 1)]
     differences = [
@@ -98,6 +97,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
 
 # ---- what the user says, and what is said where nothing is found
 
+_LINES = ("velocity", *COLUMNS)
+"""What `--map` may name as a column or a row; a velocity need not say of which end of a step."""
+
 
 def _mapped(
     mapping: Mapping[str, str], calculation: Calculation
@@ -109,14 +111,13 @@ def _mapped(
         area = _area(given, where, calculation)
         if given in INPUTS and area.cells == 1:
             cells[given] = area.corner
-        elif given in ("velocity", *COLUMNS) and (
-            area.top == area.bottom or area.left == area.right
-        ):
+        elif given in _LINES and (area.top == area.bottom or area.left == area.right):
             columns.append(_named_line(given, where, area, calculation))
         else:
-            columns_too = "one column or one row" if given in COLUMNS or given == "velocity" else ""
-            wanted = " or ".join(filter(None, [columns_too, "one cell" if given in INPUTS else ""]))
-            raise ValueError(f"--map {given}={where}: give {wanted}")
+            wanted = ["one column or one row"] * (given in _LINES) + ["one cell"] * (
+                given in INPUTS
+            )
+            raise ValueError(f"--map {given}={where}: give {' or '.join(wanted)}")
     return columns, cells
 
 
@@ -144,7 +145,7 @@ def _named_line(given: str, where: str, area: Area, calculation: Calculation) ->
 def _area(given: str, where: str, calculation: Calculation) -> Area:
     """The range that --map gives."""
     book = calculation.book
-    if given not in ("velocity", *COLUMNS, *INPUTS):
+    if given not in (*_LINES, *INPUTS):
         known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
         raise ValueError(f"--map {given[:40]!r} is not a known name; choose one of {known}")
     read = (parse(f"={where}", (sheet, 1, 1), book).areas for sheet in book.sheets)
