@@ -387,6 +387,7 @@ def ufunc(model: Model) -> "np.ufunc":
     from types import FunctionType
 
     import numba
+    from filelock import FileLock
     from numba import b1, f8, i8
 
     _make_known()
@@ -405,7 +406,10 @@ def ufunc(model: Model) -> "np.ufunc":
         types = [f8] * len(inspect.signature(model).parameters)
         compiler = partial(numba.vectorize, [f8(*types)])
     try:
-        compiled = compiler(cache=True)(root)
+        folder = numba.njit(cache=True)(root).stats.cache_path
+        # Two processes that compile at once would keep halves that do not belong together.
+        with FileLock(Path(folder) / "coldspray.lock"):
+            compiled = compiler(cache=True)(root)
     except (RuntimeError, OSError):
         compiled = compiler(cache=False)(root)
     _KEPT.append(compiled)

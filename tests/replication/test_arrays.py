@@ -431,6 +431,30 @@ def test_what_is_kept_goes_by_the_source_of_all_models(tmp_path: Path) -> None:
     assert in_a_copy(tmp_path) == (twice, "")
 
 
+TOGETHER = """
+import sys
+from replication.models import arrays, motion, sheet
+for model in (arrays.depth.final_depth, motion.stop_time, motion.time_to_depth)[: int(sys.argv[1])]:
+    arrays.ufunc(model)  # so that each process numbers what it compiles in its own way
+case = 500.0, 11e-6, 8900.0, 7850.0, 3.5e9
+print(arrays.run_many([500.0, 500.0], *case[1:])[1], arrays.history([0.0, 1.0], *case)[1])
+"""
+
+
+@pytest.mark.slow
+def test_processes_that_compile_at_once_keep_what_belongs_together(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+
+    def start(compiled_before: int) -> subprocess.Popen[str]:
+        command = [sys.executable, "-c", TOGETHER, str(compiled_before)]
+        return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
+
+    together = [start(count) for count in range(3)]
+    outputs = [process.communicate()[0] for process in together]
+    outputs.append(start(0).communicate()[0])  # with what they have kept
+    assert outputs == ["[131 131] [500.   0.]\n"] * 4
+
+
 def test_public_names_are_there_and_loaded_when_used() -> None:
     program = (
         "import sys, replication\n"
