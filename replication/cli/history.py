@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
             }
         )
     elif options.csv:
-        from replication.plain import rows_csv
+        from replication.text import rows_csv
 
         names = ("time", "depth", "velocity")
         rows = zip(times, depth, velocity, strict=True)

@@ -83,7 +83,7 @@ def case(options: argparse.Namespace) -> Impact:
 
 def print_json(record: Any) -> None:
     """One JSON document on standard output."""
-    from replication.plain import json_text
+    from replication.text import json_text
 
     sys.stdout.write(json_text(record))
 

@@ -46,12 +46,13 @@ def _text(result: "Power") -> str:
     """The rates, whole, by kind of entry and by kind of edit, then what passes."""
     from replication.text import aligned
 
+    table = result.table()
     lines = [
         f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as every",
         "number still rounds as printed. Of the others, in percent:",
         "",
     ]
-    lines += aligned(result.table())
+    lines += aligned([table.heads, *table.rows])
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]
         lines += [f"  {x['entry']}: {x['true']!r} as {x['text']!r}" for x in result.unnoticed]

@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(record)
         return 0
     if options.csv:
-        from replication.plain import rows_csv
+        from replication.text import rows_csv
 
         sys.stdout.write(rows_csv([row._asdict() for row in sheet.rows]))
     else:
