@@ -146,6 +146,16 @@ def aligned(rows: Sequence[tuple[str, ...]], right: bool = False) -> list[str]:
     return ["  ".join(map("{:{}{}}".format, row, ways, widths)).rstrip() for row in rows]
 
 
+def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> list[str]:
+    """Numbers to nine digits as lines, in columns of one width under their heads.
+
+    >>> numbers(["x", "v"], [(0.5, None)])
+    ['                    x                    v', '                  0.5                     ']
+    """
+    texts = (["" if x is None else number(x, 9) for x in row] for row in rows)
+    return ["".join(f"{text:>21}" for text in row) for row in (heads, *texts)]
+
+
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     """Rows as columns within a width; what is too long goes on in the next line.
 

@@ -1,6 +1,7 @@
 """`coldspray converge`: error against time step, observed order, extrapolated limit."""
 
 import argparse
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from replication.cases import inputs_of
@@ -22,13 +23,9 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--steps", metavar="X,X,...", help="steps, coarsest first (default: from 16 times --step)"
     )
-    levels, digits = shared.whole(2, MOST_STEPS), shared.whole(1, 15)
-    command.add_argument(
-        "--levels", type=levels, default=8, metavar="N", help="number of steps, by halves (8)"
-    )
-    command.add_argument(
-        "--digits", type=digits, metavar="N", help="also find the largest step for N correct digits"
-    )
+    shared.whole_option(command, "--levels", 2, MOST_STEPS, "number of steps, by halves (8)", 8)
+    largest = "also find the largest step for N correct digits"
+    shared.whole_option(command, "--digits", 1, 15, largest)
     shared.output_options(command)
 
 
@@ -41,14 +38,9 @@ def run(options: argparse.Namespace) -> int:
     digits = None
     if options.digits is not None:
         digits = step_for_digits(case, options.digits, options.scheme)
-    if options.json:
-        shared.print_json(_record(result, digits))
-    else:
-        print(_text(result, digits))
-        shared.warn(
-            options, (f"{x.step!r} s: {text}" for x in result.levels for text in x.warnings)
-        )
-    return 0
+    warnings = (f"{level.step!r} s: {text}" for level in result.levels for text in level.warnings)
+    record = _record(result, digits)
+    return shared.put(options, record, lambda: _text(result, digits), warnings=warnings)
 
 
 def _steps(text: str) -> list[float]:
@@ -90,18 +82,41 @@ _WHY = {
 }
 
 
+def _um(length: float | None, digits: int) -> str:
+    return "-" if length is None else number(length * 1e6, digits)
+
+
+def _order(order: float | None) -> str:
+    return "-" if order is None else f"{order:.2f}"
+
+
+_COLUMNS: tuple[tuple[str, str, Callable[["Level"], str]], ...] = (
+    ("step", "[ns]", lambda level: number(level.step * 1e9, 5)),
+    ("steps", "", lambda level: str(level.steps)),
+    ("depth", "[um]", lambda level: _um(level.depth, 7)),
+    ("error", "[um]", lambda level: _um(level.error, 3)),
+    ("order", "", lambda level: _order(level.order)),
+    ("time step", "[um]", lambda level: _um(level.budget.time_step, 3)),
+    ("order", "", lambda level: _order(level.time_step_order)),
+    ("stop rule", "[um]", lambda level: _um(level.budget.stop_rule, 3)),
+    ("half step", "[um]", lambda level: _um(level.budget.half_step, 3)),
+    ("rounding", "[um]", lambda level: _um(level.budget.rounding, 2)),
+    ("governed by", "", lambda level: level.regime),
+)
+"""Head, unit and text of each column."""
+
+
 def _text(result: "Convergence", digits: "StepForDigits | None") -> str:
     """The ladder as a table, its limit, and where every part of the error comes from."""
-    heads = ("step", "steps", "depth", "error", "order", "time step", "order",
-             "stop rule", "half step", "rounding", "governed by")  # fmt: skip
-    units = ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", "")
+    heads, units, writers = zip(*_COLUMNS, strict=True)
+    rows = [tuple(write(level) for write in writers) for level in result.levels]
     last = result.levels[-1]
     limit = last.undefined or f"{_um(result.limit, 8)} um"
     if last.gci is not None:
         limit += f", observed order {last.observed_order:.2f}, grid convergence index "
         limit += f"{100 * last.gci:.2g} %"
     lines = [
-        *aligned([heads, units, *map(_line, result.levels)]),
+        *aligned([heads, units, *rows]),
         "",
         f"exact, at rest            {_um(result.exact, 10)} um",
         f"exact, at stop velocity   {_um(result.exact_at_stop, 10)} um",
@@ -116,28 +131,3 @@ def _text(result: "Convergence", digits: "StepForDigits | None") -> str:
             f"{number(digits.fails * 1e9, 5)} ns fails."
         )
     return "\n".join(lines)
-
-
-def _line(level: "Level") -> tuple[str, ...]:
-    budget = level.budget
-    return (
-        number(level.step * 1e9, 5),
-        str(level.steps),
-        f"{level.depth * 1e6:.7g}",
-        _um(level.error, 3),
-        _order(level.order),
-        _um(budget.time_step, 3),
-        _order(level.time_step_order),
-        _um(budget.stop_rule, 3),
-        _um(budget.half_step, 3),
-        _um(budget.rounding, 2),
-        level.regime,
-    )
-
-
-def _um(length: float | None, digits: int) -> str:
-    return "-" if length is None else number(length * 1e6, digits)
-
-
-def _order(order: float | None) -> str:
-    return "-" if order is None else f"{order:.2f}"

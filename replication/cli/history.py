@@ -1,13 +1,12 @@
 """`coldspray history`: depth and velocity of a case against time, without small steps."""
 
 import argparse
-import sys
-from typing import Any
 
 from replication.cases import inputs_of
 from replication.cli import options as shared
 from replication.models.impact import Impact
 from replication.reading import quoted, read_number
+from replication.text import numbers
 
 HELP = "depth and velocity of a case against time, without small steps"
 
@@ -18,13 +17,8 @@ MAX_POINTS = 1_000_000
 def options(command: argparse.ArgumentParser) -> None:
     shared.input_options(command)
     at = command.add_mutually_exclusive_group()
-    at.add_argument(
-        "--points",
-        metavar="N",
-        type=shared.whole(2, MAX_POINTS),
-        default=101,
-        help="so many times, equally spaced from touch to rest (default: 101)",
-    )
+    told = "so many times, equally spaced from touch to rest (default: 101)"
+    shared.whole_option(at, "--points", 2, MAX_POINTS, told, default=101)
     at.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
     shared.output_options(command, csv=True)
 
@@ -36,26 +30,22 @@ def run(options: argparse.Namespace) -> int:
     stop = stop_time(**case.motion)
     times = _times(options, stop)
     depth, velocity = _history(times, case)
-    if options.json:
-        shared.print_json(
-            {
-                "inputs": inputs_of(case),
-                "time": times,
-                "depth": depth,
-                "velocity": velocity,
-                "stop_time": stop,
-            }
-        )
-    elif options.csv:
-        from replication.text import rows_csv
+    record = {
+        "inputs": inputs_of(case),
+        "time": times,
+        "depth": depth,
+        "velocity": velocity,
+        "stop_time": stop,
+    }
+    table = list(zip(times, depth, velocity, strict=True))
+    rows = [dict(zip(("time", "depth", "velocity"), row, strict=True)) for row in table]
 
-        names = ("time", "depth", "velocity")
-        rows = zip(times, depth, velocity, strict=True)
-        sys.stdout.write(rows_csv([dict(zip(names, row, strict=True)) for row in rows]))
-    else:
-        print("\n".join(_table(times, depth, velocity)))
-        print(f"\nstop time  {stop * 1e9:.8g} ns")
-    return 0
+    def text() -> str:
+        heads = ("time [ns]", "x [um]", "velocity [m/s]")
+        lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
+        return "\n".join([*lines, "", f"stop time  {stop * 1e9:.8g} ns"])
+
+    return shared.put(options, record, text, rows)
 
 
 def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]]:
@@ -89,11 +79,3 @@ def _time(place: int, text: str) -> float:
         wanted = 'give times such as "0 ns,5 ns"'
         raise ValueError(f"--times, value {place}: {error}: {wanted}") from error
     return time
-
-
-def _table(*columns: Any) -> list[str]:
-    lines = ["".join(f"{head:>21}" for head in ("time [ns]", "x [um]", "velocity [m/s]"))]
-    for time, depth, velocity in zip(*columns, strict=True):
-        values = (time * 1e9, depth * 1e6, velocity)
-        lines.append("".join(f"{value:>21.9g}" for value in values))
-    return lines
