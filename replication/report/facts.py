@@ -11,28 +11,11 @@ from math import isclose
 
 from reference.ledger import shown
 from replication.audit import record as r
-from replication.audit.verdict import OPEN, Verdict
+from replication.audit.verdict import OPEN
 from replication.audit.wording import quantity
 from replication.cases import INPUTS
 from replication.report.prose import Named, quoted
 from replication.text import Table, number, rounded, table
-
-VERDICTS = {
-    Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the printed one, "
-    "for every admitted value of an input that the report does not print",
-    Verdict.WITHIN_ROUNDING: "the inputs as printed do not give it, some that print alike do",
-    Verdict.NOT_REPRODUCED: "proven: no inputs that print like the report's give it",
-    Verdict.UNDECIDED: "neither could be proven",
-    Verdict.CONSISTENT: "it repeats another number of the report, or is a choice that agrees with "
-    "what is computed from it; nothing new is shown",
-    Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
-    "agree",
-    Verdict.AGREES: "the report does not derive it; a public source prints it",
-    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
-    Verdict.REMARK: "words, no number, with the figures to judge them by",
-    Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
-}
-"""The verdicts, and what they say."""
 
 
 def printed(claim: r.ClaimRecord) -> str:

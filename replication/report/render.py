@@ -9,7 +9,7 @@ from importlib import resources
 from pathlib import Path
 from string import ascii_lowercase
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -20,13 +20,10 @@ from replication.audit.verdict import Verdict
 from replication.audit.wording import quantity
 from replication.power import measured
 from replication.report import facts as told
-from replication.report.figures import Drawing, draw
+from replication.report.figures import draw
 from replication.report.prose import Named, Prose, quoted
 from replication.text import columns, json_text, number, rows_csv, table
 from spreadsheets.safely import check_folder, write_folder
-
-if TYPE_CHECKING:
-    from jinja2 import Template
 
 
 def check(folder: Path) -> None:
@@ -55,7 +52,7 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
         "audit.html": page(record, drawings),
         "audit.md": markdown(record),
         "audit.csv": _csv(record),
-        **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
+        **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
     }
     files = {name: text.encode() for name, text in texts.items()}
     return {**beside, **files, "audit.json": json_text(record).encode()}
@@ -83,53 +80,26 @@ def _cell(claim: ClaimRecord, column: str) -> Any:
 
 # Page and Markdown: one arrangement, two templates
 
-SECTIONS = {
-    "summary": "Summary",
-    "open": "What does not follow",
-    "findings": "Findings, the heaviest first",
-    "approaches": "All approaches side by side",
-    "sheet": "The sheet and the exact motion",
-    "sensitivity": "What the depth depends on",
-    "scatter": "What scatter does",
-    "inferred": "The target density, inferred",
-    "equations": "The equations",
-    "table-a-1": "Table A-1",
-    "computed": "Numbers computed anew",
-    "remarks": "Remarks, with figures",
-    "sources": "Numbers compared with public sources",
-    "repeated": "Numbers that repeat or are chosen",
-    "undecided": "Numbers that nothing in the report decides",
-    "power": "What this audit would notice",
-    "symbols": "Symbols",
-    "provenance": "Provenance",
-}
 
-
-def page(record: Record, drawings: Sequence[Drawing]) -> str:
+def page(record: Record, drawings: Mapping[str, str]) -> str:
     """The page: no script, nothing from outside, its style named in its content policy by hash."""
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
-    prose = Prose(record.symbols, told.names_of(record))
-    return (
-        _template("page.html.j2", prose.html)
-        .render(
-            _context(record),
-            drawings={drawing.name: drawing for drawing in drawings},
-            style=style,
-            style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-        )
-        .lstrip()
-    )
+    digest = b64encode(sha256(style.encode()).digest()).decode()
+    more = {"drawings": drawings, "style": style, "style_hash": digest}
+    return _filled("page.html.j2", _prose(record).html, _parts(record) | more).lstrip()
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    prose = Prose(record.symbols, told.names_of(record))
-    template = _template("page.md.j2", prose.markdown)
-    return re.sub(r"\n{3,}", "\n\n", template.render(_context(record)).lstrip())
+    return _filled("page.md.j2", _prose(record).markdown, _parts(record)).lstrip()
 
 
-def _template(name: str, prose: Callable[[str], str]) -> "Template":
-    """One of the templates beside this file, with the filters of all."""
+def _prose(record: Record) -> Prose:
+    return Prose(record.symbols, told.names_of(record))
+
+
+def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
+    """One of the templates beside this file, filled; at most one empty line stands in a row."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -148,19 +118,17 @@ def _template(name: str, prose: Callable[[str], str]) -> "Template":
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    return environment.get_template(name)
+    text = environment.get_template(name).render(parts)
+    return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
 
 
-def _context(record: Record) -> dict[str, Any]:
+def _parts(record: Record) -> dict[str, Any]:
     """What both templates show: the record, and its parts in the order in which they stand."""
-    groups, names, power = _groups(record), told.names_of(record), measured()
+    groups, names = _groups(record), told.names_of(record)
     return {
         "record": record,
-        "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
         "groups": groups,
         "names": names,
-        "verdicts": told.VERDICTS,
-        "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
         "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
         "tables": told,
@@ -168,8 +136,7 @@ def _context(record: Record) -> dict[str, Any]:
         "touching": _touching(record),
         "sources": _sources(record),
         "table": _table_a_1(groups["table-a-1"]),
-        "power": power,
-        "rates": power.table(),
+        "power": measured(),
     }
 
 
@@ -254,7 +221,6 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in failing.rows]
     context = {
         "record": record,
-        "verdicts": told.VERDICTS,
         "failing": failing._replace(rows=titles),
         "main": table("Main results", main, {
             "number": lambda claim: claim.title,
@@ -299,7 +265,6 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
     def table(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose.text, row)) for row in rows], width)
 
-    template = _template("terminal.txt.j2", prose.text)
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    text = template.render(context, fill=filled, columns=table, strong=bold.format)
-    return re.sub(r"\n{3,}", "\n\n", text.strip("\n"))
+    parts = {"fill": filled, "columns": table, "strong": bold.format}
+    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).strip("\n")
