@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, starmap
 from typing import TYPE_CHECKING, Any
 
 from reference.ledger import Ledger, load
@@ -18,6 +18,7 @@ from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DEEP
 from replication.error import warnings as doubts_about
+from replication.error.ladder import ladder, observed_order
 from replication.models import crater, depth, frank_zook, resistance, stream
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
@@ -356,12 +357,12 @@ class _Builder:
         of_runs = {name: self.si[name] for name in figures.RUN_INPUTS}
         for slug, impact in self.impacts.items():
             of_runs[self.pages[slug].named("R_t")] = impact.target_resistance
-        ladder = [self.first.step * 2.0 ** (4 - k) for k in range(figures.LEVELS)]
+        time_steps = ladder(self.first.step, figures.LEVELS)
         return {
             "message": figures.CURRENT,
-            "step": ladder,
-            "step_ns": [step * 1e9 for step in ladder],
-            **{slug: _levels(i, ladder, self.scheme) for slug, i in self.impacts.items()},
+            "step": time_steps,
+            "step_ns": [step * 1e9 for step in time_steps],
+            **{slug: _levels(i, time_steps, self.scheme) for slug, i in self.impacts.items()},
             "run": of_runs,
             "in_use": of_runs,
             "same": dict.fromkeys(of_runs, 1),
@@ -543,17 +544,16 @@ def _rows(sheet: Sheet, count: int) -> list[dict[str, Any]]:
     return rows + [blank] * (count - sheet.steps)
 
 
-def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, Any]:
+def _levels(impact: Impact, time_steps: Sequence[float], scheme: str) -> dict[str, Any]:
     """Final depths at steps, each half of the one before, against the depth at rest, in um."""
     rest = depth.final_depth(*impact.motion.values()) * 1e6
-    sheets = [run(replace(impact, step=step), scheme) for step in ladder]
+    sheets = [run(replace(impact, step=step), scheme) for step in time_steps]
     depths = [sheet.final_depth * 1e6 for sheet in sheets]
     errors = [reached - rest for reached in depths]
-    orders = {}
-    for k, (above, here) in enumerate(pairwise(errors), 1):
-        defined = min(above, here) > 0 or max(above, here) < 0
-        order = math.log(above / here) / math.log(2) if defined else figures.NO_ORDER
-        orders[f"order[{k}]"] = order
+    orders = {
+        f"order[{k}]": figures.NO_ORDER if order is None else order
+        for k, order in enumerate(starmap(observed_order, pairwise(errors)), 1)
+    }
     return {
         "rest_um": rest,
         "steps": [sheet.steps for sheet in sheets],

@@ -31,10 +31,10 @@ class Budget:
     """
 
     total: float
-    rounding: float | None
-    half_step: float | None
-    time_step: float | None
-    stop_rule: float | None
+    rounding: float | None = None
+    half_step: float | None = None
+    time_step: float | None = None
+    stop_rule: float | None = None
 
 
 def exact_motion(impact: Impact) -> Trajectory:
@@ -61,7 +61,7 @@ def split(sheet: Sheet) -> Budget:
     total = motion.reals.number(Fraction(sheet.final_depth)) - rest
     x, v, lag = _last_row(motion.reals, sheet)
     if abs(v) > motion.velocity:
-        return Budget(float(total), None, None, None, None)
+        return Budget(float(total))
     same_velocity = motion.depth_at_velocity(v)
     return Budget(
         total=float(total),
@@ -142,13 +142,13 @@ class Convergence:
         return self.levels[-1].limit
 
 
-def ladder(step: float, levels: int, ratio: float = 2.0) -> list[float]:
-    """Steps from `ratio`^4 times the given one down, coarsest first.
+def ladder(step: float, levels: int) -> list[float]:
+    """So many steps from 16 times the given one down by halves, coarsest first.
 
     >>> ladder(2e-10, 6)
     [3.2e-09, 1.6e-09, 8e-10, 4e-10, 2e-10, 1e-10]
     """
-    return [step * ratio ** (4 - k) for k in range(levels)]
+    return [step * 2.0 ** (4 - k) for k in range(levels)]
 
 
 def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> Convergence:
@@ -177,15 +177,15 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     order = time_step_order = None
     if before:
         ratio = before[-1].step / impact.step
-        order = _order(before[-1].error, budget.total, ratio)
-        time_step_order = _order(before[-1].budget.time_step, budget.time_step, ratio)
+        order = observed_order(before[-1].error, budget.total, ratio)
+        time_step_order = observed_order(before[-1].budget.time_step, budget.time_step, ratio)
     level = Level(
         step=impact.step,
         steps=sheet.steps,
         depth=sheet.final_depth,
         error=budget.total,
         budget=budget,
-        warnings=tuple(map(str, warnings(sheet))),
+        warnings=tuple(warning.text for warning in warnings(sheet)),
         order=order,
         time_step_order=time_step_order,
         regime=_regime(budget, time_step_order, ORDER[scheme]),
@@ -193,7 +193,12 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     return _extrapolated([*before[-2:], level], ORDER[scheme])
 
 
-def _order(coarse: float | None, fine: float | None, ratio: float) -> float | None:
+def observed_order(coarse: float | None, fine: float | None, ratio: float = 2.0) -> float | None:
+    """The order by which an error falls with the step; None where it vanishes or changes sign.
+
+    >>> observed_order(0.04, 0.01)
+    2.0
+    """
     if coarse is None or fine is None or coarse * fine <= 0:
         return None
     return math.log(coarse / fine) / math.log(ratio)
