@@ -3,6 +3,7 @@
 import argparse
 import gc
 import sys
+from functools import partial
 from pathlib import Path
 
 from replication.cli import options as shared
@@ -16,15 +17,12 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--out", type=shared.path, default=folder, metavar="DIR", help=f"default: {folder}/"
     )
-    command.add_argument(
-        "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
-    )
-    command.add_argument(
-        "--force", action="store_true", help="write over a workbook.xlsx that was changed, too"
-    )
-    command.add_argument("--json", action="store_true", help="print audit.json instead of text")
-    command.add_argument("--schema", action="store_true", help="print the schema of audit.json")
-    command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
+    flag = partial(command.add_argument, action="store_true")
+    flag("--exit-code", help="status 1 if any claim is not reproduced")
+    flag("--force", help="write over a workbook.xlsx that was changed, too")
+    flag("--json", help="print audit.json instead of text")
+    flag("--schema", help="print the schema of audit.json")
+    flag("--quiet", help="write the files, print nothing")
 
 
 def run(options: argparse.Namespace) -> int:

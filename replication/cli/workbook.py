@@ -22,14 +22,11 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "-o", "--output", type=shared.path, default=output, metavar="FILE", help=f"{output}"
     )
-    command.add_argument(
-        "--force", action="store_true", help="write over a file that is not as coldspray wrote it"
-    )
+    flag = partial(command.add_argument, action="store_true")
+    flag("--force", help="write over a file that is not as coldspray wrote it")
     prepared = "time steps to prepare (default: twice those needed)"
     shared.whole_option(command, "--rows", 1, 10**6, prepared)
-    command.add_argument(
-        "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
-    )
+    flag("--verify", help="recalculate it in every engine; status 1 if they err")
     shared.output_options(command, quiet="no warnings and no other words")
     shared.scheme_option(command)
     shared.input_options(command, "the report's two cases")
