@@ -173,26 +173,31 @@ _TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resista
 
 
 class _Builder:
-    """Computes the values of one workbook. A case is known by its slug: low and high, or case."""
+    """Computes one workbook. `runs` and `coarse`: a case's page in the plan, and its sheet."""
 
     def __init__(self, case: Impact | None, scheme: str, rows: int | None, ledger: Ledger) -> None:
         self.scheme, self.ledger = scheme, ledger
         self.cases = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-        self.pages = {slug: self._page(slug, impact) for slug, impact in self.cases.items()}
-        blocks = inputs.inputs_of(list(self.pages.values()), report=case is None)
-        self.entries = {entry.name: entry for block in blocks.values() for entry in block}
-        self.typed = {name: self._to_type(entry) for name, entry in self.entries.items()}
-        self.changed = {n for n, e in self.entries.items() if self.typed[n] != e.of_report(ledger)}
-        self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
+        pages = [self._page(slug, impact) for slug, impact in self.cases.items()]
+        blocks = inputs.inputs_of(pages, report=case is None)
+        entries = {entry.name: entry for block in blocks.values() for entry in block}
+        self.typed = {name: self._to_type(entry) for name, entry in entries.items()}
+        self.changed = {n for n, e in entries.items() if self.typed[n] != e.of_report(ledger)}
+        self.si = {name: _si(self.typed[name], entry.unit) for name, entry in entries.items()}
         # The cases with the numbers that their cells hold.
         held = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
-        self.impacts = {slug: replace(impact, **held) for slug, impact in self.cases.items()}
-        self.first, self.last = (list(self.impacts.values())[k] for k in (0, -1))
-        self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
-        self.coarse: dict[str, Sheet] = {}
-        for slug, impact in self.impacts.items() if case is None else ():
-            self.coarse[slug] = run(replace(impact, step=self.si[inputs.COARSE]), scheme)
-        self.rows = steps.prepared_rows(max(s.steps for s in self.sheets.values()), rows)
+        sheets = [run(replace(impact, **held), scheme) for impact in self.cases.values()]
+        self.first, self.last = sheets[0].impact, sheets[-1].impact
+        self.rows = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
+        self.runs = list(zip(pages, sheets, strict=True))
+        self.coarse = [
+            (
+                replace(page, coarse=True, name=f"{page.name} coarse"),
+                run(replace(sheet.impact, step=self.si[inputs.COARSE]), scheme),
+            )
+            for page, sheet in self.runs
+            if case is None
+        ]
 
     def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
         """What the plan must know of a case's sheet, but for its length."""
@@ -231,44 +236,38 @@ class _Builder:
 
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
-        longer = [_flags(case) for slug, case in self.cases.items() if slug == "case"]
+        longer = [_flags(self.cases["case"])] if "case" in self.cases else []
         longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
         longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
         command = " ".join(["coldspray workbook", *longer]) if self.rows < steps.MAX_ROWS else ""
-        more: dict[str, Any] = {"rows": self.rows, "longer": command}
         cases, coarse = (
-            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
-            for runs in (self.sheets, self.coarse)
+            [replace(p, steps=sheet.steps, rows=self.rows, longer=command) for p, sheet in runs]
+            for runs in (self.runs, self.coarse)
         )
-        plan = workbook_plan(
-            self.ledger,
-            cases,
-            [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse],
-            findings,
-        )
+        plan = workbook_plan(self.ledger, cases, coarse, findings)
         values = dict(_keyed(self._values()))
         if findings is not None:
             values |= live_verdicts(self.ledger, plan, values, findings)
         warnings = [
-            f"{self.pages[slug].name}: {doubt.text}"
-            for slug, sheet in self.sheets.items()
+            f"{page.name}: {doubt.text}"
+            for page, sheet in self.runs
             for doubt in doubts_about(sheet)
         ]
-        rounding = max(map(rounding_bound, (*self.sheets.values(), *self.coarse.values())))
+        rounding = max(rounding_bound(sheet) for _, sheet in (*self.runs, *self.coarse))
         return Workbook(plan, values, warnings, rounding)
 
     # The values, sheet by sheet, as trees: a branch is a part of a key, a list a number in brackets
 
     def _values(self) -> dict[str, Any]:
-        sheets = {slug: self._sheet(slug, sheet) for slug, sheet in self.sheets.items()}
-        coarse = {}
-        for slug, sheet in self.coarse.items():
-            fine, values = sheets[slug]["depth_um"], self._sheet(slug, sheet)
+        sheets = {page.part: self._sheet(page, sheet) for page, sheet in self.runs}
+        coarse = {page.part: self._sheet(page, sheet) for page, sheet in self.coarse}
+        for values, beside in zip(coarse.values(), sheets.values(), strict=False):
+            fine = beside["depth_um"]
             over = values["depth_um"] / fine if fine else NOT_COMPUTED
-            coarse[f"{slug}_coarse"] = values | {"fine_depth_um": fine, "over_fine": over}
+            values |= {"fine_depth_um": fine, "over_fine": over}
         results = {
-            slug: {name: values[name] for name in ("depth_um", "normalized_depth", "message")}
-            for slug, values in sheets.items()
+            part: {name: values[name] for name in ("depth_um", "normalized_depth", "message")}
+            for part, values in sheets.items()
         }
         last = list(sheets.values())[-1]
         of_table = {*Row._fields, "velocity_middle"}
@@ -277,7 +276,7 @@ class _Builder:
             "inputs": self._inputs(),
             "overview": {"inputs_changed": len(self.changed), "inputs_unusable": 0, **results},
             "table": {name: last[name] for name in _TABLE} | {"row": rows[: table_a1.ROWS]},
-            "figure_3": {slug: self._curve(slug, sheet) for slug, sheet in self.sheets.items()},
+            "figure_3": {page.slug: self._curve(page, sheet) for page, sheet in self.runs},
             "figure_5": self._figure_5(),
             "convergence": self._convergence(),
             "frank_zook": self._frank_zook(),
@@ -305,21 +304,21 @@ class _Builder:
             check = "yours" if name in self.changed else own
             values |= {name: self.si[name], f"{name}.typed": typed, f"{name}.check": check}
         return values | {
-            self.pages[slug].named("R_t"): impact.target_resistance
-            for slug, impact in self.impacts.items()
-            if impact.resistance is None
+            page.named("R_t"): sheet.impact.target_resistance
+            for page, sheet in self.runs
+            if not page.resistance_given
         }
 
-    def _sheet(self, slug: str, sheet: Sheet) -> dict[str, Any]:
+    def _sheet(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
         impact, final = sheet.impact, sheet.rows[-1]
         trust, message = _state(sheet)
         v, at_rest = impact.velocity, _at_rest(impact)
-        label = {"label": self.pages[slug].label, "renamed": ""}
+        label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
         return {
             **impact.motion,
             **_of(impact, "mass", "diameter", "step", "stop_velocity"),
             **_of(sheet, "steps", "final_depth", "normalized_depth"),
-            **(label if impact.resistance is None else {}),
+            **label,
             "row": _rows(sheet, self.rows),
             "message": message,
             "trust": trust,
@@ -334,13 +333,13 @@ class _Builder:
             "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
         }
 
-    def _curve(self, slug: str, sheet: Sheet) -> dict[str, Any]:
+    def _curve(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
         """A curve of Figure 3 in ns and µm; after the stop it holds the last row."""
         rows = [sheet.rows[min(k, sheet.steps)] for k in range(self.rows + 1)]
         return {
             "time": [row.time * 1e9 for row in rows],
             "depth": [row.depth * 1e6 for row in rows],
-            "message": f"{self.pages[slug].label}: {_state(sheet)[1]}",
+            "message": f"{page.label}: {_state(sheet)[1]}",
         }
 
     def _figure_5(self) -> dict[str, Any]:
@@ -355,14 +354,14 @@ class _Builder:
     def _convergence(self) -> dict[str, Any]:
         """The ladder of the cases as written, with inputs that are as yet those in use."""
         of_runs = {name: self.si[name] for name in figures.RUN_INPUTS}
-        for slug, impact in self.impacts.items():
-            of_runs[self.pages[slug].named("R_t")] = impact.target_resistance
+        for page, sheet in self.runs:
+            of_runs[page.named("R_t")] = sheet.impact.target_resistance
         time_steps = ladder(self.first.step, figures.LEVELS)
         return {
             "message": figures.CURRENT,
             "step": time_steps,
             "step_ns": [step * 1e9 for step in time_steps],
-            **{slug: _levels(i, time_steps, self.scheme) for slug, i in self.impacts.items()},
+            **{page.slug: _levels(sheet, time_steps) for page, sheet in self.runs},
             "run": of_runs,
             "in_use": of_runs,
             "same": dict.fromkeys(of_runs, 1),
@@ -431,10 +430,11 @@ class _Builder:
             "grain_over_bulk": mean / grains["bulk"],
             "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
         }
-        for slug, impact in self.impacts.items():
+        for page, sheet in self.runs:
+            impact = sheet.impact
             r_t = impact.target_resistance
             stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
-            values[slug] = {
+            values[page.slug] = {
                 "target_resistance": r_t,
                 "centerline_stress": stress,
                 "over_copper": stress / self.si["Y_copper"],
@@ -544,10 +544,11 @@ def _rows(sheet: Sheet, count: int) -> list[dict[str, Any]]:
     return rows + [blank] * (count - sheet.steps)
 
 
-def _levels(impact: Impact, time_steps: Sequence[float], scheme: str) -> dict[str, Any]:
+def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
     """Final depths at steps, each half of the one before, against the depth at rest, in um."""
+    impact = written.impact
     rest = depth.final_depth(*impact.motion.values()) * 1e6
-    sheets = [run(replace(impact, step=step), scheme) for step in time_steps]
+    sheets = [run(replace(impact, step=step), written.scheme) for step in time_steps]
     depths = [sheet.final_depth * 1e6 for sheet in sheets]
     errors = [reached - rest for reached in depths]
     orders = {
