@@ -56,8 +56,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _discard_output() -> None:
     """Have Python not try again, at its end, to write what could not be written."""
-    if sys.stdout and sys.stdout is sys.__stdout__:  # nobody has put another in its place
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    own = sys.__stdout__
+    if own and sys.stdout is own:  # nobody has put another in its place
+        os.dup2(os.open(os.devnull, os.O_WRONLY), own.fileno())
 
 
 def _end_as_interrupted() -> None:
