@@ -37,10 +37,10 @@ class Interval(NamedTuple):
         above = self.low < value or (self.low == value and self.low_closed)
         return above and (value < self.high or (value == self.high and self.high_closed))
 
-    def meets(self, other: "Interval") -> bool:
+    def meets(self, another: "Interval") -> bool:
         """Whether some value is in both."""
-        low, high = max(self.low, other.low), min(self.high, other.high)
-        return low < high or (low == high and self.has(low) and other.has(low))
+        low, high = max(self.low, another.low), min(self.high, another.high)
+        return low < high or (low == high and self.has(low) and another.has(low))
 
 
 def between(ends: list[str | None]) -> Interval:
@@ -118,9 +118,9 @@ def of_claim(claim: Table, claims: dict[str, Table], constants: Table) -> Iterat
         return
     for part in (claim, *claim["readings"]):
         yield from judged(part, printing(claim))
-        for other in part["otherwise"]:
-            for problem in judged(other, printing(claim, other["rounding"])):
-                yield f"{problem} ({other['rounding']})"
+        for convention in part["otherwise"]:
+            for problem in judged(convention, printing(claim, convention["rounding"])):
+                yield f"{problem} ({convention['rounding']})"
 
 
 def differences(audit: Table) -> Iterator[str]:
