@@ -1,18 +1,21 @@
 """The sheet's final depth against its time step: error, its parts, observed order, limit."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice, pairwise
+from typing import Any
 
 from reference.arithmetic import Number, Reals
 from reference.motion import Trajectory, sheet_rows
+from replication.cases import inputs_of
 from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, Sheet, run
+from replication.text import aligned, number
 
 # The error of one sheet
 
@@ -309,3 +312,84 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> S
     step = fails / 1.01
     final = run(replace(impact, step=step), scheme)
     return StepForDigits(digits, step, final.steps, final.final_depth, error(step), fails)
+
+
+# As the command shows them
+
+
+def record(result: Convergence, digits: StepForDigits | None) -> dict[str, Any]:
+    """As JSON."""
+    return {
+        "inputs": inputs_of(result.impact),
+        "scheme": result.scheme,
+        "nominal_order": ORDER[result.scheme],
+        "levels": result.levels,
+        "limit": result.limit,
+        "limit_undefined": result.levels[-1].undefined,
+        "exact": result.exact,
+        "exact_at_stop": result.exact_at_stop,
+        "digits": digits,
+    }
+
+
+_WHY = {
+    "published": (
+        "The published scheme is first order: it takes a row's deceleration at the middle depth,\n"
+        "but at the initial velocity, and drag depends on velocity."
+    ),
+    "centered": (
+        "The centered scheme is second order: it takes a row's deceleration at the middle depth\n"
+        "and at the middle velocity."
+    ),
+}
+
+
+def _um(length: float | None, digits: int) -> str:
+    return "-" if length is None else number(length * 1e6, digits)
+
+
+def _shown(order: float | None) -> str:
+    return "-" if order is None else f"{order:.2f}"
+
+
+_COLUMNS: tuple[tuple[str, str, Callable[[Level], str]], ...] = (
+    ("step", "[ns]", lambda level: number(level.step * 1e9, 5)),
+    ("steps", "", lambda level: str(level.steps)),
+    ("depth", "[um]", lambda level: _um(level.depth, 7)),
+    ("error", "[um]", lambda level: _um(level.error, 3)),
+    ("order", "", lambda level: _shown(level.order)),
+    ("time step", "[um]", lambda level: _um(level.budget.time_step, 3)),
+    ("order", "", lambda level: _shown(level.time_step_order)),
+    ("stop rule", "[um]", lambda level: _um(level.budget.stop_rule, 3)),
+    ("half step", "[um]", lambda level: _um(level.budget.half_step, 3)),
+    ("rounding", "[um]", lambda level: _um(level.budget.rounding, 2)),
+    ("governed by", "", lambda level: level.regime),
+)
+"""Head, unit and text of each column."""
+
+
+def text(result: Convergence, digits: StepForDigits | None) -> str:
+    """The ladder as a table, its limit, and where every part of the error comes from."""
+    heads, units, writers = zip(*_COLUMNS, strict=True)
+    rows = [tuple(write(level) for write in writers) for level in result.levels]
+    last = result.levels[-1]
+    limit = last.undefined or f"{_um(result.limit, 8)} um"
+    if last.gci is not None:
+        limit += f", observed order {last.observed_order:.2f}, grid convergence index "
+        limit += f"{100 * last.gci:.2g} %"
+    lines = [
+        *aligned([heads, units, *rows]),
+        "",
+        f"exact, at rest            {_um(result.exact, 10)} um",
+        f"exact, at stop velocity   {_um(result.exact_at_stop, 10)} um",
+        f"limit of the last three   {limit}",
+        "The error is the sum of the four parts: time step, stop rule, half step, rounding.",
+        _WHY[result.scheme],
+    ]
+    if digits is not None:
+        lines.append(
+            f"{digits.digits} correct digits: largest step {number(digits.step * 1e9, 5)} ns "
+            f"({digits.steps} steps, error {_um(digits.error, 3)} um); "
+            f"{number(digits.fails * 1e9, 5)} ns fails."
+        )
+    return "\n".join(lines)
