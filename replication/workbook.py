@@ -203,10 +203,12 @@ class _Builder:
         """What the plan must know of a case's sheet, but for its length."""
         beta = "3" if impact.beta == BETA_3.beta else "5"
         own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
+        # As spreadsheet programs join a number to a text.
+        label = "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
         return steps.CaseSheet(
             name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
             slug=slug,
-            label=_label(impact),
+            label=label,
             steps=0,
             rows=0,
             scheme=self.scheme,
@@ -481,11 +483,6 @@ def live_verdicts(
             value = values[plan.cell(("Table A-1", claim.place.cell)).key]
             held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
     return held
-
-
-def _label(impact: Impact) -> str:
-    """What tells a case from the other, spelled as spreadsheet programs join a number to a text."""
-    return "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
 
 
 def _flags(impact: Impact) -> str:

@@ -31,14 +31,6 @@ def run(options: argparse.Namespace) -> int:
 
         shared.print_json(schema())
         return 0
-    gc.disable()  # to look for garbage would take a twentieth of the time
-    try:
-        return _audit(options)
-    finally:
-        gc.enable()
-
-
-def _audit(options: argparse.Namespace) -> int:
     from replication.report import render
     from spreadsheets import emit
 
@@ -50,13 +42,17 @@ def _audit(options: argparse.Namespace) -> int:
     from replication.error import hard_cases
     from replication.workbook import build
 
-    record = audit()
-    random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
-    beside = {
-        "workbook.xlsx": build(record=record).to_bytes(),
-        "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
-    }
-    written = render.write(record, options.out, beside)
+    gc.disable()  # to look for garbage would take a twentieth of the time
+    try:
+        record = audit()
+        random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
+        beside = {
+            "workbook.xlsx": build(record=record).to_bytes(),
+            "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
+        }
+        written = render.write(record, options.out, beside)
+    finally:
+        gc.enable()
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:

@@ -1,7 +1,6 @@
 """`coldspray claims`: the ledger, or one claim with its proof."""
 
 import argparse
-from collections.abc import Iterable
 from typing import Any
 
 from replication.cli import options as shared
@@ -28,8 +27,11 @@ def run(options: argparse.Namespace) -> int:
         record = [_listed(claim) for claim in claims]
         return shared.put(options, record, lambda: columns(rows, shared.width(piped=10_000)))
     if options.id not in ledger.claims:
-        near = _nearest(options.id, ledger.claims)
-        raise ValueError(f"there is no claim {quoted(options.id)}{near}")
+        from difflib import get_close_matches
+
+        near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
+        hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+        raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
     from replication.audit.audit import audit_claim
     from replication.report.render import proof
 
@@ -51,10 +53,3 @@ def _listed(claim: Any) -> dict[str, Any]:
         "unit": claim.unit,
         "kind": claim.kind,
     }
-
-
-def _nearest(name: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(name[:80], list(known), n=3, cutoff=0.4)
-    return f"; near it: {', '.join(near)}" if near else "; `coldspray claims` lists them"

@@ -63,19 +63,17 @@ def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]
 
 
 def _times(options: argparse.Namespace, stop: float) -> list[float]:
-    if options.times is not None:
-        return [_time(k, text) for k, text in enumerate(options.times.split(","), 1)]
-    last = options.points - 1
-    return [stop * (k / last) for k in range(options.points)]
-
-
-def _time(place: int, text: str) -> float:
-    """The time [s] that stands at a place, from 1 on, in --times."""
-    try:
-        time = read_number(text.strip(), "s")
-        if not 0 <= time <= 1e250:
-            raise ValueError(f"{quoted(text.strip())} is not from 0 to 1e250 s")
-    except ValueError as error:
-        wanted = 'give times such as "0 ns,5 ns"'
-        raise ValueError(f"--times, value {place}: {error}: {wanted}") from error
-    return time
+    """The times [s] that were asked for; `stop`: that of rest."""
+    if options.times is None:
+        last = options.points - 1
+        return [stop * (k / last) for k in range(options.points)]
+    times = []
+    for k, text in enumerate(map(str.strip, options.times.split(",")), 1):
+        try:
+            times.append(read_number(text, "s"))
+            if not 0 <= times[-1] <= 1e250:
+                raise ValueError(f"{quoted(text)} is not from 0 to 1e250 s")
+        except ValueError as error:
+            wanted = 'give times such as "0 ns,5 ns"'
+            raise ValueError(f"--times, value {k}: {error}: {wanted}") from error
+    return times

@@ -184,7 +184,7 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
             "fits": lambda s: s.fits or "no",
         }),
     )  # fmt: skip
-    return [table for table in tables if table.rows]
+    return [shown for shown in tables if shown.rows]
 
 
 def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
