@@ -18,7 +18,7 @@ from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DEEP
 from replication.error import warnings as doubts_about
-from replication.error.ladder import ladder, observed_order
+from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, frank_zook, resistance, stream
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
@@ -550,7 +550,7 @@ def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
     errors = [reached - rest for reached in depths]
     orders = {
         f"order[{k}]": figures.NO_ORDER if order is None else order
-        for k, order in enumerate(starmap(observed_order, pairwise(errors)), 1)
+        for k, order in enumerate(starmap(error_order, pairwise(errors)), 1)
     }
     return {
         "rest_um": rest,

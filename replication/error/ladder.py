@@ -157,7 +157,7 @@ def ladder(step: float, levels: int) -> list[float]:
 def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> Convergence:
     """Run the sheet at each step, coarsest first.
 
-    Raises ValueError for less than two steps, for steps that do not fall, and as `midpoint.run`.
+    Raises ValueError for less than two steps, for steps that do not fall, and as `run` of a sheet.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10]).levels[-1]
@@ -180,8 +180,8 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     order = time_step_order = None
     if before:
         ratio = before[-1].step / impact.step
-        order = observed_order(before[-1].error, budget.total, ratio)
-        time_step_order = observed_order(before[-1].budget.time_step, budget.time_step, ratio)
+        order = error_order(before[-1].error, budget.total, ratio)
+        time_step_order = error_order(before[-1].budget.time_step, budget.time_step, ratio)
     level = Level(
         step=impact.step,
         steps=sheet.steps,
@@ -196,10 +196,10 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     return _extrapolated([*before[-2:], level], ORDER[scheme])
 
 
-def observed_order(coarse: float | None, fine: float | None, ratio: float = 2.0) -> float | None:
+def error_order(coarse: float | None, fine: float | None, ratio: float = 2.0) -> float | None:
     """The order by which an error falls with the step; None where it vanishes or changes sign.
 
-    >>> observed_order(0.04, 0.01)
+    >>> error_order(0.04, 0.01)
     2.0
     """
     if coarse is None or fine is None or coarse * fine <= 0:
