@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
         "stop_time": stop,
     }
     table = list(zip(times, depth, velocity, strict=True))
-    rows = [dict(zip(("time", "depth", "velocity"), row, strict=True)) for row in table]
+    rows = [{"time": t, "depth": x, "velocity": v} for t, x, v in table] if options.csv else []
 
     def text() -> str:
         heads = ("time [ns]", "x [um]", "velocity [m/s]")

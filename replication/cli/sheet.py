@@ -24,7 +24,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.sheet import run
 
     sheet = run(shared.case(options), options.scheme)
-    rows = [row._asdict() for row in sheet.rows]
+    rows = [row._asdict() for row in sheet.rows] if options.json or options.csv else []
     doubts = [warning.text for warning in warnings(sheet)]
     record = {
         "inputs": inputs_of(sheet.impact),
