@@ -24,7 +24,7 @@ from hypothesis import strategies as st
 from reference.ledger import load
 from replication import text as texts
 from replication.audit.record import Record
-from replication.audit.verdict import OPEN
+from replication.audit.verdict import OPEN, Verdict
 from replication.report import render
 from replication.report.facts import between
 from replication.report.figures import draw
@@ -200,6 +200,7 @@ def test_every_claim_is_a_line_of_the_csv_with_all_digits(
 def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record: Record) -> None:
     text = files["audit.md"].decode()
     assert all(f"`{part.id}`" in text for part in (*record.claims, *record.findings))
+    assert all(f" **{verdict.value}**: " in text for verdict in Verdict)
     assert len({line.count("|") for line in text.splitlines() if line.startswith("| L/D = 1")}) == 1
 
 
