@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from replication.check.findings import Verdict, joined
 from replication.check.inputs import NEAR, Input
-from replication.check.scheme import BEYOND, REPORT, Case, orders
+from replication.check.scheme import BEYOND, FILLS, REPORT, Case, orders
 from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
@@ -29,7 +29,7 @@ def each_cell(f: Verdict) -> None:
     accused, before = f.accused, len(f.differences)
     for role, column in f.setting.rows.columns.items():
         for k in range(f.table.steps + 1):
-            place, expected = f.table.place(role, k), _expected(f, role, k)
+            place, expected = f.table.place(role, k), f.setting.rows.wanted(role, k)
             if place in odd:
                 kind, text = odd.pop(place)
                 if error := f.calculation.error(place):
@@ -155,21 +155,6 @@ def _plain(value: float) -> bool:
     return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
 
 
-def _expected(f: Verdict, role: str, k: int) -> float | None:
-    """What a cell should hold by the rules that its table follows."""
-    rows = f.setting.rows
-    if role == "time":
-        before = rows.columns["time"].get(k - 1, 0.0 if k == 1 else None)
-        return None if before is None else before + f.case.step
-    if role == "velocity_final" and k == 0:
-        return f.case.velocity
-    if role.startswith("velocity") and k > (role == "velocity_initial"):
-        if role == "velocity_initial" and "velocity_final" in rows.columns:
-            return rows("velocity_final", k - 1)
-        return f.slowed(k if role == "velocity_final" else k - 1)
-    return f.rules.value(role, rows, k)
-
-
 def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) -> bool:
     """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
     column, place = f.setting.rows.columns[role], f.table.place(role, k)
@@ -179,7 +164,7 @@ def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) ->
         wrong = needed or _text(f, place) or f.calculation.error(place)
         beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
         return bool(wrong) and not beyond and not _passed_on(f, place)
-    numbered = role == "time" and math.isclose(found, k * f.case.step, rel_tol=NEAR)
+    numbered = role == "time" and math.isclose(found, k * f.setting.case.step, rel_tol=NEAR)
     if expected is None or numbered:  # by the number of the row, not from the time before
         return False
     size = abs(expected)
@@ -188,8 +173,8 @@ def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) ->
     if abs(found - expected) <= NEAR * size:
         return False
     # A first row that is the report's may be unlike the others, which follow another rule.
-    part = {"deceleration": "brake", "velocity_final": "end"}.get(role)
-    return not (part and k == 1 and f.setting.follows(part, getattr(REPORT, part), 1))
+    part = FILLS.get(role, "advance")
+    return k != 1 or part == "advance" or not f.setting.follows(part, getattr(REPORT, part), 1)
 
 
 def _text(f: Verdict, place: Position) -> bool:
@@ -237,7 +222,7 @@ def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, s
         return "unit", f"{what}: a factor of 1e{abs(power)}"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
-    beyond = (f.setting.rows("depth", k) or 0.0) >= f.case.radius
+    beyond = (f.setting.rows("depth", k) or 0.0) >= f.setting.case.radius
     if role == "deceleration" and beyond and f.setting.follows("brake", BEYOND, k):
         return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
     return alone, what
@@ -249,24 +234,24 @@ def order(f: Verdict) -> None:
     if any(f.setting.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
         return  # converting units costs last digits, too
     # The mass as its cell has it; without a cell, as any order of its product gives it.
-    masses = [f.case.mass]
+    masses = [f.setting.case.mass]
     for way in (0.0, math.inf) if "mass" not in f.setting.derived else ():
-        mass = f.case.mass
+        mass = f.setting.case.mass
         masses += [mass := math.nextafter(mass, way) for _ in range(4)]
-    cases = [replace(f.case, own_mass=mass) for mass in masses]
+    cases = [replace(f.setting.case, own_mass=mass) for mass in masses]
     accused = f.accused
     for role in ("depth", "deceleration", "velocity_final"):
         column = f.setting.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas
-                and not _fails(f, role, k, _expected(f, role, k), False)]  # fmt: skip
+                and not _fails(f, role, k, f.setting.rows.wanted(role, k), False)]  # fmt: skip
         others = [
             [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
             for case in cases
         ]
         if differ := min(others, key=len):
             found = column[differ[0]]
-            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - found))
+            wanted = min(_ordered(f, role, differ[0], f.setting.case), key=lambda v: abs(v - found))
             cells = [f.table.place(role, k) for k in differ]
             ulps = round(abs(wanted - found) / math.ulp(wanted))
             text = (
@@ -283,5 +268,5 @@ def _ordered(f: Verdict, role: str, k: int, case: Case) -> set[float]:
     x, v = rows("depth", k), rows("velocity_initial", k)
     if role == "deceleration":
         return set() if x is None or v is None else orders(case, x, v)
-    value = f.rules.value(role, rows, k)
+    value = rows.wanted(role, k)
     return set() if value is None else {value}

@@ -2,12 +2,12 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from replication.check.inputs import Setting
-from replication.check.scheme import REPORT, Case
+from replication.check.scheme import Case, Rule, Rules
 from replication.check.table import Line, runs
 from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
@@ -27,7 +27,8 @@ class Difference:
     """One way in which a workbook parts from the report's sheet, at one place.
 
     `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
-    cells are calculated. `effect` is the final depth [m] that this difference alone would give.
+    cells are calculated. `effect` is the final depth [m] that this difference alone would give,
+    `change` what it makes of the report's scheme: another case or other rules.
     """
 
     place: Position
@@ -38,6 +39,7 @@ class Difference:
     cells: tuple[Position, ...]
     rank: tuple[float, ...]
     effect: float | None = None
+    change: Callable[[Case], Case] | Mapping[str, Rule] | None = field(default=None, compare=False)
 
 
 def rank(place: Position, setting: Setting) -> tuple[float, ...]:
@@ -64,10 +66,7 @@ class Verdict:
     def __init__(self, setting: Setting) -> None:
         self.setting, self.table = setting, setting.table
         self.calculation = setting.table.calculation
-        self.rules = REPORT
         self.differences: list[Difference] = []
-        self.spoils: dict[Position, Callable[[Case], Case]] = {}
-        """What a wrong input's cell makes of the case that is intended."""
         self.right_depth: float | None = None
         self.differing = 0
 
@@ -77,23 +76,14 @@ class Verdict:
         return self.setting.rows("depth", self.table.steps)
 
     @property
+    def rules(self) -> Rules:
+        """The scheme that the rows follow."""
+        return self.setting.rows.rules
+
+    @property
     def ends(self) -> bool:
         """Whether the rows go down to the stop."""
         return not any(d.kind == "not calculated" for d in self.differences)
-
-    @property
-    def case(self) -> Case:
-        """The case that the rows follow."""
-        return self.setting.case
-
-    @property
-    def intended(self) -> Case:
-        """The case that the rows should follow."""
-        return self.setting.intended
-
-    def intend(self, case: Case) -> None:
-        """Take another case for the one that the rows should follow."""
-        self.setting = replace(self.setting, intended=case)
 
     @property
     def accused(self) -> set[Position]:
@@ -102,7 +92,13 @@ class Verdict:
         return {cell for fault in faults for cell in fault.cells}
 
     def add(
-        self, kind: str, cells: Sequence[Position], expected: Text, text: str, found: Text = None
+        self,
+        kind: str,
+        cells: Sequence[Position],
+        expected: Text,
+        text: str,
+        found: Text = None,
+        change: Callable[[Case], Case] | Mapping[str, Rule] | None = None,
     ) -> None:
         """Add a difference that concerns some cells, the first of them the one to look at.
 
@@ -115,21 +111,13 @@ class Verdict:
             expected = None
         order = rank(cells[0], self.setting)
         self.differences.append(
-            Difference(cells[0], kind, expected, found, text, tuple(cells), order)
+            Difference(cells[0], kind, expected, found, text, tuple(cells), order, None, change)
         )
 
     def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
         """The cells of a column from a row on."""
         last = self.table.steps if last is None else last
         return [self.table.place(role, k) for k in range(first, max(first, last) + 1)]
-
-    def slowed(self, k: int) -> float | None:
-        """The velocity at the end of a row, by the rules and from the row's other cells."""
-        rows = self.setting.rows
-        if "deceleration" in rows.columns:
-            return self.rules.end(rows, k)
-        a, v = self.rules.brake(rows, k), rows("velocity_initial", k)
-        return None if a is None or v is None else v - a * self.case.step
 
     def shown(self, role: str, value: float | None) -> float | None:
         """A value in SI as its column holds it, in the column's unit and with its sign."""

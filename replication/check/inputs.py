@@ -15,7 +15,7 @@ from statistics import median
 
 from reference.ledger import claims_of_case, load
 from reference.units import to_si
-from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact
+from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule, Rules, contact
 from replication.check.table import Table, address
 from replication.check.words import (
     INPUTS,
@@ -111,29 +111,27 @@ class Setting:
         """The case that the rows follow."""
         return self.rows.case
 
-    def with_case(self, case: Case) -> "Setting":
-        """The same table whose rows follow another case."""
-        return replace(self, rows=Rows(self.rows.columns, case))
-
-    def filled(self, part: str, k: int) -> float | None:
-        """What a row has in the column of a part; or what the velocities say."""
-        role, rows = PARTS[part][0], self.rows
-        if role != "deceleration" or role in rows.columns:
-            return rows(role, k)
-        v, final = rows("velocity_initial", k), rows("velocity_final", k)
-        return None if v is None or final is None else (v - final) / self.case.step
+    def following(
+        self, case: Case | None = None, intended: Case | None = None, rules: Rules | None = None
+    ) -> "Setting":
+        """The same table whose rows follow, or should follow, another case or other rules."""
+        rows = replace(self.rows, case=case or self.case, rules=rules or self.rows.rules)
+        return replace(self, rows=rows, intended=intended or self.intended)
 
     def follows(self, part: str, rule: Rule, k: int) -> bool | None:
         """Whether a row follows a rule; None where cells are missing."""
-        wanted, found = rule(self.rows, k), self.filled(part, k)
+        rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
+        role, at = rows.shows(part, k)
+        wanted, found = rows.wanted(role, at), rows(role, at)
         if wanted is None or found is None:
             return None
+        size = abs(wanted)
+        if role.startswith("velocity"):
+            speed = abs(rows("velocity_initial", k) or 0.0)
+            # Where no column holds the deceleration, the velocities' own rounding is in it.
+            size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
         near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
-        speed = abs(self.rows("velocity_initial", k) or 0.0)
-        size = speed if part == "end" else abs(wanted)
-        # Where no column holds the deceleration, the velocities' own rounding is in it.
-        rounded = part == "brake" and "deceleration" not in self.rows.columns
-        return abs(found - wanted) <= near * (size + rounded * 1e-2 * speed / self.case.step)
+        return abs(found - wanted) <= near * size
 
     def share(self, part: str, rule: Rule) -> float:
         """Which share of its rows follows a rule."""
@@ -153,26 +151,24 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     ValueError, saying what to give, when two cells could be the same input and the rows do not
     decide.
     """
-    calculation, inside = table.calculation, table.places
+    calculation, report = table.calculation, report_inputs()
     formulas = calculation.formulas
-    from_table = _read((place for place in inside if place in formulas), calculation)
-    read = {place: far for place, far in from_table.items() if place not in inside}
+    from_table = _read((place for place in table.places if place in formulas), calculation)
+    read = {place: far for place, far in from_table.items() if place not in table.places}
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
     }
-    found = [cell for cells in nearest.values() for cell in cells]
-    typed = {cell for cell in found if not calculation.areas(cell.place)}
     choices = {
-        role: [cell for cell in cells if cell in typed] or cells
+        role: [cell for cell in cells if not calculation.areas(cell.place)] or cells
         for role, cells in nearest.items()
-        if role not in _FOLLOWS or typed & set(cells)
+        if role not in _FOLLOWS or any(not calculation.areas(cell.place) for cell in cells)
     }
     for role, place in mapped.items():
         choices[role] = [_mapped(role, place, candidates, calculation)]
-    labelled = [cell for cell in candidates if read and cell.place not in read and cell.label]
-    unread = _by_role([c for c in labelled if c.place not in formulas], report_inputs(), True)
+    labelled = [c for c in candidates if read and c.label and c.place not in {*read, *formulas}]
+    unread = _by_role(labelled, report, True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
@@ -184,18 +180,15 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
             choices.setdefault("resistance", labelled)
     feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
     for role, of in (("mass", "radius particle_density"), ("resistance", "beta flow_stress")):
+        # A cell without a known label whose formula reads these cells and nothing else.
         sources = {choices[name][0].place if name in choices else None for name in of.split()}
-        own = None if None in sources else _reading(sources, reads, calculation)
-        if role not in feeding and own is not None:
-            feeding[role] = replace(own, role=role)
-    setting = _settled(table, choices, feeding)
+        for cell in reads if role not in feeding and None not in sources else ():
+            areas = () if cell.roles else calculation.areas(cell.place)
+            if areas and {calculation.source(area.corner) for area in areas} == sources:
+                feeding.setdefault(role, replace(cell, role=role))
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
-    pi = next(rounded, math.pi)
-    intended = replace(setting.intended, pi=pi)
-    setting = replace(setting.with_case(replace(setting.case, pi=pi)), intended=intended)
-    taken = {own.place for own in setting.inputs.values()}
-    again = _by_role([cell for cell in reads if cell.place not in taken], report_inputs())
-    left = {role: _nearest(cells, read, calculation)[0] for role, cells in again.items()}
+    setting = _settled(table, choices, feeding, next(rounded, math.pi))
+    left = {role: cells[0] for role, cells in nearest.items()}
     held = {role: own for role, own in setting.inputs.items() if own.place}
     derived = {r: c for r, c in {**left, **held, **setting.derived}.items() if r in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
@@ -213,17 +206,6 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
         edge = list({p for area in areas for p in area.places() if p not in found})
         found.update(dict.fromkeys(edge, distance))
     return found
-
-
-def _reading(
-    sources: set[Position | None], reads: Sequence[Input], calculation: Calculation
-) -> Input | None:
-    """The cell without a known label whose formula reads these cells and nothing else."""
-    for cell in reads:
-        areas = () if cell.roles else calculation.areas(cell.place)
-        if areas and {calculation.source(area.corner) for area in areas} == sources:
-            return cell
-    return None
 
 
 def _nearest(
@@ -296,11 +278,12 @@ def _by_role(
         if len(cell.roles) == 1:
             (role,) = cell.roles
             found.setdefault(role, []).append(_as_role(cell, role, report))
+
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
-        roles = cell.roles or (_like_the_report(cell, report) if by_value else ())
-        left = [role for role in roles if role not in found]
+        alike = (role for role in report if by_value and _like_the_report(cell, role, report))
+        left = [role for role in cell.roles or alike if role not in found]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, role, report))
             how = cell.how if cell.roles else "value"
@@ -318,21 +301,14 @@ def _hinted(table: Table) -> Report:
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
-def _like_the_report(cell: Input, report: Report) -> list[str]:
-    """The roles that have the same digits in the report; a number without a unit has no other."""
-
-    def alike(ratio: float, unit: str) -> bool:
-        power = power_of_ten(ratio)
-        return power is not None and (power == 0 or unit != "1")
-
-    return [
-        role
-        for role, values in report.items()
-        if any(alike(cell.si / value, INPUTS[role]) for value in values)
-    ]
+def _like_the_report(cell: Input, role: str, report: Report) -> bool:
+    """Whether it has the digits of the report's; a number without a unit has no other power."""
+    powers = (power_of_ten(cell.si / value) for value in report[role])
+    return any(p == 0 or (p is not None and INPUTS[role] != "1") for p in powers)
 
 
 def _distance(cell: Input, role: str, report: Report) -> float:
+    """How many powers of ten away from the report's it is."""
     si = scaled(cell.si, to_si(cell.unit)) if cell.unit else cell.si
     if not 0 < si < math.inf:
         return math.inf
@@ -370,7 +346,10 @@ def _mapped(
 
 
 def _settled(
-    table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input]
+    table: Table,
+    choices: Mapping[str, list[Input]],
+    feeding: Mapping[str, Input],
+    pi: float,
 ) -> Setting:
     """One cell for each role: where there are several, those that the rows agree with."""
     for role, enough in _FOLLOWS.items():  # what follows from others can be done without
@@ -385,7 +364,7 @@ def _settled(
     tried: list[tuple[float, Setting]] = []
     for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        setting = _solved_back(_setting(table, inputs), feeding)
+        setting = _solved_back(_setting(table, inputs, pi), feeding)
         tried.append((setting.agreement(), setting))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
@@ -395,7 +374,7 @@ def _settled(
     return tried[0][1]
 
 
-def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
+def _setting(table: Table, chosen: Mapping[str, Input], pi: float) -> Setting:
     """The setting with these cells as inputs, and the report's where there are none."""
     powers, slips = _powers(table, chosen)
     columns = {
@@ -426,10 +405,10 @@ def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
             )
     names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
              "stop_velocity")  # fmt: skip
-    case = Case(**{name: inputs[name].si for name in names if name in inputs})
+    case = Case(**{name: inputs[name].si for name in names if name in inputs}, pi=pi)
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
-    rows = Rows(columns, case)
+    rows = Rows(columns, case, REPORT)
     return Setting(table, inputs, rows, case, powers, slips, negative, _digits(table))
 
 
@@ -589,7 +568,7 @@ def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
-        agreed = replace(setting.with_case(case), intended=intended)
+        agreed = setting.following(case, intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
             inputs = dict(setting.inputs)
@@ -650,9 +629,13 @@ def _solved(setting: Setting) -> dict[str, float]:
     """
     case, rows, points = setting.case, setting.rows, []
     for k in range(1, max(rows.columns["depth"]) + 1):
-        a, x, v = setting.filled("brake", k), rows("depth", k), rows("velocity_initial", k)
-        if a is not None and x and v is not None and (area := contact(case, x)):
-            points.append((v * v, a * case.mass / (math.pi * area)))
+        x, v, final = (rows(role, k) for role in ("depth", "velocity_initial", "velocity_final"))
+        if x and v is not None and (area := contact(case, x)):
+            a = rows("deceleration", k) if "deceleration" in rows.columns else None
+            if "deceleration" not in rows.columns and final is not None:
+                a = (v - final) / case.step
+            if a is not None:
+                points.append((v * v, a * case.mass / (math.pi * area)))
     pairs = zip(points, points[len(points) // 2 :], strict=False)
     apart = [(p, q) for p, q in pairs if p[0] - q[0] > 0.05 * p[0]]
     if len(apart) < 3:
