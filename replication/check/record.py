@@ -5,7 +5,7 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import Difference, Verdict
+from replication.check.findings import Difference, Findings
 from replication.check.table import address, area_of
 from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check, Held
@@ -106,7 +106,7 @@ def _verdict(check: Check) -> str:
     return f"{sentence}."
 
 
-def _apart(verdict: Verdict) -> tuple[float, float] | None:
+def _apart(verdict: Findings) -> tuple[float, float] | None:
     """The final depth and what it should be, where these differ."""
     own, right = verdict.final_depth, verdict.right_depth
     if own is None or right is None or not verdict.ends or abs(own - right) <= 1e-9 * abs(right):
@@ -114,7 +114,7 @@ def _apart(verdict: Verdict) -> tuple[float, float] | None:
     return own, right
 
 
-def _depth(verdict: Verdict) -> dict[str, Any]:
+def _depth(verdict: Findings) -> dict[str, Any]:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
     explains = None
     if (depths := _apart(verdict)) is not None:
@@ -131,9 +131,9 @@ def _depth(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _taken(verdict: Verdict) -> dict[str, Any]:
+def _taken(verdict: Findings) -> dict[str, Any]:
     """What was taken for what."""
-    setting, table = verdict.setting, verdict.setting.table
+    table = verdict.table
     return {
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
@@ -143,7 +143,7 @@ def _taken(verdict: Verdict) -> dict[str, Any]:
             role: {
                 "cells": table.area(role),
                 "head": line.head,
-                "unit": unit_text(role, setting.powers[role]),
+                "unit": unit_text(role, verdict.powers[role]),
                 "by": "--map" if line.given else "head" if role in line.roles else "values",
             }
             for role, line in table.lines.items()
@@ -157,7 +157,7 @@ def _taken(verdict: Verdict) -> dict[str, Any]:
                 "by": own.how,
             }
             for role in INPUTS
-            if (own := setting.inputs.get(role)) is not None
+            if (own := verdict.inputs.get(role)) is not None
         },
     }
 

@@ -128,10 +128,10 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
         (path,) = writers.with_libreoffice([path], tmp_path)
     found = check(path)
     assert found.first is None
-    sheets = {verdict.setting.table.sheet: verdict for verdict in found.verdicts}
+    sheets = {verdict.table.sheet: verdict for verdict in found.verdicts}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
-        inputs = sheets[sheet].setting.inputs
+        inputs = sheets[sheet].inputs
         cells = {name: own.place and own.place[0] for name, own in inputs.items()}
         assert set(cells.values()) <= {"Inputs", None}
         assert [name for name, where in cells.items() if where is None] == ["resistance"]
@@ -151,7 +151,7 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
     ], steps=130)  # fmt: skip
     found = check(written(f, tmp_path))
     (verdict,) = found.verdicts
-    assert END not in verdict.setting.table.lines
+    assert END not in verdict.table.lines
     assert verdict.rules.name == "centered"
     assert found.first.place == (s, 7, 5)
 
@@ -219,7 +219,7 @@ def test_a_sheet_gone_wrong_is_known_by_its_formulas(tmp_path: Path) -> None:
 def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -> None:
     rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
     found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
-    assert found.verdicts[0].setting.inputs["step"].place == ("Sheet1", 2, 5)
+    assert found.verdicts[0].inputs["step"].place == ("Sheet1", 2, 5)
 
 
 # ---- where it cannot tell
