@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import dropwhile
 from pathlib import Path
 
 from reference.ledger import Claim, load
@@ -129,11 +130,13 @@ def _named_line(given: str, where: str, area: Area, calculation: Calculation) ->
     blank = next((own.left_out for own in alike), ())
     number = area.top if across else area.left
     line = Line(calculation, area.sheet, across, blank, number, given=given)
-    places = [place for place in area.places() if line.index(place) is not None]
-    values = tuple(calculation.number(place) for place in places)
+    cells = [(at, calculation.number(p)) for p in area.places() if (at := line.index(p))]
+    # Whoever names a whole column means its table, not the heads above.
+    cells = list(dropwhile(lambda cell: cell[1] is None, cells))
+    values = tuple(value for _, value in cells)
     if sum(value is not None for value in values) < LEAST:
         raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
-    line = replace(line, first=line.index(places[0]) or 1, values=values).headed()
+    line = replace(line, first=cells[0][0], values=values).headed()
     wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
     if line.unit and not same_dimension(line.unit, wanted):
         raise ValueError(
