@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -89,24 +89,30 @@ class Findings:
         rows = replace(self.rows, case=case)
         return replace(self, rows=rows, intended=intended or self.intended)
 
+    def followed(self, part: str, rule: Rule, numbers: Iterable[int]) -> Iterator[bool | None]:
+        """Whether each of some rows follows a rule; None where cells are missing."""
+        rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
+        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+        for k in numbers:
+            role, at = rows.shows(part, k)
+            wanted, found = rows.wanted(role, at), rows(role, at)
+            if wanted is None or found is None:
+                yield None
+                continue
+            size = abs(wanted)
+            if role.startswith("velocity"):
+                speed = abs(rows("velocity_initial", k) or 0.0)
+                # Where no column holds the deceleration, the velocities' own rounding is in it.
+                size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
+            yield abs(found - wanted) <= near * size
+
     def follows(self, part: str, rule: Rule, k: int) -> bool | None:
         """Whether a row follows a rule; None where cells are missing."""
-        rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
-        role, at = rows.shows(part, k)
-        wanted, found = rows.wanted(role, at), rows(role, at)
-        if wanted is None or found is None:
-            return None
-        size = abs(wanted)
-        if role.startswith("velocity"):
-            speed = abs(rows("velocity_initial", k) or 0.0)
-            # Where no column holds the deceleration, the velocities' own rounding is in it.
-            size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
-        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
-        return abs(found - wanted) <= near * size
+        return next(self.followed(part, rule, [k]))
 
     def share(self, part: str, rule: Rule) -> float:
         """Which share of its rows follows a rule."""
-        each = [self.follows(part, rule, k) for k in range(PARTS[part][1], self.table.steps + 1)]
+        each = self.followed(part, rule, range(PARTS[part][1], self.table.steps + 1))
         judged = [good for good in each if good is not None]
         return sum(judged) / len(judged) if judged else 0.0
 

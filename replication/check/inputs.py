@@ -406,8 +406,8 @@ def _round(ratio: float) -> int:
 
 
 def _thousands(ratio: float) -> int:
-    """The nearest power of ten that is one of a thousand."""
-    return 3 * round(_round(ratio) / 3)
+    """The nearest power of ten that is one of a thousand; none for a number 100 times another."""
+    return 3 * round(_round(ratio) / 3) if abs(_round(ratio)) > 2 else 0
 
 
 def _whole(factor: float, named: int | None) -> int:

@@ -428,6 +428,7 @@ def stops() -> Iterator[str]:
     yield from said(
         "a hair beyond the radius", plain(replace(COARSE, velocity=712.0)), plain(COARSE)
     )
+    yield from said("60 rows of 4 ps", plain(replace(COARSE, step=4e-12), 60), plain(COARSE))
     yield from said("403 m/s in rows for 500", changed(plain(COARSE), {"B5": 403}), plain(COARSE))
     yield from said("521 m/s in rows for 500", changed(plain(COARSE), {"B5": 521}), plain(COARSE))
     blank = {f"{letter}55:": None for letter in "ACDEF"}
