@@ -13,7 +13,7 @@ from foreign import layouts, writers
 from foreign.drawn import drawn
 from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Column, Foreign
 from foreign.writers import require_libreoffice
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from replication.cases import BETA_3, BETA_5
@@ -220,6 +220,32 @@ def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -
     rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
     found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
     assert found.verdicts[0].inputs["step"].place == ("Sheet1", 2, 5)
+
+
+@given(
+    velocity=st.floats(100, 1500), radius=st.floats(1e-6, 3e-4), densities=st.floats(2e3, 2e4),
+    strength=st.floats(3e7, 5e9), share=st.floats(2e-3, 1e-2),
+)  # fmt: skip
+@settings(max_examples=12, deadline=None)
+@example(velocity=500, radius=11e-6, densities=8000, strength=3.5e9, share=1.8e-4)  # 4 ps
+def test_a_right_sheet_of_other_inputs_is_clean(
+    tmp_path_factory: pytest.TempPathFactory,
+    velocity: float, radius: float, densities: float, strength: float, share: float,
+) -> None:  # fmt: skip
+    """Far from the report's, too, where its values do not tell which unit a number has."""
+    velocity, radius, densities, strength, step = (
+        float(f"{number:.3g}")
+        for number in (velocity, radius, densities, strength, share * radius / velocity)
+    )
+    impact = Impact(
+        velocity=velocity, radius=radius, particle_density=densities, target_density=densities,
+        beta=1.5, flow_stress=strength, step=step,
+    )  # fmt: skip
+    rows = min(midpoint.run(impact).steps, 20)
+    assume(rows > 5)
+    found = check(written(layouts.plain(impact, rows), tmp_path_factory.mktemp("right")))
+    assert found.first is None
+    assert {own.how for own in found.verdicts[0].inputs.values()} <= {"label", "follows"}
 
 
 # ---- where it cannot tell
