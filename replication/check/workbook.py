@@ -39,7 +39,7 @@ class Check:
     """What `coldspray check` has found out about a workbook."""
 
     calculation: Calculation
-    verdicts: tuple[Findings, ...]
+    findings: tuple[Findings, ...]
     differences: tuple[Difference, ...]
     held: tuple[Held, ...]
 
@@ -78,14 +78,14 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         if not found:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, found))
-        verdicts = [find(table, beside, cells) for table in found]
-    for verdict in verdicts:
-        judge(verdict)
-    held = [number for verdict in verdicts for number in _held(verdict, len(verdicts) == 1)]
+        findings = [find(table, beside, cells) for table in found]
+    for f in findings:
+        judge(f)
+    held = [number for f in findings for number in _held(f, len(findings) == 1)]
     differences = [
-        *(d for v in verdicts for d in v.differences),
-        *_stale(calculation, verdicts),
-        *_unmet(held, verdicts[0]),
+        *(d for v in findings for d in v.differences),
+        *_stale(calculation, findings),
+        *_unmet(held, findings[0]),
         *_uncalculated(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
@@ -94,7 +94,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         for d in reversed(differences)
     }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(calculation, tuple(verdicts), ordered, tuple(held))
+    return Check(calculation, tuple(findings), ordered, tuple(held))
 
 
 # ---- what the user says, and what is said where nothing is found
@@ -294,13 +294,13 @@ def _unmet(held: Sequence[Held], f: Findings) -> Iterator[Difference]:
 # ---- stored values
 
 
-def _stale(calculation: Calculation, verdicts: Sequence[Findings]) -> Iterator[Difference]:
+def _stale(calculation: Calculation, findings: Sequence[Findings]) -> Iterator[Difference]:
     """Stored values that their formulas do not give.
 
     In a column the largest number counts: what is left of 500 m/s at the end has its rounding, and
     so has a cell that reads it.
     """
-    tables = [verdict.table for verdict in verdicts]
+    tables = [f.table for f in findings]
     lines = [line for table in tables for line in table.every_line]
 
     def is_stale(place: Position) -> bool:
@@ -325,7 +325,7 @@ def _stale(calculation: Calculation, verdicts: Sequence[Findings]) -> Iterator[D
     for run in runs(shapes, tables[0].across):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
-        ranks = [verdict.rank(run[0]) for verdict in verdicts]
+        ranks = [f.rank(run[0]) for f in findings]
         yield Difference(
             run[0], "stale value", str(value) if isinstance(value, bool) else value,
             str(stored) if isinstance(stored, bool) else stored,

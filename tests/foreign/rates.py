@@ -57,7 +57,7 @@ def workbooks(made_by: str) -> Iterator[Foreign]:
 def clean(f: Foreign, path: Path) -> bool:
     """Whether a right workbook is clean, its columns and inputs taken for what they are."""
     found = check(path)
-    findings = found.verdicts[0]
+    findings = found.findings[0]
     columns = all(
         role in findings.table.lines and findings.table.place(role, k) == place
         for (role, k), place in f.where.items()
@@ -104,7 +104,7 @@ def planted(
 
 def _found(spoiled: Planted, done: Check) -> bool:
     right = run(spoiled.workbook.impact).final_depth
-    depths = [verdict.right_depth for verdict in done.verdicts]
+    depths = [findings.right_depth for findings in done.findings]
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
     if spoiled.status:

@@ -128,7 +128,7 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
         (path,) = writers.with_libreoffice([path], tmp_path)
     found = check(path)
     assert found.first is None
-    sheets = {verdict.table.sheet: verdict for verdict in found.verdicts}
+    sheets = {table.table.sheet: table for table in found.findings}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
         inputs = sheets[sheet].inputs
@@ -150,9 +150,9 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
         Column(BRAKE, "E", "a", None, f"={force % 'D{r}'}"),
     ], steps=130)  # fmt: skip
     found = check(written(f, tmp_path))
-    (verdict,) = found.verdicts
-    assert END not in verdict.table.lines
-    assert verdict.rules.name == "centered"
+    (table,) = found.findings
+    assert END not in table.table.lines
+    assert table.rules.name == "centered"
     assert found.first.place == (s, 7, 5)
 
 
@@ -219,7 +219,7 @@ def test_a_sheet_gone_wrong_is_known_by_its_formulas(tmp_path: Path) -> None:
 def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -> None:
     rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
     found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
-    assert found.verdicts[0].inputs["step"].place == ("Sheet1", 2, 5)
+    assert found.findings[0].inputs["step"].place == ("Sheet1", 2, 5)
 
 
 @given(
@@ -245,7 +245,7 @@ def test_a_right_sheet_of_other_inputs_is_clean(
     assume(rows > 5)
     found = check(written(layouts.plain(impact, rows), tmp_path_factory.mktemp("right")))
     assert found.first is None
-    assert {own.how for own in found.verdicts[0].inputs.values()} <= {"label", "follows"}
+    assert {own.how for own in found.findings[0].inputs.values()} <= {"label", "follows"}
 
 
 # ---- where it cannot tell
