@@ -128,7 +128,7 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
         (path,) = writers.with_libreoffice([path], tmp_path)
     found = check(path)
     assert found.first is None
-    sheets = {table.table.sheet: table for table in found.findings}
+    sheets = {f.table.sheet: f for f in found.findings}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
         inputs = sheets[sheet].inputs
@@ -150,9 +150,9 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
         Column(BRAKE, "E", "a", None, f"={force % 'D{r}'}"),
     ], steps=130)  # fmt: skip
     found = check(written(f, tmp_path))
-    (table,) = found.findings
-    assert END not in table.table.lines
-    assert table.rules.name == "centered"
+    (findings,) = found.findings
+    assert END not in findings.table.lines
+    assert findings.rules.name == "centered"
     assert found.first.place == (s, 7, 5)
 
 
