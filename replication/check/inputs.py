@@ -406,7 +406,7 @@ def _round(ratio: float) -> int:
 
 
 def _thousands(ratio: float) -> int:
-    """The nearest power of ten that is one of a thousand; none for a number 100 times another."""
+    """The nearest power of ten that is one of a thousand; for less than 300 times none is meant."""
     return 3 * round(_round(ratio) / 3) if abs(_round(ratio)) > 2 else 0
 
 
