@@ -105,7 +105,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
                 feeding.setdefault(role, replace(cell, role=role))
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     findings = _settled(table, choices, feeding, next(rounded, math.pi))
-    left = {role: cells[0] for role, cells in nearest.items()}
+    left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
     held = {role: own for role, own in findings.inputs.items() if own.place}
     derived = {r: c for r, c in {**left, **held, **findings.derived}.items() if r in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)

@@ -519,6 +519,9 @@ def several() -> Iterator[str]:
         f = layouts.sideways(COARSE)
         f.cells["Sheet 1", 13, row] = 1e-6
         yield from said(f"a depth in column {layouts.letters(row)} of a table to the right", f)
+    f = layouts.named_constants(BETA_3)
+    f.cells["Sheet", 202, 6] = 700
+    yield from said("700 typed below the end, all inputs names", f, layouts.named_constants(BETA_3))
 
 
 def given() -> Iterator[str]:
