@@ -194,13 +194,6 @@ def test_what_is_expected_is_told_in_the_units_of_its_column(
         assert (first.place, first.expected) == (f.where[part, 40], pytest.approx(number, 1e-12))
 
 
-def test_a_time_by_the_number_of_its_row_is_right_after_a_wrong_one(tmp_path: Path) -> None:
-    f = layouts.one_velocity(BETA_5)
-    f.cells[f.where[TIME, 50]] = 1.0
-    (cause,) = check(written(f, tmp_path)).causes
-    assert cause.place == f.where[TIME, 50]
-
-
 def test_a_mass_of_constants_keeps_its_last_digits(tmp_path: Path) -> None:
     f = by_hand(
         A1=None, B1=None, A2=None, B2=None, B3="=4/3*PI()*0.000011^3*8900", B4="=2*0.000011"
@@ -270,7 +263,6 @@ def test_what_is_where_can_be_said(coldspray: Run, tmp_path: Path) -> None:
     [
         ("depth", "give NAME=RANGE"),
         ("depth=E21:E152", "a unit of something else"),
-        ("depth=C3:C9", "name both"),
         ("depth=" + "(" * 99, "a range such as"),
     ],
 )
@@ -281,15 +273,6 @@ def test_a_map_that_cannot_be_is_explained(
     status, out, err = coldspray("check", path, "--map", given)
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert words in err
-
-
-def test_two_cells_that_could_be_one_input_are_asked_about(coldspray: Run, tmp_path: Path) -> None:
-    f = layouts.pasted(BETA_5)
-    for r, value in ((1, 12e-6), (2, 13e-6)):  # the rows are those of neither
-        f.line("Sheet1", f"H{r}", "particle radius (m)", value)
-    status, _, err = coldspray("check", written(f, tmp_path))
-    assert status == 2
-    assert "Sheet1!I1 and Sheet1!I2 could each be the radius: give --map radius=CELL" in err
 
 
 # ---- hostile contents
