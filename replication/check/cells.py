@@ -240,7 +240,9 @@ def order(f: Findings) -> None:
         masses += [mass := math.nextafter(mass, way) for _ in range(4)]
     cases = [replace(f.case, own_mass=mass) for mass in masses]
     accused = f.accused
-    for role in ("depth", "deceleration", "velocity_final"):
+    # Without a column of its own the deceleration's order is not known by the velocity's.
+    shown = "deceleration" in f.rows.columns
+    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
         column = f.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas

@@ -45,7 +45,10 @@ def right(layout: Callable[..., Foreign]) -> Iterator[str]:
 
 
 def right_beta_3() -> Iterator[str]:
-    for layout in (layouts.table_a1, layouts.french, layouts.one_velocity, layouts.pasted):
+    for layout in (
+        layouts.table_a1, layouts.french, layouts.one_velocity, layouts.pasted,
+        layouts.no_deceleration,
+    ):  # fmt: skip
         yield from whole(layout(BETA_3))
 
 
