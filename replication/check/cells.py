@@ -11,25 +11,24 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-from replication.check.findings import Verdict, joined
-from replication.check.inputs import NEAR, Input
-from replication.check.scheme import BEYOND, REPORT, Case, orders
+from replication.check.findings import NEAR, Findings, Input, joined
+from replication.check.scheme import BEYOND, FILLS, REPORT, Case, orders
 from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
 
 
-def each_cell(f: Verdict) -> None:
+def each_cell(f: Findings) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
     odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
     areas = (area for place in f.table.places for area in f.calculation.areas(place))
     read = {area.corner for area in areas if area.cells == 1}
     wrong = _beside(f, odd.keys() - f.table.places.keys())
     accused, before = f.accused, len(f.differences)
-    for role, column in f.setting.rows.columns.items():
+    for role, column in f.rows.columns.items():
         for k in range(f.table.steps + 1):
-            place, expected = f.table.place(role, k), _expected(f, role, k)
+            place, expected = f.table.place(role, k), f.rows.wanted(role, k)
             if place in odd:
                 kind, text = odd.pop(place)
                 if error := f.calculation.error(place):
@@ -51,7 +50,7 @@ def each_cell(f: Verdict) -> None:
     f.differences[before:] = joined(f.differences[before:], f.table.across)
 
 
-def _beside(f: Verdict, wrong: set[Position]) -> set[Position]:
+def _beside(f: Findings, wrong: set[Position]) -> set[Position]:
     """Wrong cells beside the table, and those beside it that read them, through others or not."""
     order = f.calculation.order
     cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
@@ -77,7 +76,13 @@ def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, 
         return
     # Some people type the number of the row into each formula: then the shapes without numbers.
     for masked in (False, True):
-        shapes = {place: _shape(formula, masked) for place, formula in formulas.items()}
+        shapes = {
+            place: tuple(
+                "#" if masked and piece.kind == "number" else shape
+                for piece, shape in zip(formula.pieces, formula.shape, strict=True)
+            )
+            for place, formula in formulas.items()
+        }
         usual, often = Counter(shapes.values()).most_common(1)[0]
         if often >= 0.5 * len(formulas):
             break
@@ -92,11 +97,6 @@ def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, 
             what = _WHAT.get(type(typed), "a number")
             stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
             yield place, ("typed number", stand)
-
-
-def _shape(formula: Formula, masked: bool) -> tuple[str, ...]:
-    pairs = zip(formula.pieces, formula.shape, strict=True)
-    return tuple("#" if masked and piece.kind == "number" else shape for piece, shape in pairs)
 
 
 def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
@@ -155,24 +155,9 @@ def _plain(value: float) -> bool:
     return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
 
 
-def _expected(f: Verdict, role: str, k: int) -> float | None:
-    """What a cell should hold by the rules that its table follows."""
-    rows = f.setting.rows
-    if role == "time":
-        before = rows.columns["time"].get(k - 1, 0.0 if k == 1 else None)
-        return None if before is None else before + f.case.step
-    if role == "velocity_final" and k == 0:
-        return f.case.velocity
-    if role.startswith("velocity") and k > (role == "velocity_initial"):
-        if role == "velocity_initial" and "velocity_final" in rows.columns:
-            return rows("velocity_final", k - 1)
-        return f.slowed(k if role == "velocity_final" else k - 1)
-    return f.rules.value(role, rows, k)
-
-
-def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) -> bool:
+def _fails(f: Findings, role: str, k: int, expected: float | None, read: bool) -> bool:
     """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
-    column, place = f.setting.rows.columns[role], f.table.place(role, k)
+    column, place = f.rows.columns[role], f.table.place(role, k)
     found = column.get(k)
     if found is None:
         needed = 0 < k < max(column, default=0) or (read and k > 0)
@@ -184,15 +169,15 @@ def _fails(f: Verdict, role: str, k: int, expected: float | None, read: bool) ->
         return False
     size = abs(expected)
     if role.startswith("velocity"):
-        size = max(size, abs(f.setting.rows("velocity_initial", max(k - 1, 0)) or 0.0))
+        size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
     if abs(found - expected) <= NEAR * size:
         return False
     # A first row that is the report's may be unlike the others, which follow another rule.
-    part = {"deceleration": "brake", "velocity_final": "end"}.get(role)
-    return not (part and k == 1 and f.setting.follows(part, getattr(REPORT, part), 1))
+    part = FILLS.get(role, "advance")
+    return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
 
 
-def _text(f: Verdict, place: Position) -> bool:
+def _text(f: Findings, place: Position) -> bool:
     """Whether a text or a truth value is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
@@ -200,7 +185,7 @@ def _text(f: Verdict, place: Position) -> bool:
     return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
 
 
-def _passed_on(f: Verdict, place: Position) -> bool:
+def _passed_on(f: Findings, place: Position) -> bool:
     """Whether a formula gives no number because another cell of the table holds none.
 
     It may read that cell through others beside the table, which come before it.
@@ -215,10 +200,10 @@ def _passed_on(f: Verdict, place: Position) -> bool:
     return any(_passed_on(f, p) for p in beside if order.get(p, math.inf) < order.get(place, 0))
 
 
-def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, str]:
+def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
     """The kind of a cell that alone is not what the cells before it give."""
     place = f.table.place(role, k)
-    found = f.setting.rows.columns[role].get(k)
+    found = f.rows.columns[role].get(k)
     typed = place not in f.calculation.formulas
     alone = "typed number" if typed else "odd formula"
     what = f"{title(role)} of row {k} is not what the cells before it give"
@@ -237,29 +222,31 @@ def _lone(f: Verdict, role: str, k: int, expected: float | None) -> tuple[str, s
         return "unit", f"{what}: a factor of 1e{abs(power)}"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
-    beyond = (f.setting.rows("depth", k) or 0.0) >= f.case.radius
-    if role == "deceleration" and beyond and f.setting.follows("brake", BEYOND, k):
+    beyond = (f.rows("depth", k) or 0.0) >= f.case.radius
+    if role == "deceleration" and beyond and f.follows("brake", BEYOND, k):
         return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
     return alone, what
 
 
-def order(f: Verdict) -> None:
+def order(f: Findings) -> None:
     """Columns whose last digits no order of the report's operations gives."""
-    factors = {own.factor for own in (*f.setting.inputs.values(), *f.setting.derived.values())}
-    if any(f.setting.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
+    factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
+    if any(f.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
         return  # converting units costs last digits, too
     # The mass as its cell has it; without a cell, as any order of its product gives it.
     masses = [f.case.mass]
-    for way in (0.0, math.inf) if "mass" not in f.setting.derived else ():
+    for way in (0.0, math.inf) if "mass" not in f.derived else ():
         mass = f.case.mass
         masses += [mass := math.nextafter(mass, way) for _ in range(4)]
     cases = [replace(f.case, own_mass=mass) for mass in masses]
     accused = f.accused
-    for role in ("depth", "deceleration", "velocity_final"):
-        column = f.setting.rows.columns.get(role, {})
+    # Without a column of its own the deceleration's order is not known by the velocity's.
+    shown = "deceleration" in f.rows.columns
+    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
+        column = f.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas
-                and not _fails(f, role, k, _expected(f, role, k), False)]  # fmt: skip
+                and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
         others = [
             [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
             for case in cases
@@ -277,11 +264,11 @@ def order(f: Verdict) -> None:
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 
-def _ordered(f: Verdict, role: str, k: int, case: Case) -> set[float]:
+def _ordered(f: Findings, role: str, k: int, case: Case) -> set[float]:
     """What a cell may hold, by the order of the operations."""
-    rows = f.setting.rows
+    rows = f.rows
     x, v = rows("depth", k), rows("velocity_initial", k)
     if role == "deceleration":
         return set() if x is None or v is None else orders(case, x, v)
-    value = f.rules.value(role, rows, k)
+    value = rows.wanted(role, k)
     return set() if value is None else {value}

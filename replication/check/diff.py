@@ -10,7 +10,6 @@ from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
-from functools import cached_property
 from itertools import groupby, takewhile
 from pathlib import Path
 
@@ -109,6 +108,7 @@ class _Diff:
     def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
         self.where: dict[Position, Position] = {}
+        self.there: set[Position] = set()
         self.differences: list[Difference] = []
 
     def add(
@@ -150,6 +150,7 @@ class _Diff:
 
         def put(cell: Cell, there: Cell) -> None:
             self.where[name, *cell] = (other, *there)
+            self.there.add((other, *there))
             del left[cell], free[there]
 
         for row, column in old:
@@ -168,26 +169,27 @@ class _Diff:
                 (row, column), (new_row, new_column) = _corner(block), _corner(new_block)
                 for r, c in block:
                     put((r, c), (r - row + new_row, c - column + new_column))
-                self.moved(other, block, new_block)
-        self.shifts(name, other, rows, "rows")
-        self.shifts(name, other, columns, "columns")
-        for block in _blocks(left):
-            cells = [(name, *cell) for cell in block]
-            self.add("removed", cells, _span(block), None, _cells_are(len(block), "gone"))
-        for block in _blocks(free):
-            cells = [(other, *cell) for cell in block]
-            self.add("added", cells, None, _span(block), _cells_are(len(block), "new"))
+                was, now = _span(block), _span(new_block)
+                if was != now:  # else only its rows or columns were not known again
+                    cells = [(other, *cell) for cell in new_block]
+                    self.add("moved", cells, was, now, f"{was} now stands at {now}")
+        self.shifts(name, other, rows, "rows", str)
+        self.shifts(name, other, columns, "columns", get_column_letter)
+        self.left_over("removed", name, left, "gone")
+        self.left_over("added", other, free, "new")
 
-    def moved(self, other: str, block: Sequence[Cell], new_block: Sequence[Cell]) -> None:
-        """A block that stands elsewhere, unless only its rows or columns were not known again."""
-        was, now = _span(block), _span(new_block)
-        if was != now:
-            cells = [(other, *cell) for cell in new_block]
-            self.add("moved", cells, was, now, f"{was} now stands at {now}")
+    def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
+        """Cells that only one of two sheets has, block by block."""
+        for block in _blocks(cells):
+            was, now = (None, _span(block)) if kind == "added" else (_span(block), None)
+            are = "is" if len(block) == 1 else "are"
+            text = f"{count(len(block), 'cell')} {are} {what}"
+            self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
 
-    def shifts(self, name: str, other: str, lines: Mapping[int, int], what: str) -> None:
+    def shifts(
+        self, name: str, other: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
+    ) -> None:
         """Rows or columns that stand further down or right, each run of them once."""
-        show: Callable[[int], str] = str if what == "rows" else get_column_letter
         for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1] - pair[0]):
             if by:
                 run = [old for old, _ in pairs]
@@ -239,11 +241,6 @@ class _Diff:
         """Whether a cell that is gone, or was blank, is where another is read now."""
         return old not in self.before.values or (old == new and new not in self.there)
 
-    @cached_property
-    def there(self) -> set[Position]:
-        """The cells of the second workbook that the first one has, too."""
-        return set(self.where.values())
-
     def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
@@ -252,11 +249,6 @@ class _Diff:
             small = math.isclose(a, b, rel_tol=LAST_DIGITS)
             return a, b, _LAST if small else "the values differ"
         return None if a == b else (a, b, "the contents differ")
-
-
-def _cells_are(number: int, what: str) -> str:
-    """What some cells are: "1 cell is gone", "2 cells are new"."""
-    return f"{count(number, 'cell')} {'is' if number == 1 else 'are'} {what}"
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:

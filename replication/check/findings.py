@@ -1,16 +1,16 @@
-"""What has been found out about one table so far: its setting, its scheme, its differences."""
+"""What is known of one table: its inputs, the scheme that its rows follow, its differences."""
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from replication.check.inputs import Setting
-from replication.check.scheme import REPORT, Case
-from replication.check.table import Line, runs
+from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule, Rules
+from replication.check.table import Line, Table, runs
 from replication.check.words import COLUMNS, scaled
 from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation
 
 KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "operation order",
@@ -21,79 +21,119 @@ NO_FAULT = frozenset({"other input", "not calculated"})
 
 Text = float | str | None
 
+NEAR = 1e-12
+"""Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
+worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
+
 
 @dataclass(frozen=True)
-class Difference:
-    """One way in which a workbook parts from the report's sheet, at one place.
+class Input:
+    """One input: its value in SI, its cell (None if no cell holds it) and how it is known.
 
-    `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
-    cells are calculated. `effect` is the final depth [m] that this difference alone would give.
+    `roles` is what its label allows, `unit` what the workbook says, `factor` what the cell's number
+    was multiplied by.
     """
 
-    place: Position
-    kind: str
-    expected: Text
-    found: Text
-    explanation: str
-    cells: tuple[Position, ...]
-    rank: tuple[float, ...]
-    effect: float | None = None
+    role: str
+    si: float
+    place: Position | None
+    how: str
+    label: str = ""
+    unit: str | None = None
+    factor: Fraction = Fraction(1)
+    roles: frozenset[str] = frozenset()
 
 
-def rank(place: Position, setting: Setting) -> tuple[float, ...]:
-    """When a cell is calculated: inputs first, then row by row, then what rests on the table."""
-    table = setting.table
-    if place in table.places:
-        role, k = table.places[place]
-        return (1, k, 9 if role == "time" else list(COLUMNS).index(role))
-    for line in table.helpers:
-        if line.covers(place):
-            return (1, (line.index(place) or 0) - table.zero, 2.5)
-    order = table.calculation.order.get(place, -1)
-    return (0 if place in setting.read or order < 0 else 2, order)
+@dataclass
+class Findings:
+    """What is known of a table; more of it as it is judged.
 
-
-class Verdict:
-    """What is found out about one table.
-
-    `setting` becomes what the workbook really does, as that is learnt. `right_depth` [m] is that of
-    the report's scheme with the table's inputs, None if it does not end. `differing` counts the
-    cells that differ from that run, causes and consequences alike.
+    `rows` are those of the table with the case and the rules that they follow, `intended` is the
+    case that they should: the two differ where a cell for mass, diameter or resistance does not
+    hold what its own inputs give. `powers` of ten lie between its columns and SI units; `slips` are
+    units of heads that contradict them: role -> the power of ten that is wrong. `negative`:
+    decelerations are negative in the workbook. `digits`: how many digits the numbers have, if they
+    are typed and rounded. `read` are all cells outside the table that it reads; `derived` those
+    that hold mass, diameter or resistance; `unread` labelled inputs that it does not read.
+    `right_depth` [m] is that of the report's scheme with the table's inputs, None if it does not
+    end. `differing` counts the cells that differ from that run, causes and consequences alike.
     """
 
-    def __init__(self, setting: Setting) -> None:
-        self.setting, self.table = setting, setting.table
-        self.calculation = setting.table.calculation
-        self.rules = REPORT
-        self.differences: list[Difference] = []
-        self.spoils: dict[Position, Callable[[Case], Case]] = {}
-        """What a wrong input's cell makes of the case that is intended."""
-        self.right_depth: float | None = None
-        self.differing = 0
+    table: Table
+    inputs: Mapping[str, Input]
+    rows: Rows
+    intended: Case
+    powers: Mapping[str, int]
+    slips: Mapping[str, int]
+    negative: bool
+    digits: int | None = None
+    read: frozenset[Position] = frozenset()
+    derived: Mapping[str, Input] = field(default_factory=dict)
+    unread: tuple[Input, ...] = ()
+    differences: list["Difference"] = field(default_factory=list)
+    right_depth: float | None = None
+    differing: int = 0
+
+    @property
+    def calculation(self) -> Calculation:
+        """The workbook."""
+        return self.table.calculation
+
+    @property
+    def case(self) -> Case:
+        """The case that the rows follow."""
+        return self.rows.case
+
+    def following(self, case: Case, intended: Case | None = None) -> "Findings":
+        """The same table whose rows follow, and should follow, another case."""
+        rows = replace(self.rows, case=case)
+        return replace(self, rows=rows, intended=intended or self.intended)
+
+    def followed(self, part: str, rule: Rule, numbers: Iterable[int]) -> Iterator[bool | None]:
+        """Whether each of some rows follows a rule; None where cells are missing."""
+        rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
+        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+        for k in numbers:
+            role, at = rows.shows(part, k)
+            wanted, found = rows.wanted(role, at), rows(role, at)
+            if wanted is None or found is None:
+                yield None
+                continue
+            size = abs(wanted)
+            if role.startswith("velocity"):
+                speed = abs(rows("velocity_initial", k) or 0.0)
+                # Where no column holds the deceleration, the velocities' own rounding is in it.
+                size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
+            yield abs(found - wanted) <= near * size
+
+    def follows(self, part: str, rule: Rule, k: int) -> bool | None:
+        """Whether a row follows a rule; None where cells are missing."""
+        return next(self.followed(part, rule, [k]))
+
+    def share(self, part: str, rule: Rule) -> float:
+        """Which share of its rows follows a rule."""
+        each = self.followed(part, rule, range(PARTS[part][1], self.table.steps + 1))
+        judged = [good for good in each if good is not None]
+        return sum(judged) / len(judged) if judged else 0.0
+
+    def agreement(self, rules: Sequence[Rule] = BRAKES[:2]) -> float:
+        """Which share of the rows brakes as its depth and velocity say, by the best of rules."""
+        return max(self.share("brake", rule) for rule in rules)
 
     @property
     def final_depth(self) -> float | None:
         """The depth in the last row [m]."""
-        return self.setting.rows("depth", self.table.steps)
+        return self.rows("depth", self.table.steps)
+
+    @property
+    def rules(self) -> Rules:
+        """The scheme that the rows follow."""
+        return self.rows.rules
 
     @property
     def ends(self) -> bool:
         """Whether the rows go down to the stop."""
         return not any(d.kind == "not calculated" for d in self.differences)
-
-    @property
-    def case(self) -> Case:
-        """The case that the rows follow."""
-        return self.setting.case
-
-    @property
-    def intended(self) -> Case:
-        """The case that the rows should follow."""
-        return self.setting.intended
-
-    def intend(self, case: Case) -> None:
-        """Take another case for the one that the rows should follow."""
-        self.setting = replace(self.setting, intended=case)
 
     @property
     def accused(self) -> set[Position]:
@@ -102,7 +142,13 @@ class Verdict:
         return {cell for fault in faults for cell in fault.cells}
 
     def add(
-        self, kind: str, cells: Sequence[Position], expected: Text, text: str, found: Text = None
+        self,
+        kind: str,
+        cells: Sequence[Position],
+        expected: Text,
+        text: str,
+        found: Text = None,
+        change: Callable[[Case], Case] | Mapping[str, Rule] | None = None,
     ) -> None:
         """Add a difference that concerns some cells, the first of them the one to look at.
 
@@ -113,9 +159,9 @@ class Verdict:
             found = str(held).upper() if isinstance(held, bool) else held
         if isinstance(expected, float) and not math.isfinite(expected):
             expected = None
-        order = rank(cells[0], self.setting)
+        order = self.rank(cells[0])
         self.differences.append(
-            Difference(cells[0], kind, expected, found, text, tuple(cells), order)
+            Difference(cells[0], kind, expected, found, text, tuple(cells), order, None, change)
         )
 
     def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
@@ -123,25 +169,48 @@ class Verdict:
         last = self.table.steps if last is None else last
         return [self.table.place(role, k) for k in range(first, max(first, last) + 1)]
 
-    def slowed(self, k: int) -> float | None:
-        """The velocity at the end of a row, by the rules and from the row's other cells."""
-        rows = self.setting.rows
-        if "deceleration" in rows.columns:
-            return self.rules.end(rows, k)
-        a, v = self.rules.brake(rows, k), rows("velocity_initial", k)
-        return None if a is None or v is None else v - a * self.case.step
-
     def shown(self, role: str, value: float | None) -> float | None:
         """A value in SI as its column holds it, in the column's unit and with its sign."""
         if value is None:
             return None
-        sign = -1.0 if role == "deceleration" and self.setting.negative else 1.0
-        return sign * scaled(value, Fraction(10) ** -self.setting.powers[role])
+        sign = -1.0 if role == "deceleration" and self.negative else 1.0
+        return sign * scaled(value, Fraction(10) ** -self.powers[role])
 
     def literals(self, line: Line) -> set[float]:
         """The numbers typed into a column's formulas."""
         formulas = (line.formula(self.table.zero + k) for k in range(self.table.steps + 1))
         return {abs(number) for formula in formulas if formula for number in formula.literals}
+
+    def rank(self, place: Position) -> tuple[float, ...]:
+        """When a cell is calculated: inputs, then row by row, then what rests on the table."""
+        if place in self.table.places:
+            role, k = self.table.places[place]
+            return (1, k, 9 if role == "time" else list(COLUMNS).index(role))
+        for line in self.table.helpers:
+            if line.covers(place):
+                return (1, (line.index(place) or 0) - self.table.zero, 2.5)
+        order = self.calculation.order.get(place, -1)
+        return (0 if place in self.read or order < 0 else 2, order)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One way in which a workbook parts from the report's sheet, at one place.
+
+    `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
+    cells are calculated. `effect` is the final depth [m] that this difference alone would give,
+    `change` what it makes of the report's scheme: another case or other rules.
+    """
+
+    place: Position
+    kind: str
+    expected: Text
+    found: Text
+    explanation: str
+    cells: tuple[Position, ...]
+    rank: tuple[float, ...]
+    effect: float | None = None
+    change: Callable[[Case], Case] | Mapping[str, Rule] | None = field(default=None, compare=False)
 
 
 def joined(found: Sequence[Difference], across: bool) -> Iterator[Difference]:

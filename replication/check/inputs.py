@@ -7,7 +7,7 @@ own numbers, or solved back from the rows, and is said to be so.
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import islice, product
@@ -15,7 +15,8 @@ from statistics import median
 
 from reference.ledger import claims_of_case, load
 from reference.units import to_si
-from replication.check.scheme import BRAKES, PARTS, Case, Rows, Rule, contact
+from replication.check.findings import Findings, Input
+from replication.check.scheme import BRAKES, REPORT, Case, Rows, Rule, contact
 from replication.check.table import Table, address
 from replication.check.words import (
     INPUTS,
@@ -31,9 +32,6 @@ from replication.models import crater
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-NEAR = 1e-12
-"""Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
-worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
 _ROUNDED = 12
 """Numbers without formulas and with at most so many digits are taken as rounded."""
 _MAX_CANDIDATES = 4_000
@@ -63,116 +61,31 @@ def report_inputs() -> dict[str, tuple[float, ...]]:
     return values
 
 
-@dataclass(frozen=True)
-class Input:
-    """One input: its value in SI, its cell (None if no cell holds it) and how it is known.
-
-    `roles` is what its label allows, `unit` what the workbook says, `factor` what the cell's number
-    was multiplied by.
-    """
-
-    role: str
-    si: float
-    place: Position | None
-    how: str
-    label: str = ""
-    unit: str | None = None
-    factor: Fraction = Fraction(1)
-    roles: frozenset[str] = frozenset()
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A table with its inputs, and the powers of ten between its columns and SI units.
-
-    `rows` are those of the table with the case that they follow, `intended` is the case that they
-    should: the two differ where a cell for mass, diameter or resistance does not hold what its own
-    inputs give. `slips` are units of heads that contradict the rest: role -> the power of ten that
-    is wrong. `negative`: decelerations are negative in the workbook. `digits`: how many digits the
-    numbers have, if they are typed and rounded. `read` are all cells outside the table that it
-    reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs that it
-    does not read.
-    """
-
-    table: Table
-    inputs: Mapping[str, Input]
-    rows: Rows
-    intended: Case
-    powers: Mapping[str, int]
-    slips: Mapping[str, int]
-    negative: bool
-    digits: int | None = None
-    read: frozenset[Position] = frozenset()
-    derived: Mapping[str, Input] = field(default_factory=dict)
-    unread: tuple[Input, ...] = ()
-
-    @property
-    def case(self) -> Case:
-        """The case that the rows follow."""
-        return self.rows.case
-
-    def with_case(self, case: Case) -> "Setting":
-        """The same table whose rows follow another case."""
-        return replace(self, rows=Rows(self.rows.columns, case))
-
-    def filled(self, part: str, k: int) -> float | None:
-        """What a row has in the column of a part; or what the velocities say."""
-        role, rows = PARTS[part][0], self.rows
-        if role != "deceleration" or role in rows.columns:
-            return rows(role, k)
-        v, final = rows("velocity_initial", k), rows("velocity_final", k)
-        return None if v is None or final is None else (v - final) / self.case.step
-
-    def follows(self, part: str, rule: Rule, k: int) -> bool | None:
-        """Whether a row follows a rule; None where cells are missing."""
-        wanted, found = rule(self.rows, k), self.filled(part, k)
-        if wanted is None or found is None:
-            return None
-        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
-        speed = abs(self.rows("velocity_initial", k) or 0.0)
-        size = speed if part == "end" else abs(wanted)
-        # Where no column holds the deceleration, the velocities' own rounding is in it.
-        rounded = part == "brake" and "deceleration" not in self.rows.columns
-        return abs(found - wanted) <= near * (size + rounded * 1e-2 * speed / self.case.step)
-
-    def share(self, part: str, rule: Rule) -> float:
-        """Which share of its rows follows a rule."""
-        each = [self.follows(part, rule, k) for k in range(PARTS[part][1], self.table.steps + 1)]
-        judged = [good for good in each if good is not None]
-        return sum(judged) / len(judged) if judged else 0.0
-
-    def agreement(self, rules: Sequence[Rule] = BRAKES[:2]) -> float:
-        """Which share of the rows brakes as its depth and velocity say, by the best of rules."""
-        return max(self.share("brake", rule) for rule in rules)
-
-
-def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Setting:
-    """The setting of a table.
+def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Findings:
+    """What is known of a table before it is judged.
 
     `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
     ValueError, saying what to give, when two cells could be the same input and the rows do not
     decide.
     """
-    calculation, inside = table.calculation, table.places
+    calculation, report = table.calculation, report_inputs()
     formulas = calculation.formulas
-    from_table = _read((place for place in inside if place in formulas), calculation)
-    read = {place: far for place, far in from_table.items() if place not in inside}
+    from_table = _read((place for place in table.places if place in formulas), calculation)
+    read = {place: far for place, far in from_table.items() if place not in table.places}
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
     }
-    found = [cell for cells in nearest.values() for cell in cells]
-    typed = {cell for cell in found if not calculation.areas(cell.place)}
     choices = {
-        role: [cell for cell in cells if cell in typed] or cells
+        role: [cell for cell in cells if not calculation.areas(cell.place)] or cells
         for role, cells in nearest.items()
-        if role not in _FOLLOWS or typed & set(cells)
+        if role not in _FOLLOWS or any(not calculation.areas(cell.place) for cell in cells)
     }
     for role, place in mapped.items():
         choices[role] = [_mapped(role, place, candidates, calculation)]
-    labelled = [cell for cell in candidates if read and cell.place not in read and cell.label]
-    unread = _by_role([c for c in labelled if c.place not in formulas], report_inputs(), True)
+    labelled = [c for c in candidates if read and c.label and c.place not in {*read, *formulas}]
+    unread = _by_role(labelled, report, True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
@@ -184,22 +97,19 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
             choices.setdefault("resistance", labelled)
     feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
     for role, of in (("mass", "radius particle_density"), ("resistance", "beta flow_stress")):
+        # A cell without a known label whose formula reads these cells and nothing else.
         sources = {choices[name][0].place if name in choices else None for name in of.split()}
-        own = None if None in sources else _reading(sources, reads, calculation)
-        if role not in feeding and own is not None:
-            feeding[role] = replace(own, role=role)
-    setting = _settled(table, choices, feeding)
+        for cell in reads if role not in feeding and None not in sources else ():
+            areas = () if cell.roles else calculation.areas(cell.place)
+            if areas and {calculation.source(area.corner) for area in areas} == sources:
+                feeding.setdefault(role, replace(cell, role=role))
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
-    pi = next(rounded, math.pi)
-    intended = replace(setting.intended, pi=pi)
-    setting = replace(setting.with_case(replace(setting.case, pi=pi)), intended=intended)
-    taken = {own.place for own in setting.inputs.values()}
-    again = _by_role([cell for cell in reads if cell.place not in taken], report_inputs())
-    left = {role: _nearest(cells, read, calculation)[0] for role, cells in again.items()}
-    held = {role: own for role, own in setting.inputs.items() if own.place}
-    derived = {r: c for r, c in {**left, **held, **setting.derived}.items() if r in _FOLLOWS}
+    findings = _settled(table, choices, feeding, next(rounded, math.pi))
+    left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
+    held = {role: own for role, own in findings.inputs.items() if own.place}
+    derived = {r: c for r, c in {**left, **held, **findings.derived}.items() if r in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
-    return replace(setting, read=frozenset(read), derived=derived, unread=single)
+    return replace(findings, read=frozenset(read), derived=derived, unread=single)
 
 
 def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
@@ -213,17 +123,6 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
         edge = list({p for area in areas for p in area.places() if p not in found})
         found.update(dict.fromkeys(edge, distance))
     return found
-
-
-def _reading(
-    sources: set[Position | None], reads: Sequence[Input], calculation: Calculation
-) -> Input | None:
-    """The cell without a known label whose formula reads these cells and nothing else."""
-    for cell in reads:
-        areas = () if cell.roles else calculation.areas(cell.place)
-        if areas and {calculation.source(area.corner) for area in areas} == sources:
-            return cell
-    return None
 
 
 def _nearest(
@@ -296,11 +195,12 @@ def _by_role(
         if len(cell.roles) == 1:
             (role,) = cell.roles
             found.setdefault(role, []).append(_as_role(cell, role, report))
+
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
-        roles = cell.roles or (_like_the_report(cell, report) if by_value else ())
-        left = [role for role in roles if role not in found]
+        alike = (role for role in report if by_value and _like_the_report(cell, role, report))
+        left = [role for role in cell.roles or alike if role not in found]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, role, report))
             how = cell.how if cell.roles else "value"
@@ -318,21 +218,14 @@ def _hinted(table: Table) -> Report:
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
-def _like_the_report(cell: Input, report: Report) -> list[str]:
-    """The roles that have the same digits in the report; a number without a unit has no other."""
-
-    def alike(ratio: float, unit: str) -> bool:
-        power = power_of_ten(ratio)
-        return power is not None and (power == 0 or unit != "1")
-
-    return [
-        role
-        for role, values in report.items()
-        if any(alike(cell.si / value, INPUTS[role]) for value in values)
-    ]
+def _like_the_report(cell: Input, role: str, report: Report) -> bool:
+    """Whether it has the digits of the report's; a number without a unit has no other power."""
+    powers = (power_of_ten(cell.si / value) for value in report[role])
+    return any(p == 0 or (p is not None and INPUTS[role] != "1") for p in powers)
 
 
 def _distance(cell: Input, role: str, report: Report) -> float:
+    """How many powers of ten away from the report's it is."""
     si = scaled(cell.si, to_si(cell.unit)) if cell.unit else cell.si
     if not 0 < si < math.inf:
         return math.inf
@@ -366,12 +259,15 @@ def _mapped(
     return replace(_as_role(known or Input("", value, place, ""), role), how="--map")
 
 
-# ---- the setting that the rows agree with
+# ---- the findings that the rows agree with
 
 
 def _settled(
-    table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input]
-) -> Setting:
+    table: Table,
+    choices: Mapping[str, list[Input]],
+    feeding: Mapping[str, Input],
+    pi: float,
+) -> Findings:
     """One cell for each role: where there are several, those that the rows agree with."""
     for role, enough in _FOLLOWS.items():  # what follows from others can be done without
         if enough <= set(choices) and len(choices.get(role, ())) > 1:
@@ -382,11 +278,11 @@ def _settled(
         if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
     }
     chosen = {role: cells[0] for role, cells in choices.items()}
-    tried: list[tuple[float, Setting]] = []
+    tried: list[tuple[float, Findings]] = []
     for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        setting = _solved_back(_setting(table, inputs), feeding)
-        tried.append((setting.agreement(), setting))
+        findings = _solved_back(_with_inputs(table, inputs, pi), feeding)
+        tried.append((findings.agreement(), findings))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
         role, cells = next(iter(several.items()))
@@ -395,8 +291,8 @@ def _settled(
     return tried[0][1]
 
 
-def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
-    """The setting with these cells as inputs, and the report's where there are none."""
+def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Findings:
+    """A table with these cells as inputs, and the report's where there are none."""
     powers, slips = _powers(table, chosen)
     columns = {
         role: {
@@ -426,11 +322,11 @@ def _setting(table: Table, chosen: Mapping[str, Input]) -> Setting:
             )
     names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
              "stop_velocity")  # fmt: skip
-    case = Case(**{name: inputs[name].si for name in names if name in inputs})
+    case = Case(**{name: inputs[name].si for name in names if name in inputs}, pi=pi)
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
-    rows = Rows(columns, case)
-    return Setting(table, inputs, rows, case, powers, slips, negative, _digits(table))
+    rows = Rows(columns, case, REPORT)
+    return Findings(table, inputs, rows, case, powers, slips, negative, _digits(table))
 
 
 def _digits(table: Table) -> int | None:
@@ -510,8 +406,8 @@ def _round(ratio: float) -> int:
 
 
 def _thousands(ratio: float) -> int:
-    """The nearest power of ten that is one of a thousand."""
-    return 3 * round(_round(ratio) / 3)
+    """The nearest power of ten that is one of a thousand; for less than 300 times none is meant."""
+    return 3 * round(_round(ratio) / 3) if abs(_round(ratio)) > 2 else 0
 
 
 def _whole(factor: float, named: int | None) -> int:
@@ -577,32 +473,32 @@ def _shortest(value: float, near: float) -> float:
     return next((d for d in decimals if math.isclose(d, value, rel_tol=near)), value)
 
 
-def _solved_back(setting: Setting, feeding: Mapping[str, Input]) -> Setting:
+def _solved_back(findings: Findings, feeding: Mapping[str, Input]) -> Findings:
     """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed."""
-    unknown = [role for role, own in setting.inputs.items() if own.how == "report"]
-    typed = _typed(setting.table.calculation) if unknown else set()
-    for tried, how, rules, fed in _hypotheses(setting, unknown, typed, feeding):
-        case, intended = setting.case, setting.intended
+    unknown = [role for role, own in findings.inputs.items() if own.how == "report"]
+    typed = _typed(findings.table.calculation) if unknown else set()
+    for tried, how, rules, fed in _hypotheses(findings, unknown, typed, feeding):
+        case, intended = findings.case, findings.intended
         for role, value in tried.items():
             if value == getattr(case, role):
                 continue  # and the mass stays that of its cell
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
-        agreed = replace(setting.with_case(case), intended=intended)
+        agreed = findings.following(case, intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
-            inputs = dict(setting.inputs)
+            inputs = dict(findings.inputs)
             for role, value in tried.items():
                 known = "assumed" if role in hidden else "formulas" if value in typed else how
                 inputs[role] = replace(inputs[role], si=value, how=known)
             return replace(agreed, inputs=inputs, derived={cell.role: cell for cell in fed})
-    assumed = {role: replace(setting.inputs[role], how="assumed") for role in unknown}
-    return replace(setting, inputs={**setting.inputs, **assumed})
+    assumed = {role: replace(findings.inputs[role], how="assumed") for role in unknown}
+    return replace(findings, inputs={**findings.inputs, **assumed})
 
 
 def _hypotheses(
-    setting: Setting, unknown: Sequence[str], typed: set[float], feeding: Mapping[str, Input]
+    findings: Findings, unknown: Sequence[str], typed: set[float], feeding: Mapping[str, Input]
 ) -> Iterator[tuple[dict[str, float], str, Sequence[Rule], Sequence[Input]]]:
     """What the unknown inputs may be, how that is known, by which rules, and with which cells fed.
 
@@ -612,25 +508,25 @@ def _hypotheses(
     values = product(*(report_inputs()[role] for role in unknown))
     of_report = [dict(zip(unknown, each, strict=True)) for each in values]
     rules = (BRAKES[:2], BRAKES)
-    for fed, brakes, tried in product(((), *_fed(setting, feeding)), rules, of_report):
+    for fed, brakes, tried in product(((), *_fed(findings, feeding)), rules, of_report):
         yield tried, "report", brakes, fed
     solved = {}
-    for role, value in _solved(setting).items():  # with the report's particle, if no cell holds it
+    for role, value in _solved(findings).items():  # with the report's particle, if no cell holds it
         if role in unknown:  # a number that some formula has, or the shortest decimal
             near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
             solved[role] = next(near, _shortest(value, 1e-8))
     yield solved, "rows", BRAKES[:2], ()
 
 
-def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
+def _fed(findings: Findings, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
     """Mass, diameter and resistance as their cells hold them, where that is not what it should be.
 
     A formula that is wrong does not tell its unit by its value: every power of a thousand may be.
     """
     wrong = []
     for role, cell in feeding.items():
-        number = setting.table.calculation.number(cell.place)
-        wanted = getattr(setting.intended, role)
+        number = findings.table.calculation.number(cell.place)
+        wanted = getattr(findings.intended, role)
         if number is None or (number == 0 and role != "resistance"):
             continue
         if number > 0 and power_of_ten(wanted / number) is not None:
@@ -642,17 +538,21 @@ def _fed(setting: Setting, feeding: Mapping[str, Input]) -> Iterator[tuple[Input
         yield from islice(product(*wrong), 2 * _MAX_CHOICES)
 
 
-def _solved(setting: Setting) -> dict[str, float]:
+def _solved(findings: Findings) -> dict[str, float]:
     """Target density and resistance for which the rows brake as they do, drag at the beginning.
 
     a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
     Each pair of rows gives both; the medians withstand some wrong rows. Nothing if there are none.
     """
-    case, rows, points = setting.case, setting.rows, []
+    case, rows, points = findings.case, findings.rows, []
     for k in range(1, max(rows.columns["depth"]) + 1):
-        a, x, v = setting.filled("brake", k), rows("depth", k), rows("velocity_initial", k)
-        if a is not None and x and v is not None and (area := contact(case, x)):
-            points.append((v * v, a * case.mass / (math.pi * area)))
+        x, v, final = (rows(role, k) for role in ("depth", "velocity_initial", "velocity_final"))
+        if x and v is not None and (area := contact(case, x)):
+            a = rows("deceleration", k) if "deceleration" in rows.columns else None
+            if "deceleration" not in rows.columns and final is not None:
+                a = (v - final) / case.step
+            if a is not None:
+                points.append((v * v, a * case.mass / (math.pi * area)))
     pairs = zip(points, points[len(points) // 2 :], strict=False)
     apart = [(p, q) for p, q in pairs if p[0] - q[0] > 0.05 * p[0]]
     if len(apart) < 3:

@@ -5,15 +5,15 @@ report's is one difference, named by that rule. Then every cell by itself (`cell
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
+from itertools import product
 from statistics import median
 
 from replication.check.cells import each_cell, order, types
-from replication.check.findings import Difference, Verdict, rank
-from replication.check.inputs import NEAR, Input, Setting, report_inputs
+from replication.check.findings import NEAR, Difference, Findings, Input
+from replication.check.inputs import report_inputs
 from replication.check.scheme import (
     BEYOND,
     BRAKES,
@@ -22,7 +22,6 @@ from replication.check.scheme import (
     PARTS,
     REPORT,
     Case,
-    Rules,
     march,
 )  # fmt: skip
 from replication.check.table import Line, address
@@ -39,45 +38,48 @@ from replication.check.words import (
 from spreadsheets.foreign import Position
 
 
-def judge(setting: Setting) -> Verdict:
-    """Every difference between a table and the report's sheet, but for its printed numbers."""
-    f = Verdict(setting)
+def judge(f: Findings) -> None:
+    """Find every difference between a table and the report's sheet, but for printed numbers."""
     _units(f)
-    if setting.digits is None:
+    if f.digits is None:
         _calibrate(f)
         _derived(f)
     _other_inputs(f)
-    if setting.digits is None:
+    if f.digits is None:
         _scheme(f)
         each_cell(f)
         _typed_inputs(f)
         order(f)
     else:
-        _as_rounded(f, setting.digits)
+        _as_rounded(f, f.digits)
     _stop(f)
     _effects(f)
-    return f
 
 
 # ---- units and inputs: what the workbook says of them, what its formulas make of them
 
 
-def _units(f: Verdict) -> None:
+def _units(f: Findings) -> None:
     """Units in heads that contradict the rest."""
-    for role, slip in f.setting.slips.items():
-        line, right = f.table.lines[role], unit_text(role, f.setting.powers[role])
+    for role, slip in f.slips.items():
+        line, right = f.table.lines[role], unit_text(role, f.powers[role])
         place = line.unit_place or f.table.place(role, 1)
         text = f"the head gives {title(role)} in {line.unit}, but the numbers are in {right}"
         f.add("unit", [place], right, f"{text}, a factor of 1e{abs(slip)}", line.unit)
 
 
-def _other_inputs(f: Verdict) -> None:
+def _changed(role: str, value: float, by: float) -> Callable[[Case], Case]:
+    """What makes of a case the one with another input."""
+    return lambda case: case.with_input(role, value, by)
+
+
+def _other_inputs(f: Findings) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
-    report, density = report_inputs(), f.setting.inputs["particle_density"]
+    report, density = report_inputs(), f.inputs["particle_density"]
     lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
     off = {
         role: own
-        for role, own in f.setting.inputs.items()
+        for role, own in f.inputs.items()
         if role in report and own.how not in ("report", "assumed", "follows")
         if role != "mass" or lone_mass
         if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
@@ -93,77 +95,71 @@ def _other_inputs(f: Verdict) -> None:
                 text += f"; {quantity(own.si, role)} is {title(name)} there"
         if own.how == "rows":
             text += "; no cell holds it, it is solved back from the rows"
+        kind, change = "other input", None
+        if len(off) == 1 and (power := power_of_ten(own.si / nearest)):
+            kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
+            change = _changed(role, own.si, own.si / nearest)
+            f.intended = f.intended.with_input(role, nearest, nearest / own.si)
         place = own.place or f.table.place("depth", 1)
-        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
-        kind = "unit" if power else "other input"
-        text += f": a factor of 1e{abs(power)}" if power else ""
         found = own.si if own.place is None else None
-        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found)
-        if power:
-            f.spoils[place] = partial(_scaled_input, role=role, value=own.si, by=own.si / nearest)
-            f.intend(_scaled_input(f.intended, role, nearest, nearest / own.si))
+        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found, change)
 
 
-def _scaled_input(case: Case, role: str, value: float, by: float) -> Case:
-    """The case with an input of another `value`, which is the one that it has times `by`."""
-    if role in ("beta", "flow_stress"):
-        return case.with_input("resistance", case.resistance * by)
-    return case.with_input(role, value)
-
-
-def _calibrate(f: Verdict) -> None:
+def _calibrate(f: Findings) -> None:
     """An input that the rows take in another unit than its label says."""
-    if f.setting.agreement(BRAKES) >= 0.5:
+    if f.agreement(BRAKES) >= 0.5:
         return
-    for role, own in f.setting.inputs.items():
+    powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
+    for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
-        for power in (sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)):
-            factor = Fraction(10) ** power
-            value = scaled(own.si, factor)
-            change = partial(_scaled_input, role=role, value=value, by=float(factor))
-            setting = f.setting.with_case(change(f.case))
-            if setting.agreement() < 0.9:
-                continue
-            if own.unit and any(_near(value, number) for number in report_inputs()[role]):
-                taken = replace(own, si=value, factor=own.factor * factor)
-                inputs = {**setting.inputs, role: taken}
-                f.setting = replace(setting, inputs=inputs, intended=change(f.intended))
-                right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
-                text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
-                f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
-            else:
-                f.setting, f.spoils[own.place] = setting, change
-                text = (
-                    f"the formulas take {title(role)} as {quantity(value, role)}, not "
-                    f"{quantity(own.si, role)}: a factor of 1e{abs(power)} is missing"
-                )
-                f.add("unit", [own.place], scaled(own.si, 1 / factor / own.factor), text)
-            return
+        factor = Fraction(10) ** power
+        value = scaled(own.si, factor)
+        change = _changed(role, value, float(factor))
+        changed = f.following(change(f.case))
+        if changed.agreement() < 0.9:
+            continue
+        f.rows = changed.rows
+        if own.unit and any(_near(value, number) for number in report_inputs()[role]):
+            taken = replace(own, si=value, factor=own.factor * factor)
+            f.inputs = {**f.inputs, role: taken}
+            f.intended = change(f.intended)
+            right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
+            text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
+            f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+        else:
+            expected = scaled(own.si, 1 / factor / own.factor)
+            text = (
+                f"the formulas take {title(role)} as {quantity(value, role)}, not "
+                f"{quantity(own.si, role)}: a factor of 1e{abs(power)} is missing"
+            )
+            f.add("unit", [own.place], expected, text, change=change)
+        return
 
 
-def _derived(f: Verdict) -> None:
+def _derived(f: Findings) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
-    known = {own.role: own for own in (*f.setting.unread, *f.setting.inputs.values())}
-    rows = replace(f.case, own_mass=None, own_diameter=None) if f.spoils else None
-    resistance = f.intended.resistance
+    known = {own.role: own for own in (*f.unread, *f.inputs.values())}
+    spoilt = any(difference.change for difference in f.differences)
+    rows, intended = replace(f.case, own_mass=None, own_diameter=None), f.intended
+    resistance = intended.resistance
     if "beta" in known and "flow_stress" in known:
         resistance = known["beta"].si * known["flow_stress"].si
     for role, wanted, of in (
-        ("diameter", 2 * f.intended.radius, ("radius",)),
-        ("mass", f.intended.mass, ("radius", "particle_density")),
+        ("diameter", 2 * intended.radius, ("radius",)),
+        ("mass", intended.mass, ("radius", "particle_density")),
         ("resistance", resistance, ("beta", "flow_stress")),
     ):
-        cell = f.setting.derived.get(role)
+        cell = f.derived.get(role)
         sources = [known[name] for name in of if name in known]
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
-        if cell is not None and rows and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
+        if cell and spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
             continue
-        if cell is not None and (any(s.place for s in sources) or cell.si == 0):
+        if cell and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, wanted, sources)
 
 
-def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
+def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
     role, place = cell.role, cell.place
     assert place is not None
     number = f.calculation.number(place) or 0.0
@@ -174,75 +170,77 @@ def _derived_cell(f: Verdict, cell: Input, wanted: float, sources: Sequence[Inpu
     # Whoever converts ksi types its factor with some ten digits.
     typed = any(power_of_ten(float(source.factor)) is None for source in sources)
     right = exact or (typed and math.isclose(held, wanted, rel_tol=1e-8))
-    rests = titles(source.role for source in sources)
-    accused = len(f.differences)
-    expected = scaled(wanted, 1 / factor)
+    rests, kind = titles(source.role for source in sources), ""
     if place in f.calculation.formulas:
         if power := power_of_ten(held / wanted):
-            text = f"{title(role)} is {times_too(power)} for {rests}: a unit is not converted"
-            f.add("unit", [place], expected, text)
+            kind = "unit"
+            text = f"is {times_too(power)} for {rests}: a unit is not converted"
         elif not right:
-            give = "gives" if len(sources) == 1 else "give"
-            text = f"{title(role)} is not what {rests} {give}"
+            kind = "odd formula"
+            text = f"is not what {rests} {'gives' if len(sources) == 1 else 'give'}"
             if not held:
-                text = f"{title(role)} is 0; the report's is assumed"
-            f.add("odd formula", [place], expected, text)
-    elif f.setting.read and (not right or any(s in f.setting.unread for s in sources)):
-        text = f"{title(role)} is typed as a number, though it rests on {rests}: a change there changes nothing"  # noqa: E501
-        f.add("typed constant", [place], expected, text)
-    if exact and not (role == "mass" and factor == 1):
-        return
-    if len(f.differences) > accused and not exact:
-        f.spoils[place] = lambda case: case.holding(role, held)
-        f.intend(f.intended.holding(role, wanted))
-    else:
-        f.intend(f.intended.holding(role, held))
-    f.setting = f.setting.with_case(f.case.holding(role, held))
+                text = "is 0; the report's is assumed"
+    elif f.read and (not right or any(s in f.unread for s in sources)):
+        kind = "typed constant"
+        text = f"is typed as a number, though it rests on {rests}: a change there changes nothing"
+    if kind:
+        change = None if exact else _holding(role, held)
+        expected = scaled(wanted, 1 / factor)
+        f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
+    if not exact or (role == "mass" and factor == 1):
+        f.rows = replace(f.rows, case=f.case.holding(role, held))
+        f.intended = f.intended.holding(role, wanted if kind and not exact else held)
 
 
-def _typed_inputs(f: Verdict) -> None:
+def _holding(role: str, value: float) -> Callable[[Case], Case]:
+    """What makes of a case the one in which a cell holds another mass, diameter or resistance."""
+    return lambda case: case.holding(role, value)
+
+
+def _typed_inputs(f: Findings) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
-    for own in f.setting.unread:
-        used = f.setting.inputs.get(own.role)
+    for own in f.unread:
+        used = f.inputs.get(own.role)
         if used is None or used.place or own.place is None or min(used.si, own.si) <= 0:
             continue
         if not math.isclose(used.si, own.si, rel_tol=1e-6):
-            text = f"{title(own.role)} here is {quantity(own.si, own.role)}, but the rows take {quantity(used.si, own.role)}: they do not read this cell"  # noqa: E501
-            f.add("typed constant", [own.place], None, text)
-            change = partial(_scaled_input, role=own.role)
-            f.spoils[own.place] = partial(change, value=used.si, by=used.si / own.si)
-            f.intend(change(f.intended, value=own.si, by=own.si / used.si))
+            here, there = (quantity(value, own.role) for value in (own.si, used.si))
+            text = (
+                f"{title(own.role)} here is {here}, but the rows take {there}: they do not read "
+                "this cell"
+            )
+            change = _changed(own.role, used.si, used.si / own.si)
+            f.add("typed constant", [own.place], None, text, change=change)
+            f.intended = f.intended.with_input(own.role, own.si, own.si / used.si)
     accused = f.accused
-    typed = {role: f.literals(line) for role, line in f.table.lines.items()}
-    for own in (*f.setting.unread, *f.setting.inputs.values()):
-        if own.place is None:
-            continue
-        for role in f.table.lines:
-            if not typed[role] and own.role != "velocity":
-                continue
-            places = f.cells(role, 0)
-            cells = [
-                place
-                for k, place in enumerate(places)
-                if place not in accused and _typed_in(f, own, role, k, place)
-            ]
-            # A number in a few formulas of many is one of their own, such as the row's.
-            if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
-                formula = f.calculation.book[cells[0]].formula
-                where = address(own.place, with_sheet=own.place[0] != cells[0][0])
-                text = f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change there changes nothing here"  # noqa: E501
-                f.add("typed constant", cells, where, text, formula)
+    inputs = (own for own in (*f.unread, *f.inputs.values()) if own.place)
+    for own, role in product(inputs, f.table.lines):
+        places = f.cells(role, 0)
+        cells = [
+            place
+            for k, place in enumerate(places)
+            if place not in accused and _typed_in(f, own, role, k, place)
+        ]
+        # A number in a few formulas of many is one of their own, such as the row's.
+        if own.place and (len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])):
+            formula = f.calculation.book[cells[0]].formula
+            where = address(own.place, with_sheet=own.place[0] != cells[0][0])
+            text = (
+                f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change "
+                "there changes nothing here"
+            )
+            f.add("typed constant", cells, where, text, formula)
 
 
-def _typed_in(f: Verdict, own: Input, role: str, k: int, place: Position) -> bool:
+def _typed_in(f: Findings, own: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, though a cell for it exists."""
     formula = f.calculation.formulas.get(place)
     if formula is not None:
         return types(formula, own, f.calculation)
     # The impact velocity typed into the first row, while its own cell is read by nothing.
     first = own.role == "velocity" and role.startswith("velocity") and k <= 1
-    value = f.setting.rows.columns[role].get(k)
-    return first and own in f.setting.unread and value is not None and _near(value, own.si)
+    value = f.rows.columns[role].get(k)
+    return first and own in f.unread and value is not None and _near(value, own.si)
 
 
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
@@ -253,20 +251,20 @@ _FACTORS = (
 )  # fmt: skip
 
 
-def _scheme(f: Verdict) -> None:
+def _scheme(f: Findings) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
     chosen = {"start": REPORT.start}
-    if f.setting.follows("start", REPORT.start, 1) is False:  # None if there is no velocity
-        starts = (rule for rule in KNOWN["start"] if f.setting.follows("start", rule, 1))
+    if f.follows("start", REPORT.start, 1) is False:  # None if there is no velocity
+        starts = (rule for rule in KNOWN["start"] if f.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT.start)
     unknown = []
     for part in ("advance", "brake", "end"):
         if part == "end" and "deceleration" not in f.table.lines:
             continue  # the brake is known by it
         own, *others = KNOWN[part]
-        shares = {own: f.setting.share(part, own)}
+        shares = {own: f.share(part, own)}
         if shares[own] < 0.9:
-            shares |= {rule: f.setting.share(part, rule) for rule in others}
+            shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         if shares[best] < 0.5:
             unknown.append(part)
@@ -276,15 +274,16 @@ def _scheme(f: Verdict) -> None:
     if "brake" in chosen and deepest < f.intended.radius:
         # What the area is beyond the radius does not matter to a sheet that should not get there.
         rules = (BRAKES[0], chosen["brake"], BEYOND)
-        flat, brake, deeper = (f.setting.share("brake", rule) for rule in rules)
+        flat, brake, deeper = (f.share("brake", rule) for rule in rules)
         if deeper > flat and deeper >= brake:
             chosen["brake"] = replace(BEYOND, says="")
-    f.rules = replace(REPORT, **chosen)
+    f.rows = replace(f.rows, rules=replace(REPORT, **chosen))
     for part in unknown:
-        role, first = _column(f, part), PARTS[part][1]
-        wanted = getattr(REPORT, part)(f.setting.rows, first) if role == PARTS[part][0] else None
+        first = PARTS[part][1]
+        role, at = f.rows.shows(part, first)
+        wanted = f.rows.wanted(role, at) if role == PARTS[part][0] else None
         kind, text, line = _cause(f, part, role)
-        cells = f.cells(role, first + (role == "velocity_initial"))
+        cells = f.cells(role, at)
         if line != f.table.lines[role]:  # a column beside it, which it reads
             rows, wanted = range(first, f.table.steps + 1), None
             cells = [*(line.place(f.table.zero + k) for k in rows), *cells]
@@ -292,25 +291,21 @@ def _scheme(f: Verdict) -> None:
     _named(f)
 
 
-def _named(f: Verdict) -> None:
+def _named(f: Findings) -> None:
     """A difference for each rule that is not the report's."""
+    rows = replace(f.rows, rules=REPORT)
     for part, rule in f.rules.others.items():
-        own, role, (fills, first) = getattr(REPORT, part), _column(f, part), PARTS[part]
-        rows = range(first, f.table.steps)
-        first = next((k for k in rows if not f.setting.follows(part, own, k)), first)
-        wanted = own(f.setting.rows, first) if role == fills else None
-        first += role == "velocity_initial"  # which shows the row before
-        cells = f.cells(role, first, first if part == "start" else None)
-        f.add("other scheme", cells, f.shown(role, wanted), f"{rule.name}: {rule.says}")
+        own, (fills, first) = getattr(REPORT, part), PARTS[part]
+        judged = range(first, f.table.steps)
+        first = next((k for k in judged if not f.follows(part, own, k)), first)
+        role, at = rows.shows(part, first)
+        wanted = rows.wanted(role, at) if role == fills else None
+        cells = f.cells(role, at, at if part == "start" else None)
+        text = f"{rule.name}: {rule.says}"
+        f.add("other scheme", cells, f.shown(role, wanted), text, change={part: rule})
 
 
-def _column(f: Verdict, part: str) -> str:
-    """The column that shows a part of the scheme."""
-    candidates = (PARTS[part][0], "velocity_final", "velocity_initial")
-    return next(role for role in candidates if role in f.table.lines)
-
-
-def _cause(f: Verdict, part: str, role: str) -> tuple[str, str, Line]:
+def _cause(f: Findings, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     own = f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
@@ -318,9 +313,9 @@ def _cause(f: Verdict, part: str, role: str) -> tuple[str, str, Line]:
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
         return "other scheme", "these cells follow no scheme that this program knows", own
-    what, base, constant = (
-        ("force", math.pi, "pi") if part == "brake" else ("step", f.case.step, "the time step")
-    )
+    what, base, constant = "step", f.case.step, "the time step"
+    if part == "brake":
+        what, base, constant = "force", math.pi, "pi"
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", own
     for line in (own, *f.table.helpers):
@@ -334,37 +329,40 @@ def _near(a: float, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
-def _increment(f: Verdict, part: str, k: int) -> tuple[float, float] | None:
+def _increment(f: Findings, part: str, k: int) -> tuple[float, float] | None:
     """What a row adds to the one before, and what it would add by the report's rule."""
-    rows = f.setting.rows
-    starts = {"brake": 0.0, "advance": rows("depth", k - 1), "end": rows("velocity_initial", k)}
-    start, found, wanted = starts[part], f.setting.filled(part, k), getattr(REPORT, part)(rows, k)
+    rows = replace(f.rows, rules=REPORT)
+    role, at = rows.shows(part, k)
+    before = {"deceleration": 0.0, "depth": rows("depth", k - 1)}
+    start = before.get(role, rows("velocity_initial", k))
+    found, wanted = rows(role, at), rows.wanted(role, at)
     if start is None or found is None or wanted is None:
         return None
     return found - start, wanted - start
 
 
-def _as_rounded(f: Verdict, digits: int) -> None:
+def _as_rounded(f: Findings, digits: int) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
     others = [replace(REPORT, **{part: rule}) for part in parts for rule in KNOWN[part][1:]]
     # Some rules need another brake to go with them: by themselves they give no rows.
-    able = [rules for rules in (REPORT, *others) if f.table.steps in _run(f, rules)["depth"]]
-    f.rules = min(able, key=lambda rules: len(list(_misprints(f, rules, digits))))
+    runs = {rules: march(f.case, rules, steps=f.table.steps) for rules in (REPORT, *others)}
+    misprints = {
+        rules: list(_misprints(f, run, digits))
+        for rules, run in runs.items()
+        if f.table.steps in run["depth"]
+    }
+    rules = min(misprints, key=lambda rules: len(misprints[rules]))
+    f.rows = replace(f.rows, rules=rules)
     _named(f)
-    for place, expected, text in _misprints(f, f.rules, digits):
+    for place, expected, text in misprints[rules]:
         f.add("typed number", [place], expected, text)
 
 
-def _run(f: Verdict, rules: Rules) -> dict[str, dict[int, float]]:
-    return march(f.case, rules, steps=f.table.steps)
-
-
 def _misprints(
-    f: Verdict, rules: Rules, digits: int
+    f: Findings, run: Mapping[str, Mapping[int, float]], digits: int
 ) -> Iterator[tuple[Position, float | None, str]]:
     """Numbers that do not round as a scheme's do, and what they should be if that is finite."""
-    run = _run(f, rules)
     for role in set(run) & set(f.table.lines):
         for k, value in run[role].items():
             found, wanted = f.table.number(role, k), f.shown(role, value)
@@ -382,11 +380,12 @@ def _misprints(
 # ---- the stop, and all of it together
 
 
-def _stop(f: Verdict) -> None:
+def _stop(f: Findings) -> None:
     """Whether the rows end with the first velocity below the stop."""
-    steps, stop, rows = f.table.steps, f.case.stop_velocity, f.setting.rows
+    steps, rows, case = f.table.steps, f.rows, f.case
+    stop, report = case.stop_velocity, report_inputs()["resistance"]
     finals = {k: v for k in range(1, steps + 1) if (v := rows("velocity_final", k)) is not None}
-    if steps not in finals and (last := f.slowed(steps)) is not None:
+    if steps not in finals and (last := rows.wanted("velocity_final", steps)) is not None:
         finals[steps] = last  # computed where the table ends before it shows it
     below = next((k for k, v in finals.items() if v < stop), None)
     right = max(march(f.intended)["depth"])
@@ -397,9 +396,9 @@ def _stop(f: Verdict) -> None:
     if below is not None:
         cells = f.cells(role, below + 1)
         text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
-        f.add("other scheme", cells, None, text)
+        f.add("other scheme", cells, None, text, change={})
         return
-    run = march(f.case, f.rules)["velocity_final"]
+    run = march(case, f.rules)["velocity_final"]
     whole = max(run, default=0)
     if whole <= steps or (run[whole] >= stop and whole < MOST_ROWS):
         return  # the rules that the rows follow do not lead to the stop by themselves
@@ -409,21 +408,21 @@ def _stop(f: Verdict) -> None:
     # With other inputs, or the report's other beta, rows prepared for those before run out, and an
     # excerpt has few; but who leaves off shortly before the report does stops at another velocity.
     changed = any(difference.kind == "other input" for difference in f.differences)
-    cases = [replace(f.case, resistance=pressure) for pressure in report_inputs()["resistance"]]
-    prepared = any(max(march(case, f.rules)["depth"]) == steps for case in cases)
+    cases = [replace(case, resistance=resistance) for resistance in report]
+    prepared = any(max(march(each, f.rules)["depth"]) == steps for each in cases)
     if changed or prepared or 2 * steps < whole:
         f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
     else:
-        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}")
+        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}", change={})
 
 
-def _effects(f: Verdict) -> None:
+def _effects(f: Findings) -> None:
     """What the final depth should be, and what each difference alone would make of it."""
     run = march(f.intended)
     steps = max(run["depth"])
     if run["velocity_final"].get(steps, math.inf) < f.intended.stop_velocity:
         f.right_depth = run["depth"][steps]
-    for role, column in f.setting.rows.columns.items():
+    for role, column in f.rows.columns.items():
         for k, own in column.items() if role in run else ():
             right = run[role].get(k)
             if right is None:
@@ -433,33 +432,27 @@ def _effects(f: Verdict) -> None:
     f.differences = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
 
 
-def _with_effect(f: Verdict, difference: Difference) -> Difference:
+def _with_effect(f: Findings, difference: Difference) -> Difference:
     """The difference with the final depth that it alone would give."""
-    fixed: dict[tuple[str, int], float] = {}
+    change, fixed = difference.change, {}
     rules, case = REPORT, f.intended
     if not f.rules.brake.says:
         rules = replace(rules, brake=f.rules.brake)
-    others = f.rules.others.items() if difference.kind == "other scheme" else ()
-    named = {part: rule for part, rule in others if rule.says in difference.explanation}
-    if named or difference.explanation.startswith("other stop"):
-        rules = replace(rules, **named)
-    elif difference.place in f.spoils:
-        case = f.spoils[difference.place](case)
+    if callable(change):
+        case = change(case)
+    elif change is not None:
+        rules = replace(rules, **change)
     elif difference.kind in ("typed number", "odd formula", "typed constant", "other scheme"):
-        for place in difference.cells:
-            if place in f.table.places and (value := _counted(f, place)) is not None:
-                fixed[f.table.places[place]] = value
-        if not fixed and rank(difference.place, f.setting)[0] == 1:
+        for place in set(difference.cells) & f.table.places.keys():
+            role, k = f.table.places[place]
+            # A formula takes a blank cell for zero.
+            blank = place not in f.calculation.values and place not in f.calculation.formulas
+            value = f.rows.columns[role].get(k, 0.0 if blank else None)
+            if value is not None:
+                fixed[role, k] = value
+        if not fixed and f.rank(difference.place)[0] == 1:
             return difference  # a text, an error, or a cell beside the table: nothing to go on with
     else:
         return difference
     depths = march(case, rules, fixed, steps=f.table.steps)["depth"]
     return replace(difference, effect=depths.get(f.table.steps))
-
-
-def _counted(f: Verdict, place: Position) -> float | None:
-    """What formulas take a cell of the table for, in SI: its number; zero if it is blank."""
-    role, k = f.table.places[place]
-    value = f.setting.rows.columns[role].get(k)
-    blank = place not in f.calculation.values and place not in f.calculation.formulas
-    return 0.0 if value is None and blank else value

@@ -5,7 +5,7 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import Difference, Verdict
+from replication.check.findings import Difference, Findings
 from replication.check.table import address, area_of
 from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check, Held
@@ -21,8 +21,8 @@ def check_record(check: Check) -> dict[str, Any]:
         "summary": check.summary,
         "first": check.first and _difference(check.first),
         "differences": [_difference(d) for d in check.differences],
-        "taken": [_taken(verdict) for verdict in check.verdicts],
-        "final_depths": [_depth(verdict) for verdict in check.verdicts],
+        "taken": [_taken(f) for f in check.findings],
+        "final_depths": [_depth(f) for f in check.findings],
         "claims": [_claim(number) for number in check.held],
         "notes": list(check.calculation.book.notes),
     }
@@ -88,7 +88,7 @@ def _verdict(check: Check) -> str:
     if not faults:
         others = check.summary.get("other input", 0)
         inputs = f", with {count(others, 'other input')}" if others else ""
-        if any(verdict.ends for verdict in check.verdicts):
+        if any(f.ends for f in check.findings):
             return f"Clean: the report's sheet{inputs}, cell by cell."
         return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
     if not causes:
@@ -97,53 +97,53 @@ def _verdict(check: Check) -> str:
     if all(d.kind == "operation order" for d in causes):
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
-    for verdict in check.verdicts:
-        if (depths := _apart(verdict)) is not None:
+    for f in check.findings:
+        if (depths := _apart(f)) is not None:
             own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
             return f"{sentence}; the final depth is {own}, and should be {right}."
-    if all(v.right_depth and v.final_depth and v.ends for v in check.verdicts):
+    if all(v.right_depth and v.final_depth and v.ends for v in check.findings):
         return f"{sentence}; the final depth is right all the same."
     return f"{sentence}."
 
 
-def _apart(verdict: Verdict) -> tuple[float, float] | None:
+def _apart(f: Findings) -> tuple[float, float] | None:
     """The final depth and what it should be, where these differ."""
-    own, right = verdict.final_depth, verdict.right_depth
-    if own is None or right is None or not verdict.ends or abs(own - right) <= 1e-9 * abs(right):
+    own, right = f.final_depth, f.right_depth
+    if own is None or right is None or not f.ends or abs(own - right) <= 1e-9 * abs(right):
         return None
     return own, right
 
 
-def _depth(verdict: Verdict) -> dict[str, Any]:
+def _depth(f: Findings) -> dict[str, Any]:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
     explains = None
-    if (depths := _apart(verdict)) is not None:
+    if (depths := _apart(f)) is not None:
         own, right = depths
-        effects = {d: abs(d.effect - own) for d in verdict.differences if d.effect is not None}
+        effects = {d: abs(d.effect - own) for d in f.differences if d.effect is not None}
         nearest = min(effects, key=lambda d: effects[d], default=None)
         if nearest and effects[nearest] < 0.05 * abs(own - right):
             explains = address(nearest.place, True)
     return {
-        "found": verdict.final_depth,
-        "expected": verdict.right_depth,
+        "found": f.final_depth,
+        "expected": f.right_depth,
         "explained_by": explains,
-        "differing": verdict.differing,
+        "differing": f.differing,
     }
 
 
-def _taken(verdict: Verdict) -> dict[str, Any]:
+def _taken(f: Findings) -> dict[str, Any]:
     """What was taken for what."""
-    setting, table = verdict.setting, verdict.setting.table
+    table = f.table
     return {
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": verdict.rules.name,
+        "scheme": f.rules.name,
         "columns": {
             role: {
                 "cells": table.area(role),
                 "head": line.head,
-                "unit": unit_text(role, setting.powers[role]),
+                "unit": unit_text(role, f.powers[role]),
                 "by": "--map" if line.given else "head" if role in line.roles else "values",
             }
             for role, line in table.lines.items()
@@ -157,7 +157,7 @@ def _taken(verdict: Verdict) -> dict[str, Any]:
                 "by": own.how,
             }
             for role in INPUTS
-            if (own := setting.inputs.get(role)) is not None
+            if (own := f.inputs.get(role)) is not None
         },
     }
 

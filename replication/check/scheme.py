@@ -13,6 +13,9 @@ PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration
          "end": ("velocity_final", 1)}  # fmt: skip
 """The column that each part of a scheme fills, and the first row that it does."""
 
+FILLS = {role: part for part, (role, _) in PARTS.items()}
+"""The part that fills a column below its first row."""
+
 ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
 """The order of calculation within a row."""
 
@@ -53,11 +56,12 @@ class Case:
 
     def holding(self, role: str, value: float) -> "Case":
         """The case with mass, diameter or resistance as a cell holds it, all else as it is."""
-        own = {"diameter": "own_diameter", "mass": "own_mass", "resistance": "resistance"}
-        return replace(self, **{own[role]: value})
+        return replace(self, **{"resistance" if role == "resistance" else f"own_{role}": value})
 
-    def with_input(self, role: str, value: float) -> "Case":
-        """The case with another input, and with what follows from it."""
+    def with_input(self, role: str, value: float, by: float = 1.0) -> "Case":
+        """The case with another input, `by` times the one that it has, and what follows from it."""
+        if role in ("beta", "flow_stress"):
+            return replace(self, resistance=self.resistance * by)
         if role == "mass":
             return replace(self, own_mass=value)
         if role == "diameter":
@@ -71,18 +75,20 @@ class Case:
 
 @dataclass(frozen=True)
 class Rows:
-    """The cells of a run by role and row, in SI units; one velocity stands for the other.
+    """The cells of a run by role and row, in SI units.
 
-    The velocity at a row's end is that at the beginning of the next.
+    What no column shows follows from the others: the velocity at a row's end is that at the
+    beginning of the next, and the deceleration is what the rules give.
     """
 
     columns: Mapping[str, Mapping[int, float]]
     case: Case
+    rules: "Rules"
 
     def __getitem__(self, cell: tuple[str, int]) -> float:
         """The number in a role and row. Raises KeyError if there is none."""
         role, k = cell
-        if role in self.columns and k in self.columns[role]:
+        if k in self.columns.get(role, ()):
             return self.columns[role][k]
         if role not in self.columns and role == "velocity_final":
             return self.columns["velocity_initial"][k + 1]
@@ -90,6 +96,8 @@ class Rows:
             return self.case.velocity if k <= 1 else self.columns["velocity_final"][k - 1]
         if k == 0:  # what a row 0 that is not shown would hold
             return self.case.velocity if role.startswith("velocity") else 0.0
+        if role not in self.columns and role == "deceleration":
+            return self.rules.brake.formula(self, k)
         raise KeyError(cell)
 
     def __call__(self, role: str, k: int) -> float | None:
@@ -99,6 +107,41 @@ class Rows:
         except KeyError:
             return None
 
+    def shows(self, part: str, k: int) -> tuple[str, int]:
+        """The role and row of the cell that shows a part of the scheme in row k.
+
+        Without a column for it, it shows in the velocity that it makes.
+        """
+        role = PARTS[part][0]
+        if role in self.columns:
+            return role, k
+        return (
+            ("velocity_final", k)
+            if "velocity_final" in self.columns
+            else ("velocity_initial", k + 1)
+        )
+
+    def wanted(self, role: str, k: int) -> float | None:
+        """What a cell should hold by what others hold; None where one of those is missing."""
+        try:
+            return self._wanted(role, k)
+        except KeyError:
+            return None
+
+    def _wanted(self, role: str, k: int) -> float:
+        if role == "time":
+            return self["time", k - 1] + self.case.step
+        if role.startswith("velocity") and k <= (role == "velocity_initial"):
+            return self.case.velocity
+        if k == 0:
+            return 0.0
+        if role == "velocity_initial":
+            shown = "velocity_final" in self.columns
+            return self["velocity_final", k - 1] if shown else self.rules.end.formula(self, k - 1)
+        part = "start" if role == "depth" and k == 1 else FILLS[role]
+        rule: Rule = getattr(self.rules, part)
+        return rule.formula(self, k)
+
 
 @dataclass(frozen=True)
 class Rule:
@@ -107,13 +150,6 @@ class Rule:
     name: str
     formula: Callable[[Rows, int], float]
     says: str = ""
-
-    def __call__(self, rows: Rows, k: int) -> float | None:
-        """What the cell of a row should hold, None where a cell that the rule needs is missing."""
-        try:
-            return self.formula(rows, k)
-        except KeyError:
-            return None
 
 
 @dataclass(frozen=True)
@@ -135,17 +171,6 @@ class Rules:
         """The scheme by name."""
         names = dict.fromkeys(rule.name for rule in self.others.values())
         return " and ".join(names) or "the report's"
-
-    def value(self, role: str, rows: Rows, k: int) -> float | None:
-        """What a cell should hold."""
-        if role == "velocity_initial":
-            return rows.case.velocity if k <= 1 else rows("velocity_final", k - 1)
-        if k == 0:
-            return 0.0
-        depth = self.start if k == 1 else self.advance
-        return {"depth": depth, "deceleration": self.brake, "velocity_final": self.end}[role](
-            rows, k
-        )
 
 
 def deceleration(
@@ -299,16 +324,15 @@ def march(
     (131, '7.67')
     """
     columns: dict[str, dict[int, float]] = {role: {} for role in ORDER}
-    rows = Rows(columns, case)
+    rows = Rows(columns, case, rules)
     columns["velocity_initial"][0] = case.velocity
     columns["depth"][0] = columns["deceleration"][0] = 0.0
     for k in range(1, (steps or MOST_ROWS) + 1):
-        for _ in ORDER:  # a rule that needs a later column of the row waits for it
-            for role in ORDER:
-                if k not in columns[role]:
-                    value = (fixed or {}).get((role, k), rules.value(role, rows, k))
-                    if value is not None:
-                        columns[role][k] = value
+        for role in ORDER * len(ORDER):  # a rule that needs a later column waits for it
+            if k not in columns[role]:
+                value = (fixed or {}).get((role, k), rows.wanted(role, k))
+                if value is not None:
+                    columns[role][k] = value
         final = columns["velocity_final"].get(k, math.nan)
         if not math.isfinite(final) or (steps is None and final < case.stop_velocity):
             break

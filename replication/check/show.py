@@ -4,6 +4,7 @@ from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib import resources
+from itertools import pairwise
 from textwrap import fill
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -251,15 +252,14 @@ def _drawn(
 
 def _kept(used: set[int], marked: set[int], most: int) -> list[int | None]:
     """All lines, or the first and those around what is marked; None where some are left out."""
-    everything = sorted(used)
-    if len(everything) > most:
+    lines = sorted(used)
+    if len(lines) > most:
         near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}
-        everything = sorted({*everything[: most // 4], *everything[-_NEAR:], *(near & used)})
-    kept: list[int | None] = []
-    for line in everything:
-        gap = range(kept[-1] + 1, line) if kept and kept[-1] is not None else range(0)
-        kept += list(gap) if len(gap) <= _NEAR else [None]
-        kept.append(line)
+        lines = sorted({*lines[: most // 4], *lines[-_NEAR:], *(near & used)})
+    kept: list[int | None] = [*lines[:1]]
+    for before, line in pairwise(lines):
+        gap = range(before + 1, line)
+        kept += [*(gap if len(gap) <= _NEAR else [None]), line]
     return kept
 
 

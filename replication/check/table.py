@@ -226,8 +226,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             line = Line(calculation, sheet, across, blank, number)
             for first, last in _runs(sorted(own), filled, line):
                 run = tuple(own.get(at) for at in range(first, last + 1))
-                if len(run) >= LEAST:
-                    yield replace(line, first=first, values=run).headed()
+                yield replace(line, first=first, values=run).headed()
 
 
 def _left_out(
@@ -406,8 +405,6 @@ def _viewed(table: Table, others: Sequence[Table]) -> bool:
 def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
     """The table around a depth and a velocity: its other columns and its rows."""
     first, last = max(depth.first, speed.first), min(depth.last, speed.last)
-    if last - first + 1 < LEAST:
-        return None
     beside = [
         line
         for line in known
@@ -474,7 +471,7 @@ def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
         fit = _braking(line, speed, initial) + 0.5 * _braking(line, speed, initial, 1e-9)
         return named + fit * (not line.falls)
     steps = [b - a for a, b in pairwise(line.numbers)] or [0.0]
-    counts = all(step == 1 for step in steps)  # the rows, unless its head says time
+    counts = median(steps) == 1  # the rows, unless its head says time
     return named + _constant((step, 1.0) for step in steps) * (not counts and min(steps) > 0)
 
 

@@ -7,7 +7,7 @@ in it ("target resistance"). Units stand in brackets, after "in" or "/", or in a
 import math
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from fractions import Fraction
 from functools import cache
 
@@ -49,12 +49,9 @@ def _plain(text: str) -> str:
     return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)
 
 
-_ATOM = r"(?:micron|sec|[numck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N|dyn)"
-_POWER = r"(?:\^|\*\*)?-?[1-4]"
-_EXPRESSION = re.compile(
-    rf"(?:1/)?\(?{_ATOM.replace('[numck]', '[numµμck]')}(?:{_POWER})?"
-    rf"(?:[ */·]\(?{_ATOM.replace('[numck]', '[numµμck]')}(?:{_POWER})?\)?){{0,3}}\)?"
-)
+_ATOM = r"(?:micron|sec|[numµμck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N|dyn)"
+_FACTOR = rf"\(?{_ATOM}(?:(?:\^|\*\*)?-?[1-4])?"
+_EXPRESSION = re.compile(rf"(?:1/)?{_FACTOR}(?:[ */·]{_FACTOR}\)?){{0,3}}\)?")
 
 
 @cache
@@ -89,18 +86,13 @@ def unit_in(text: str) -> str | None:
     ('um', 'm/s', 's', None)
     """
     text = text[:_MAX_LABEL].strip().rstrip("=: ").strip()
-    return next((unit for piece in _unit_pieces(text) if (unit := is_unit(piece))), None)
-
-
-def _unit_pieces(text: str) -> Iterator[str]:
-    yield from reversed(re.findall(r"[\[(]([^\[\]()]+)[\])]", text))
-    yield from re.findall(r"\b(?:in|en)\s+(\S+)$", text)
-    for mark in (" / ", "/", ", "):
-        if mark in text:
-            yield text.partition(mark)[2]
-    last = re.split(r"[ _]", text)[-1]
-    if len(last) > 1:  # a single letter there is a symbol: "Weg s"
-        yield last
+    pieces = [
+        *reversed(re.findall(r"[\[(]([^\[\]()]+)[\])]", text)),
+        *re.findall(r"\b(?:in|en)\s+(\S+)$", text),
+        *(text.partition(mark)[2] for mark in (" / ", "/", ", ")),
+        *re.findall(r"[^ _]{2,}$", text),  # a single letter there is a symbol: "Weg s"
+    ]
+    return next((unit for piece in pieces if (unit := is_unit(piece))), None)
 
 
 def _symbol(text: str) -> str:
@@ -227,19 +219,18 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
     """
     unit = unit or unit_in(label)
     symbol, plain = _symbol(label), _plain(label)
-    roles = {role for role, pattern in _INPUT_SYMBOLS.items() if re.fullmatch(pattern, symbol)}
+    roles = [role for role, pattern in _INPUT_SYMBOLS.items() if re.fullmatch(pattern, symbol)]
     if not roles:
-        words = (
+        roles = [
             role
             for role, wanted, unwanted in _INPUT_WORDS
             if re.search(wanted, plain) and not re.search(unwanted, plain)
-        )
-        first = next(words, None)
-        roles = set() if first is None else {first}
-        if first in ("particle_density", "target_density"):
-            roles |= {role for role in words if role.endswith("density")}
-            if re.search(_PARTICLE, plain) or re.search(_TARGET, plain):
-                roles = {first}
+        ]
+        # Only a density may be that of either, where the label says of neither.
+        either = [role for role in roles if role.endswith("density")]
+        if roles[:1] != either[:1] or re.search(f"{_PARTICLE}|{_TARGET}", plain):
+            either = []
+        roles = either or roles[:1]
     return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUTS[r]))
 
 

@@ -5,11 +5,12 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import dropwhile
 from pathlib import Path
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension
-from replication.check.findings import NO_FAULT, Difference, Verdict, rank
+from replication.check.findings import NO_FAULT, Difference, Findings
 from replication.check.inputs import find, numbers_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
@@ -38,7 +39,7 @@ class Check:
     """What `coldspray check` has found out about a workbook."""
 
     calculation: Calculation
-    verdicts: tuple[Verdict, ...]
+    findings: tuple[Findings, ...]
     differences: tuple[Difference, ...]
     held: tuple[Held, ...]
 
@@ -77,13 +78,14 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         if not found:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, found))
-        settings = [find(table, beside, cells) for table in found]
-    verdicts = [judge(setting) for setting in settings]
-    held = [number for verdict in verdicts for number in _held(verdict, len(verdicts) == 1)]
+        findings = [find(table, beside, cells) for table in found]
+    for f in findings:
+        judge(f)
+    held = [number for f in findings for number in _held(f, len(findings) == 1)]
     differences = [
-        *(d for v in verdicts for d in v.differences),
-        *_stale(calculation, verdicts),
-        *_unmet(held, verdicts[0]),
+        *(d for v in findings for d in v.differences),
+        *_stale(calculation, findings),
+        *_unmet(held, findings[0]),
         *_uncalculated(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
@@ -92,7 +94,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         for d in reversed(differences)
     }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(calculation, tuple(verdicts), ordered, tuple(held))
+    return Check(calculation, tuple(findings), ordered, tuple(held))
 
 
 # ---- what the user says, and what is said where nothing is found
@@ -128,11 +130,13 @@ def _named_line(given: str, where: str, area: Area, calculation: Calculation) ->
     blank = next((own.left_out for own in alike), ())
     number = area.top if across else area.left
     line = Line(calculation, area.sheet, across, blank, number, given=given)
-    places = [place for place in area.places() if line.index(place) is not None]
-    values = tuple(calculation.number(place) for place in places)
+    cells = [(at, calculation.number(p)) for p in area.places() if (at := line.index(p))]
+    # Whoever names a whole column means its table, not the heads above.
+    cells = list(dropwhile(lambda cell: cell[1] is None, cells))
+    values = tuple(value for _, value in cells)
     if sum(value is not None for value in values) < LEAST:
         raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
-    line = replace(line, first=line.index(places[0]) or 1, values=values).headed()
+    line = replace(line, first=cells[0][0], values=values).headed()
     wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
     if line.unit and not same_dimension(line.unit, wanted):
         raise ValueError(
@@ -213,44 +217,41 @@ _ROWS = 5
 """Rows that Table A-1 prints, the impact among them."""
 
 
-def _held(verdict: Verdict, alone: bool) -> Iterator[Held]:
+def _held(f: Findings, alone: bool) -> Iterator[Held]:
     """The printed numbers that a table of one of the report's cases holds, each judged.
 
     `alone`: it is the only table, so labelled results are its own.
     """
-    setting, table, report = verdict.setting, verdict.setting.table, report_inputs()
-    given = [
-        (setting.inputs[role].si, report[role][0]) for role in _GIVEN if role in setting.inputs
-    ]
-    cases = [(setting.case.resistance, resistance) for resistance in report["resistance"]]
+    report = report_inputs()
+    given = [(f.inputs[role].si, report[role][0]) for role in _GIVEN if role in f.inputs]
+    cases = [(f.case.resistance, resistance) for resistance in report["resistance"]]
     alike = [math.isclose(*pair, rel_tol=1e-9) for pair in cases]
     if not any(alike) or not all(math.isclose(*pair, rel_tol=1e-9) for pair in given):
         return
     case = _CASES[alike.index(True)]
     table_a1 = case == _CASES[0]
     for role, name in _HEADER.items():
-        own = setting.derived.get(role) or setting.inputs.get(role)
-        value = table.calculation.number(own.place) if own else None
+        own = f.derived.get(role) or f.inputs.get(role)
+        value = f.calculation.number(own.place) if own else None
         if own and own.place and value is not None and (table_a1 or role != "resistance"):
             yield _judged(name, own.place, Fraction(value) * own.factor)
     for k in range(_ROWS if table_a1 else 0):
-        for role, column in setting.rows.columns.items():
+        for role, column in f.rows.columns.items():
             name = f"a1-{role.replace('_', '-')}-{k}"
             if name in load().claims and k in column:
-                yield _judged(name, table.place(role, k), Fraction(column[k]))
-    yield from _results(verdict, case, alone)
+                yield _judged(name, f.table.place(role, k), Fraction(column[k]))
+    yield from _results(f, case, alone)
 
 
-def _results(verdict: Verdict, case: str, alone: bool) -> Iterator[Held]:
+def _results(f: Findings, case: str, alone: bool) -> Iterator[Held]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
-    setting, table = verdict.setting, verdict.setting.table
-    cells = dict(_labelled(table)) if alone else {}
-    depth = setting.rows("depth", table.steps)
-    if verdict.ends and depth is not None and "depth" not in cells:
-        yield _judged(f"depth-{case}", table.place("depth", table.steps), Fraction(depth))
+    cells = dict(_labelled(f.table)) if alone else {}
+    depth = f.rows("depth", f.table.steps)
+    if f.ends and depth is not None and "depth" not in cells:
+        yield _judged(f"depth-{case}", f.table.place("depth", f.table.steps), Fraction(depth))
     for kind, place in cells.items():
-        value = table.calculation.number(place) or 0.0
-        if not verdict.ends and place in table.calculation.formulas:
+        value = f.calculation.number(place) or 0.0
+        if not f.ends and place in f.calculation.formulas:
             continue  # it is not the final depth that the formulas give so far
         if kind == "depth" and depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
@@ -277,7 +278,7 @@ def _judged(name: str, place: Position, value: Fraction) -> Held:
     return Held(claim, place, float(value / claim.si), claim.target().contains(value))
 
 
-def _unmet(held: Sequence[Held], verdict: Verdict) -> Iterator[Difference]:
+def _unmet(held: Sequence[Held], f: Findings) -> Iterator[Difference]:
     """Printed numbers that the workbook holds, and holds otherwise."""
     for number in held:
         if not number.met:
@@ -286,20 +287,20 @@ def _unmet(held: Sequence[Held], verdict: Verdict) -> Iterator[Difference]:
                 number.place, "printed number", claim.text, number.found,
                 f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
                 f"({claim.place}), which stands for values in {claim.interval()}",
-                (number.place,), (3, *rank(number.place, verdict.setting)),
+                (number.place,), (3, *f.rank(number.place)),
             )  # fmt: skip
 
 
 # ---- stored values
 
 
-def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Difference]:
+def _stale(calculation: Calculation, findings: Sequence[Findings]) -> Iterator[Difference]:
     """Stored values that their formulas do not give.
 
     In a column the largest number counts: what is left of 500 m/s at the end has its rounding, and
     so has a cell that reads it.
     """
-    tables = [verdict.setting.table for verdict in verdicts]
+    tables = [f.table for f in findings]
     lines = [line for table in tables for line in table.every_line]
 
     def is_stale(place: Position) -> bool:
@@ -324,7 +325,7 @@ def _stale(calculation: Calculation, verdicts: Sequence[Verdict]) -> Iterator[Di
     for run in runs(shapes, tables[0].across):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
-        ranks = [rank(run[0], verdict.setting) for verdict in verdicts]
+        ranks = [f.rank(run[0]) for f in findings]
         yield Difference(
             run[0], "stale value", str(value) if isinstance(value, bool) else value,
             str(stored) if isinstance(stored, bool) else stored,

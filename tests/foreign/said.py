@@ -7,6 +7,7 @@ program says reads what that changes there, line by line, before keeping it. Num
 seven digits at most, so that no machine's last digits are in it.
 """
 
+import random
 import re
 import sys
 import tempfile
@@ -24,7 +25,8 @@ from foreign.layouts import BY_HAND, Content, Foreign, Place, changed, plain
 
 from replication.cases import BETA_3, BETA_5
 from replication.check import show
-from replication.check.diff import diff
+from replication.check.diff import Comparison, Tolerance, diff
+from replication.check.findings import KINDS
 from replication.check.record import check_record, diff_record
 from replication.check.workbook import check
 from replication.models.impact import Impact
@@ -43,7 +45,10 @@ def right(layout: Callable[..., Foreign]) -> Iterator[str]:
 
 
 def right_beta_3() -> Iterator[str]:
-    for layout in (layouts.table_a1, layouts.french, layouts.one_velocity, layouts.pasted):
+    for layout in (
+        layouts.table_a1, layouts.french, layouts.one_velocity, layouts.pasted,
+        layouts.no_deceleration,
+    ):  # fmt: skip
         yield from whole(layout(BETA_3))
 
 
@@ -170,6 +175,63 @@ INPUTS: dict[str, Cells] = {
     "impact velocity a text": {"B5": "500 m/s"},
     "impact velocity blank": {"B5": None},
     "density a text": {"B2": "8900 kg/m3"},
+    "mass in g, labelled kg": {"A3": "M [kg] =", "B3": "=4/3*PI()*B1^3*B2*1000"},
+    "mass in mg, labelled kg, no density": {
+        "A2": None, "B2": None, "A3": "M [kg] =", "B3": 4.96e-5},
+    "mass in mg, no density": {"A2": None, "B2": None, "B3": 4.96e-5},
+    "mass labelled twice": {"J1": "mass", "K1": 5e-11},
+    "diameter in um, no radius": {"A1": None, "B1": None, "B4": 22, "B3": 4.962e-11},
+    "diameter in um, labelled m, no radius": {
+        "A1": None, "B1": None, "A4": "D [m]", "B4": 22, "B3": "=PI()/6*B4^3*B2"},
+    "diameter 24 um, no radius": {"A1": None, "B1": None, "B4": 24e-6, "B3": "=PI()/6*B4^3*B2"},
+    "two resistances read": {"J1": "Rt", "K1": 3.6e9, "B6": "=H1*H2+0*K1"},
+    "two resistances read, no beta": {"J1": "Rt", "K1": 3.6e9, "B6": "=3.5E9+0*K1", "G1": None,
+                                      "H1": None, "G2": None, "H2": None},
+    "two time steps, one for the times": {"D3": "time step", "E3": 1e-9, "A9:": "=A{p}+$E$3"},
+    "two radii read, near to each other": {"J1": "R", "K1": 11.00001e-6, "B4": "=B1+K1"},
+    "two radii read, one to no effect": {"J1": "R", "K1": 12e-6, "B4": "=2*B1+0*K1"},
+    "target density zero": {"E1": 0},
+    "target density negative": {"E1": -7850},
+    "impact velocity zero": {"B5": 0},
+    "impact velocity negative": {"B5": -500},
+    "time step negative": {"E2": -5e-10},
+    "beta zero": {"H1": 0},
+    "beta negative": {"H1": -5},
+    "beta and its flow stress of others": {"H1": 4, "H2": 8.75e8},
+    "flow stress in ksi": {"G2": "Yt [ksi]", "H2": 101.5264, "B6": "=H1*H2*6894757"},
+    "flow stress in ksi, its factor of few digits": {
+        "G2": "Yt [ksi]", "H2": 101.5264, "B6": "=H1*H2*6.895E6"},
+    "radius in inches": {"A1": "R [in] =", "B1": 0.000433, "B4": "=2*B1*0.0254",
+                         "B3": "=4/3*PI()*(B1*0.0254)^3*B2"},
+    "radius in um, its label, its formulas converting": {
+        "A1": "R [µm] =", "B1": 11, "B4": "=2*B1*1E-6", "B3": "=4/3*PI()*(B1*1E-6)^3*B2"},
+    "impact velocity in km/s, labelled so": {"A5": "V [km/s]", "B5": 0.5, "C8": "=B5*1000"},
+    "impact velocity in km/s, labelled so, not converted": {"A5": "V [km/s]", "B5": 0.5},
+    "resistance in GPa, labelled so": {
+        "A6": "Rt [GPa]", "B6": "=H1*H2/1E9",
+        "E9:": "=(0.5*$E$1*C{r}^2+$B$6*1E9)*PI()*($B$4*D{r}-D{r}^2)/$B$3"},
+    "resistance in GPa, labelled so, not converted": {"A6": "Rt [GPa]", "B6": "=H1*H2/1E9"},
+    "target density in the rows of another input": {
+        "E9:": "=(0.5*8000*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"},
+    "time step in the rows, twice that of its cell": {"D10:": "=D{p}+C{r}*0.000000001"},
+    "radius in half of the rows": {
+        f"E{row}": f"=(0.5*$E$1*C{row}^2+$B$6)*PI()*(2*0.000011*D{row}-D{row}^2)/$B$3"
+        for row in range(9, 61, 2)},
+    "radius in a few of the rows": {
+        f"E{row}": f"=(0.5*$E$1*C{row}^2+$B$6)*PI()*(2*0.000011*D{row}-D{row}^2)/$B$3"
+        for row in range(20, 61, 9)},
+    "stop velocity typed into guards, another than its cell": {
+        "D3": "stop velocity", "E3": 1, "C10:": '=IF(F{p}<2,"",F{p})'},
+    "stop velocity zero": {"D3": "stop velocity", "E3": 0},
+    "stop velocity in two cells": {"D3": "stop velocity", "E3": 1, "G3": "stop velocity", "H3": 2},
+    "pi in a cell": {"G3": "pi", "H3": 3.14159265358979, "E9:": "=(0.5*$E$1*C{r}^2+$B$6)"
+                     "*$H$3*($B$4*D{r}-D{r}^2)/$B$3", "B3": "=4/3*H3*B1^3*B2"},
+    "labels above the numbers": {
+        "A1": None, "A2": None, "A5": None, "J1": "R", "K1": "rho_p", "L1": "V",
+        "J2": 11e-6, "K2": 8900, "L2": 500, "B1": "=J2", "B2": "=K2", "B5": "=L2"},
+    "labels of two cells, units two cells to the right": {
+        "A1": "R", "C1": "m", "A2": "density", "C2": "kg/m3", "D2": "step", "F2": "s"},
+    "labels of another input beside": {"A1": "R | particle", "A2": "copper", "D1": "steel"},
 }  # fmt: skip
 
 CELLS: dict[str, Cells] = {
@@ -178,7 +240,9 @@ CELLS: dict[str, Cells] = {
            ("abc", "A8 A9 A20 C9 C20 C60 D9 D20 D60 E20 E60 F9 F20"), (True, "A9 D20 E20 F60"),
            (None, "A9 A20 C8 C9 C60 D9 D20 E9 E20 E60 F9 F20 F61"), ("=1/0", "D20 B4"),
            ("=NoName*2", "E20"), ("=D20+1", "D20"), ("=NA()", "F20"), ("=[1]S!A1", "D20"),
-           (400, "C9 C20 E20"), (1e308, "E20"), (-1, "D20"), (0, "D20 F20"), (" ", "F9"))
+           (400, "C9 C20 E20"), (1e308, "E20"), (-1, "D20"), (0, "D20 F20"), (" ", "F9"),
+           ("=1/0", "D9 E9 F60 A9 A60"), ("=[1]S!A1", "E60"), (1e120, "C20"), ("abc", "C8 D8 E8"),
+           (None, "E60 A60 D60"), (0.0, "A9 C9 E9 F9"), (True, "C9 E9 F9"), ("", "D20"))
        for cell in cells.split()},
     "first velocity ten times too large": {"C8": "=B5*10"},
     "depth of row 12 a thousand times too large": {"D20": "=(D19+C20*$E$2)*1000"},
@@ -200,6 +264,51 @@ CELLS: dict[str, Cells] = {
     "two faults": {"F40": 300, "E20": 5e9},
     "three faults, of three kinds": {"D20": "=D18+C20*$E$2", "E30": 6e8, "B3": "=4*PI()*B1^3*B2"},
     "a row gone": {f"{letter}20": None for letter in "ACDEF"},
+    "four rows gone": {f"{letter}{row}": None for letter in "ACDEF" for row in range(20, 24)},
+    "times of three shapes": {
+        f"A{row}": (f"=A{row - 1}+$E$2", f"=$E$2+A{row - 1}", f"=A{row - 1}+1*$E$2")[row % 3]
+        for row in range(9, 61)},
+    "times by the number of the row, typed": {
+        f"A{row}": f"={row - 8}*$E$2" for row in range(9, 61)},
+    "times by the number of the row, one wrong": {
+        f"A{row}": f"={row - 8 + (row == 30)}*$E$2" for row in range(9, 61)},
+    "a velocity of every other row typed": {f"F{row}": 300 for row in range(10, 60, 2)},
+    "formulas of 90 and of 91 characters": {
+        f"E{row}": f"=0.{'0' * zeros}+(0.5*$E$1*C{row}^2+$B$6)*PI()*($B$4*D{row}-D{row}^2)/$B$3"
+        for row, zeros in ((20, 38), (40, 39))},
+    "a counter beside, an error in it": {
+        "H8": 0, "H9:": "=H{p}+1", "H30": "=1/0"},
+    "a typed counter beside, without times, a text in it": {
+        **{f"A{row}": None for row in range(7, 62)}, **{f"H{row}": row - 8 for row in range(8, 61)},
+        "H30": "abc"},
+    "energies beside, one typed, another reading it": {
+        "H7": "energy", "H8": 0, "H9:": "=0.5*$B$3*C{r}^2", "I9:": "=H{r}*2", "H30": 1e-6,
+        "I40": "=H40*3", "D45": 6e-6},
+    "the area beside, one of another formula": {
+        "H7": "area", "H9:": "=PI()*($B$4*D{r}-D{r}^2)", "H30": "=PI()*($B$4*D30+D30^2)",
+        "E9:": "=(0.5*$E$1*C{r}^2+$B$6)*H{r}/$B$3"},
+    "the area beside, a text in it": {
+        "H7": "area", "H9:": "=PI()*($B$4*D{r}-D{r}^2)", "H30": "abc",
+        "E9:": "=(0.5*$E$1*C{r}^2+$B$6)*H{r}/$B$3"},
+    "the area beside, a blank in it": {
+        "H7": "area", "H9:": "=PI()*($B$4*D{r}-D{r}^2)", "H30": None,
+        "E9:": "=(0.5*$E$1*C{r}^2+$B$6)*H{r}/$B$3"},
+    "the area beside, without x²": {
+        "H7": "area", "H9:": "=PI()*$B$4*D{r}", "E9:": "=(0.5*$E$1*C{r}^2+$B$6)*H{r}/$B$3"},
+    "the area beside, pi typed": {
+        "H7": "area", "H9:": "=3.1416*($B$4*D{r}-D{r}^2)",
+        "E9:": "=(0.5*$E$1*C{r}^2+$B$6)*H{r}/$B$3"},
+    "a label of the final depth, two cells to the right": {"J3": "final depth", "L3": "=D60"},
+    "a label of the final depth in um, below": {"J3": "final depth", "J4": "=D60*1E6"},
+    "labels of both results": {
+        "J3": "final depth", "K3": "=D60*1E6", "J4": "x/R", "K4": "=D60/B1", "J5": "x/R",
+        "K5": "=K3"},
+    "a label of the final depth, no number beside": {"J3": "final depth", "K3": "see below"},
+    "a label of the ratio, zero": {"J4": "x/R", "K4": 0, "J5": "final depth", "K5": 0},
+    "results of rows that do not end": {
+        **{f"{letter}50:": None for letter in "ACDEF"}, "J3": "final depth", "K3": "=D49*1E6",
+        "J4": "x/R", "K4": "=D49/B1"},
+    "results typed": {"J3": "final depth [µm]", "K3": 7.67, "J4": "x/R", "K4": 0.697},
 }  # fmt: skip
 
 DRAG, AREA = "0.5*$E$1*C{r}^2", "$B$4*D{r}-D{r}^2"
@@ -319,6 +428,10 @@ def stops() -> Iterator[str]:
     """Rows that end too soon or too late, and depths beyond the radius."""
     for rows in (3, 4, 20, 26, 27, 44, 51, 52, 53, 54, 60):
         yield from said(f"{rows} rows", plain(COARSE, rows), plain(COARSE))
+    yield from said(
+        "a hair beyond the radius", plain(replace(COARSE, velocity=712.0)), plain(COARSE)
+    )
+    yield from said("60 rows of 4 ps", plain(replace(COARSE, step=4e-12), 60), plain(COARSE))
     yield from said("403 m/s in rows for 500", changed(plain(COARSE), {"B5": 403}), plain(COARSE))
     yield from said("521 m/s in rows for 500", changed(plain(COARSE), {"B5": 521}), plain(COARSE))
     blank = {f"{letter}55:": None for letter in "ACDEF"}
@@ -363,6 +476,10 @@ def digits() -> Iterator[str]:
                 f"{impact.radius:g} m, {impact.step:g} s"
             )
             yield from said(f"{f.name} of other inputs: {inputs}", f, layout(BETA_5))
+    f = layouts.six_digits(BETA_5)
+    for role, k in ((layouts.DEPTH, 60), (layouts.START, 61), (layouts.BRAKE, 131)):
+        f.cells.pop(f.where[role, k])
+    yield from said("blank cells among six digits", f, layouts.six_digits(BETA_5))
     f = layouts.pasted(BETA_5)
     texts = {p: f"{v:.6g}".replace(".", ",") for p, v in f.cells.items() if isinstance(v, float)}
     f.cells |= texts
@@ -405,6 +522,9 @@ def several() -> Iterator[str]:
         f = layouts.sideways(COARSE)
         f.cells["Sheet 1", 13, row] = 1e-6
         yield from said(f"a depth in column {layouts.letters(row)} of a table to the right", f)
+    f = layouts.named_constants(BETA_3)
+    f.cells["Sheet", 202, 6] = 700
+    yield from said("700 typed below the end, all inputs names", f, layouts.named_constants(BETA_3))
 
 
 def given() -> Iterator[str]:
@@ -421,8 +541,130 @@ def given() -> Iterator[str]:
         ("velocity_initial", "C8:C61"), ("velocity_final", "C8:C61"), ("velocity", "F9:F61"),
         ("deceleration", "E9:E61"), ("radius", "C8:C61"), ("depth", "B1"), ("step", "A1"),
         ("deep", "D8:D61"), ("depth", "D8:D10"), ("time", "Nowhere!A1"), ("velocity", "A8:C61"),
+        ("depth", "B1:B6"), ("depth", "E8:E61"), ("depth", "D:D"), ("depth", "D8:D900"),
+        ("depth", "D10:D40"), ("radius", "B4:B5"), ("velocity", "B5"), ("step", "H1"),
+        ("stop_velocity", "H1"), ("beta", "H2"), ("mass", "B1"), ("depth", "A9:F9"),
     ):  # fmt: skip
         yield from said(f"--map {name}={where}", plain(COARSE), plain(COARSE), given={name: where})
+
+
+CONTENTS: tuple[Content, ...] = (
+    None, 0, -1, 3, 1e-6, 1e15, 450, True, "x", "v [mm]", "dt", "(m)", "µm", "0,5", "=1/0",
+    "=2+3", "={c}*2", "={c}-{c}", "=1000*{c}",
+)  # fmt: skip
+"""What is written over cells drawn at random; {c} is another cell of the sheet."""
+
+
+def at_random() -> Iterator[str]:
+    """Drawn layouts with contents written over one input or head and over two other cells."""
+    for seed in range(100, 126):
+        r = random.Random(seed)
+        f = drawn(seed, COARSE) if seed % 4 else made(SPOILED[seed // 4 % len(SPOILED)])
+        like = replace(f, cells=dict(f.cells))
+        outside = [place for place in f.cells if place not in f.where.values()]
+        told = []
+        for places in (outside, list(f.cells), list(f.where.values())):
+            here, other = r.choice(places), r.choice(places)
+            there = f"'{other[0]}'!{layouts.letters(other[2])}{other[1]}"
+            content = r.choice(CONTENTS)
+            if isinstance(content, str):
+                content = content.format(c=there)
+            told.append(f"{content!r} in {here[0]}!{layouts.letters(here[2])}{here[1]}")
+            if content is None:
+                f.cells.pop(here, None)
+            else:
+                f.cells[here] = content
+        yield from said(f"{f.name}: {', '.join(told)}", f, like)
+
+
+def pages() -> Iterator[str]:
+    """The sheets as the page draws them, and the file for machines that run tests."""
+    yield from page(changed(plain(COARSE), CELLS["three faults, of three kinds"]))
+    f = layouts.french(COARSE)
+    f.cells |= {f.where[layouts.DEPTH, 30]: 1e-6, ("Données", 4, 3): 9000}
+    yield from page(f)
+    f = changed(plain(COARSE), {f"F{row}": 300 for row in range(10, 60, 2)})
+    f.name = "larger than what is drawn"
+    for i in range(1, 421):
+        f.put("Sheet1", f"A{80 + i}", f"note {i}")
+    for i in range(10, 60):
+        f.cells["Sheet1", 1 + i % 3, i] = True
+    f.cells["Sheet1", 300, 50] = "=1+1"
+    f.put("More", "A1", "nothing to see")
+    yield from page(f, {("Sheet1", 300, 50): 3.0})
+
+
+def page(f: Foreign, wrong: writers.Values | None = None) -> Iterator[str]:
+    """Which rows and columns the page draws, what it marks there; then the other file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "book.xlsx")
+        if wrong:
+            values = writers.calculated(f, Path(folder, "plain.xlsx"))
+            writers.with_xlsxwriter(f, path, values, wrong)
+        else:
+            writers.with_openpyxl(f, path)
+        found = check(path)
+    record = check_record(found) | {"file": "FILE"}
+    yield f"* {f.name}"
+    text = show.html(record, found.differences, found.calculation)
+    sheets = text.partition('<h2 id="sheets">')[2].partition("<h2")[0]
+    rows: list[str] = []
+    for line in sheets.split("\n"):
+        if line.startswith("<h3>"):
+            yield f"  sheet {line[4:-5]}"
+        elif line.startswith("<thead>"):
+            yield f"  columns {' '.join(re.findall(r'col.>([^<]*)<', line))}"
+        elif line.startswith("<tr>"):
+            cells = re.findall(r"<td(.*?)</td>", line) if "origin" in line else []
+            rows += re.findall(r'row">([^<]*)', line)
+            yield from (f"  row {rows[-1]}:{_shown(cell)}" for cell in cells[:8])
+        elif line == "</table>":
+            yield f"  rows {' '.join(rows)}"
+            rows.clear()
+    yield from (f"  {_shown(line)}" for line in show.junit(record, KINDS).split("\n"))
+
+
+def named() -> Iterator[str]:
+    """What --map says where two sheets could be meant; names that are no numbers."""
+    f = layouts.no_words(COARSE)
+    for (_, row, column), content in list(f.cells.items()):
+        f.cells["Second", row, column] = content
+    yield from said("--map of one of two sheets", f, given={"depth": "AC510:AC561"})
+    yield from said("--map of the second sheet", f, given={"depth": "Second!AC510:AC561"})
+    f = layouts.named_constants(BETA_5)
+    f.names |= {"far": "1E999", "tau": "0.0000000002", "half": "0.5", "Rt_": "3.6E9"}
+    yield from said("names beside", f, layouts.named_constants(BETA_5))
+
+
+def stored() -> Iterator[str]:
+    """Values stored that the formulas do not give."""
+    for title, wrong in STORED.items():
+        f = changed(plain(COARSE), {"J1": "=B1>0", "J2": '="a"&"b"', "J3": "=D60*2", "J4": "=1/0"})
+        f.name = "plain, with results"
+        values, last = Values(f), layouts.place("Sheet1", "F60")
+        values.update({last: values[last]})
+        told = {
+            layouts.place("Sheet1", cell): by(float(values[layouts.place("Sheet1", cell)]))
+            if callable(by) else by
+            for cell, by in wrong.items()
+        }  # fmt: skip
+        yield from said(title, f, f, values, told)
+
+
+STORED: dict[str, Mapping[str, Any]] = {
+    "numbers of a block": {f"D{row}": 1e-6 for row in range(20, 30)},
+    "a number, two apart": {"D20": 1e-6, "D22": 1e-6},
+    "a text, a truth value, an error": {"D20": "abc", "D30": True, "D40": "#N/A"},
+    "other truth values, texts, errors": {"J1": False, "J2": "ac", "J4": 3.0},
+    "a result beside": {"J3": 1e-5},
+    "an input that follows": {"B3": 5e-11},
+    "last digits of a depth": {"D30": lambda v: v * (1 + 6e-15)},
+    "more than the last digits of a depth": {"D60": lambda v: v * (1 + 4e-14)},
+    "what rounding leaves of a velocity": {"F60": lambda v: v + 2e-12},
+    "more than rounding leaves of a velocity": {"F60": lambda v: v + 2e-11},
+    "rounding in what reads a column": {"J3": lambda v: v * (1 + 5e-14)},
+}
+"""Cells, and what is stored in them or made of what they give."""
 
 
 def in_full() -> Iterator[str]:
@@ -453,7 +695,40 @@ CHANGES: dict[str, Callable[[Foreign], object]] = {
     "a sheet more": lambda f: f.put("Notes", "A1", "hello"),
     "the sheet renamed": lambda f: setattr(
         f, "cells", {("Tabelle1", r, c): v for (_, r, c), v in f.cells.items()}),
+    "a row inserted among the others": lambda f: layouts.moved(
+        f, lambda r: r + (r >= 30), lambda c: c),
+    "rows and columns inserted, and an input": lambda f: layouts.moved(
+        changed(f, {"E2": 4e-10}), lambda r: r + 2 * (r >= 3) + (r >= 40), lambda c: c + (c >= 3)),
+    "functions in small letters": lambda f: changed(f, {"B3": "=4/3*pi()*B1^3*B2"}),
+    "other numbers, names and lengths of formulas": lambda f: changed(
+        f, {"B3": "=5/3*PI()*B1^3*B2", "B4": "=2*B1+0", "B6": "=SUM(H1)*H2"}),
+    "formulas that read other cells, blank ones, too": lambda f: changed(
+        f, {"B4": "=2*B2", "B6": "=H1*H3", "E20": force().format(r=20).replace("$B$3", "B$3")}),
+    "a reference to a blank cell that is now a note": lambda f: changed(f, {"J9": "note"}),
+    "texts over texts, a truth value over a number": lambda f: changed(
+        f, {"A1": "radius", "A2": "rho", "D1": "rho", "E2": True}),
+    "two blocks elsewhere": lambda f: changed(
+        f, {"G1": None, "H1": None, "G2": None, "H2": None, "J4": "beta", "K4": 5, "J5": "Yt",
+            "K5": 7e8, "B6": "=K4*K5", "D1": None, "E1": None, "J8": "target density", "K8": 7850,
+            "E9:": "=(0.5*$K$8*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"}),
+    "lines of notes": lambda f: changed(f, {f"M{row}": f"line {row}" for row in (3, 4, 5, 9, 11)}),
+    "more than is shown": lambda f: changed(f, {f"D{row}": row * 1e-7 for row in range(10, 60, 3)}),
+    "every number of a column typed": lambda f: changed(
+        f, {f"A{row}": (row - 8) * 5e-10 for row in range(9, 61)}),
+    "last digits alone": lambda f: changed(f, {"B2": 8900 * (1 + 3e-15)}),
 }  # fmt: skip
+
+NOTES = (("one", "two", "three", "four", "five"), ("zero", "two", "three and more", "five", "six"),
+         ("one",), ("alpha", "one", "beta", "three", "four", "five", "gamma"))  # fmt: skip
+"""Notes below each other, as they become others."""
+
+
+def noted(notes: tuple[str, ...], numbers: int) -> Foreign:
+    """A plain sheet, and another with notes beside numbers."""
+    f = plain(COARSE, 5)
+    for row, note in enumerate(notes, 3):
+        f.line("Notes", f"B{row}", note, *(row * n for n in range(1, numbers + 1)), f"({note})")
+    return f
 
 
 def compared() -> Iterator[str]:
@@ -466,6 +741,38 @@ def compared() -> Iterator[str]:
             record = diff_record(diff(before, writers.with_openpyxl(f, Path(folder, "b.xlsx"))))
             yield f"* {title} -> {int(not record['clean'])}"
             yield from (f"  {_shown(line)}" for line in show.text(record).split("\n")[1:] if line)
+
+
+def compared_otherwise() -> Iterator[str]:
+    """The other way round, with the options that it has, and where lines come and go."""
+    with tempfile.TemporaryDirectory() as folder:
+
+        def file(name: str, f: Foreign) -> Path:
+            return writers.with_openpyxl(f, Path(folder, f"{name}.xlsx"))
+
+        def told(title: str, found: Comparison) -> Iterator[str]:
+            record = diff_record(found)
+            yield f"* {title} -> {int(not record['clean'])}"
+            yield from (f"  {_shown(line)}" for line in show.text(record).split("\n")[1:] if line)
+
+        before = file("a", plain(COARSE))
+        for title in ("notes beside", "a sheet more", "a row inserted among the others",
+                      "a column inserted", "two blocks elsewhere", "an input"):  # fmt: skip
+            f = plain(COARSE)
+            CHANGES[title](f)
+            yield from told(f"{title}, the other way round", diff(file("b", f), before))
+        after = file("b", changed(plain(COARSE), {"B5": 500.02, "D60": "=D59+C60*$E$2*1.0001"}))
+        for title, allowed in (
+            ("4 digits", Tolerance(digits=4)), ("5 digits", Tolerance(digits=5)),
+            ("1e-4 of the number", Tolerance(relative=1e-4)),
+            ("1e12 ulp", Tolerance(ulp=10**12)), ("1e9 ulp", Tolerance(ulp=10**9)),
+        ):  # fmt: skip
+            yield from told(f"within {title}", diff(before, after, allowed=allowed))
+        yield from told("values only", diff(before, after, values_only=True))
+        for i, notes in enumerate(NOTES):
+            for numbers in (0, 2):
+                old, new = file("a", noted(notes, numbers)), file("b", noted(NOTES[i - 1], numbers))
+                yield from told(f"notes {i + 1} with {numbers} numbers", diff(old, new))
 
 
 # ---- what is said of them
@@ -624,8 +931,13 @@ SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
     "numbers without formulas": digits,
     "several tables, and none": several,
     "what is where, as the user says": given,
+    "spoiled at random": at_random,
+    "names, and several sheets": named,
+    "stored values": stored,
     "in full": in_full,
+    "the page, and the file for machines that run tests": pages,
     "two workbooks side by side": compared,
+    "two workbooks, in other ways": compared_otherwise,
 }
 
 

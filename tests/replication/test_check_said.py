@@ -1,4 +1,4 @@
-"""What `coldspray check` says of some two hundred workbooks, against the file that a person read.
+"""What `coldspray check` says of some five hundred workbooks, against the file that a person read.
 
 `python tests/foreign/said.py > tests/foreign/said.txt` makes that file anew.
 """

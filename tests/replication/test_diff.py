@@ -1,7 +1,6 @@
 """`coldspray diff`: what changed between two workbooks, and what only moved."""
 
 import json
-import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -36,56 +35,12 @@ def kinds(record: dict) -> list[tuple[str, str, int]]:
     return [(d["kind"], d["cell"], d["count"]) for d in record["differences"]]
 
 
-def test_equal_workbooks_are_equal(diff: Diff) -> None:
-    status, record = diff(lambda f: None)
-    assert (status, record["differences"], record["first"]) == (0, [], None)
-
-
-def test_a_changed_input_comes_first(diff: Diff) -> None:
-    status, record = diff(lambda f: f.put("Sheet1", "B5", 450.0))
-    assert status == 1
-    first = record["first"]
-    assert (first["cell"], first["kind"]) == ("B5", "value")
-    assert (first["expected"], first["found"]) == (500.0, 450.0)
-    assert set(record["summary"]) == {"value"}
-    assert len(record["differences"]) < 10
-
-
-def test_last_digits_come_last_and_are_said_to_be_so(diff: Diff) -> None:
-    def change(f: Foreign) -> None:
-        f.put("Sheet1", "B1", 1.1e-5 * (1 + 4e-15))
-        f.put("Sheet1", "B5", 450.0)
-
-    status, record = diff(change)
-    assert (status, record["first"]["cell"]) == (1, "B5")
-    last = ["only the last digits" in d["explanation"] for d in record["differences"]]
-    assert last == sorted(last)
-    assert record["differences"][last.index(True)]["cell"] == "B1"
-    assert f"{sum(last)} of them, listed last, in the last digits only" in record["verdict"]
-
-
 def test_a_formula_and_what_follows_are_told_apart(diff: Diff) -> None:
     def change(f: Foreign) -> None:
         f.put("Sheet1", "D60", "=D59+C60*0.0000000003")
 
-    status, record = diff(change)
-    assert status == 1
-    assert (record["first"]["kind"], record["first"]["cell"]) == ("formula", "D60")
-    assert record["summary"]["formula"] == 1
+    assert set(diff(change)[1]["summary"]) == {"formula", "value"}
     assert set(diff(change, "--values-only")[1]["summary"]) == {"value"}
-
-
-def test_a_value_over_a_formula_is_a_formula_gone(diff: Diff) -> None:
-    _, record = diff(lambda f: f.put("Sheet1", "A20", 2.4e-9))
-    assert kinds(record) == [("formula", "A20", 1)]
-    assert record["first"]["expected"] == "=A19+0.0000000002"
-
-
-def test_inserted_rows_are_one_move(diff: Diff) -> None:
-    status, record = diff(lambda f: moved(f, lambda r: r + 3 * (r >= 7), lambda c: c))
-    assert status == 1
-    assert kinds(record) == [("moved", "A10", 1)]
-    assert (record["first"]["expected"], record["first"]["found"]) == ("7 to 139", "10 to 142")
 
 
 def test_an_inserted_column_is_one_move_and_what_it_holds(diff: Diff) -> None:
@@ -98,21 +53,6 @@ def test_an_inserted_column_is_one_move_and_what_it_holds(diff: Diff) -> None:
     assert sorted(kinds(record)) == [("added", "D8", 132), ("moved", "E1", 1)]
 
 
-def test_a_block_put_elsewhere_is_one_move(diff: Diff) -> None:
-    def put(f: Foreign) -> None:
-        cells = {}
-        for (s, r, c), v in f.cells.items():
-            cells[(s, r + 1, c + 9) if r <= 6 else (s, r, c)] = v
-        f.cells = {}
-        for p, v in cells.items():
-            text = re.sub(r"\$?B\$?([1-6])\b", lambda m: f"$K${int(m[1]) + 1}", str(v))
-            f.cells[p] = text if isinstance(v, str) else v
-
-    _, record = diff(put)
-    assert {d["kind"] for d in record["differences"]} == {"moved"}
-    assert len(record["differences"]) <= 2
-
-
 def test_a_reference_that_stays_behind_is_a_changed_formula(diff: Diff) -> None:
     def half(f: Foreign) -> None:
         moved(f, lambda r: r + 3 * (r >= 7), lambda c: c)
@@ -120,14 +60,6 @@ def test_a_reference_that_stays_behind_is_a_changed_formula(diff: Diff) -> None:
 
     _, record = diff(half)
     assert ("formula", "F50", 1) in kinds(record)
-
-
-def test_sheets_come_go_and_change_their_names(diff: Diff) -> None:
-    def rename(f: Foreign) -> None:
-        f.cells = {("Tabelle1", r, c): v for (_, r, c), v in f.cells.items()}
-
-    assert kinds(diff(rename)[1]) == [("moved", "A1", 1)]
-    assert kinds(diff(lambda f: f.put("Notes", "A1", "hello"))[1]) == [("added", "A1", 1)]
 
 
 def test_sheets_that_are_gone_renamed_and_new_come_in_their_order(
