@@ -8,7 +8,7 @@ Plain numbers need neither NumPy nor Numba. All in SI units.
 
 import inspect
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 Model = Callable[..., Any]
-Inputs = Mapping[str, Any]
+Numbers = Mapping[str, Any]
+"""The inputs by name, each a float or an array of doubles."""
 
 LEAST, GREATEST = 1e-40, 1e40
 """Inputs within these form nothing that `check_range` refuses: six at most make a product."""
@@ -54,8 +55,8 @@ of range, where the model by itself would give NaN.
 """
 
 
-def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
-    """The model for whatever holds numbers; it gives NaN where an input exceeds what it may."""
+def _for_anything(model: Model, explain: Model | None = None) -> Model:
+    """The model for whatever holds numbers; where it gives NaN, `explain` tells why."""
     signature = inspect.signature(model)
     count = len(signature.parameters)
 
@@ -67,30 +68,28 @@ def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
+        compute = partial(_computed, model, many, explain)
         return _contained(compute, bound.arguments, (float,))
 
-    def compute(**inputs: Any) -> Any:
-        numbers = _numbers(inputs)
-        if _alone(numbers):
-            _check(numbers)
-            result = model(*numbers.values())
-        else:
-            (result,) = _each(ufunc(model), numbers, (float,))
-        _require_finite(result, numbers, bounded, at_most)
-        return result
+    def many(numbers: Numbers) -> Any:
+        return _each(ufunc(model), numbers, list(numbers.values()), (float,))[0]
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
 
 
+def _exceeds(name: str, most: str) -> Model:
+    return lambda case, _: InputError(name, f"is {case[name]!r}: it must not exceed {most}")
+
+
 normalized_depth = _for_anything(depth.normalized_depth)
 final_depth = _for_anything(depth.final_depth)
 depth_at_velocity = _for_anything(
-    depth.depth_at_velocity, "at_velocity", at_most="the impact velocity"
+    depth.depth_at_velocity, _exceeds("at_velocity", "the impact velocity")
 )
-velocity_at_depth = _for_anything(depth.velocity_at_depth, "at_depth", at_most="the final depth")
-time_to_depth = _for_anything(motion.time_to_depth, "at_depth", at_most="the final depth")
-stop_time = _for_anything(motion.stop_time, "stop_velocity", at_most="the impact velocity")
+velocity_at_depth = _for_anything(depth.velocity_at_depth, _exceeds("at_depth", "the final depth"))
+time_to_depth = _for_anything(motion.time_to_depth, _exceeds("at_depth", "the final depth"))
+stop_time = _for_anything(motion.stop_time, _exceeds("stop_velocity", "the impact velocity"))
 
 
 def history(
@@ -118,7 +117,7 @@ def history(
         results = ufunc(motion.history)(time, *case)
         if results[0].dot(results[0]) < math.inf:  # none is NaN
             return results
-    return _contained(_histories, inputs, (float, float))
+    return _contained(partial(_computed, _state, _histories, None), inputs, (float, float))
 
 
 def _are_plain(values: Sequence[Any]) -> bool:
@@ -129,31 +128,22 @@ def _are_plain(values: Sequence[Any]) -> bool:
     return True
 
 
-def _histories(**inputs: Any) -> Any:
-    numbers = _numbers(inputs)
-    cases = numbers.copy()
-    time = cases.pop("time")  # one that cannot be is told by its result, which is NaN
-    if _alone(numbers):
-        _check(cases)
-        depth, speed = [0.0], [0.0]
-        motion.history([time], **cases, depth=depth, speed=speed)
-        results = depth[0], speed[0]
-    else:
-        results = _by_cases(time, cases)
-    _require_finite(results[0], numbers)
-    return results
+def _state(time: float, *case: float) -> tuple[float, float]:
+    depth, speed = [0.0], [0.0]
+    motion.history([time], *case, depth=depth, speed=speed)  # type: ignore[misc]
+    return depth[0], speed[0]
 
 
-def _by_cases(time: Any, cases: dict[str, Any]) -> Any:
+def _histories(numbers: Numbers) -> Any:
     """Histories; the times along an axis in which no case changes share the case's series."""
     import numpy as np
 
-    times = np.asarray(time)
-    many = [name for name, value in cases.items() if type(value) is not float]
-    if times.ndim and all(cases[name].shape[-1] == 1 for name in many):
-        cases.update({name: cases[name][..., 0] for name in many})
-        return _each(ufunc(motion.history), cases, (float, float), 20, times)
-    results = _each(ufunc(motion.history), cases, (float, float), 20, times[..., None])
+    time, *cases = map(np.asarray, numbers.values())
+    function, kinds = ufunc(motion.history), (float, float)
+    if time.ndim and all(case.shape[-1:] in ((), (1,)) for case in cases):
+        cases = [case[..., 0] if case.ndim else case for case in cases]
+        return _each(function, numbers, [time, *cases], kinds, 20, time.shape[-1:])
+    results = _each(function, numbers, [time[..., None], *cases], kinds, 20, (1,))
     return tuple(result[..., 0] for result in results)
 
 
@@ -179,26 +169,14 @@ def run_many(
     """
     inputs = locals()
     sheet.check_scheme(inputs.pop("scheme"))
-    return _contained(partial(_sheets, scheme == "centered"), inputs, (float, int))
+    centered = scheme == "centered"
+    alone, many = partial(sheet.last_row, centered=centered), partial(_sheets, centered)
+    return _contained(partial(_computed, alone, many, _no_sheet), inputs, (float, int))
 
 
-def _sheets(centered: bool, **inputs: Any) -> Any:
-    cases = _numbers(inputs)
-    if _alone(cases):
-        _check(cases)
-        depths, steps = sheet.last_row(**cases, centered=centered)
-        if steps <= sheet.MAX_STEPS and depths < math.inf:
-            return depths, steps
-    else:
-        depths, steps = _each(partial(ufunc(_sheet), centered), cases, (float, int), 20)
-    for index, case in _elements(steps > sheet.MAX_STEPS, cases):
-        problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
-        raise ElementError("the sheet", problem, index)
-    import numpy as np
-
-    for index, case in _elements(np.isinf(depths), cases):
-        raise ElementError("the sheet", sheet.out_of_range(case["step"]), index)
-    return depths, steps
+def _sheets(centered: bool, numbers: Numbers) -> Any:
+    function = partial(ufunc(_sheet), centered)
+    return _each(function, numbers, list(numbers.values()), (float, int), 20)
 
 
 def _sheet(
@@ -216,15 +194,33 @@ def _sheet(
     depth[0], steps[0] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered)
 
 
+def _no_sheet(case: Mapping[str, float], depth: float) -> InputError:
+    if math.isnan(depth):
+        problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
+    else:
+        problem = sheet.out_of_range(case["step"])
+    return InputError("the sheet", problem)
+
+
 # What is refused
 
 
-def _numbers(inputs: Inputs) -> dict[str, Any]:
-    return {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -> Any:
+    """What the plain model gives for numbers, or the compiled one for arrays, if nothing is amiss.
 
-
-def _alone(numbers: Inputs) -> bool:
-    return set(map(type, numbers.values())) == {float}
+    Of a case and a result that is not finite, `explain` makes the error to raise.
+    """
+    numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+    if set(map(type, numbers.values())) == {float}:
+        _check(numbers, numbers.values())
+        results = plain(*numbers.values())
+    else:
+        results = many(numbers)
+    first = results[0] if isinstance(results, tuple) else results
+    finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
+    if not finite:
+        _refuse(numbers, first, explain)
+    return results
 
 
 def _real(name: str, value: Any) -> Any:
@@ -240,140 +236,98 @@ def _real(name: str, value: Any) -> Any:
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 
-def _check(inputs: Inputs, part: Inputs | None = None) -> None:
-    """Refuse the first element of the inputs that cannot be, if any is in this part of them."""
-    for name, value in (inputs if part is None else part).items():
+def _check(numbers: Numbers, parts: Iterable[Any]) -> None:
+    """Refuse the first element of all that cannot be, if any is in these parts of the inputs."""
+    for name, value in zip(numbers, parts, strict=True):
         least = 0.0 if name in MAY_BE_ZERO else LEAST
         if type(value) is float:
-            safe = least <= value <= GREATEST
+            sure = least <= value <= GREATEST
         else:
-            safe = not value.size or (least <= value.min() and value.max() <= GREATEST)
-        if not safe:
-            return _refuse_first(inputs)
-    return None
+            sure = least <= value.min(initial=1.0) and value.max(initial=1.0) <= GREATEST
+        if not sure:
+            _refuse(numbers)
+            return
 
 
-def _refuse_first(inputs: Inputs) -> None:
-    """Refuse the first element that `check` or `check_range` refuses."""
+def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -> None:
+    """Raise for the first element that `check` or `check_range` refuses, or without a result."""
     import numpy as np
 
-    arrays = np.broadcast_arrays(*inputs.values())
-    doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays], axis=0)
+    arrays = np.broadcast_arrays(result, *numbers.values())
+    doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays[1:]], axis=0)
     formed = inspect.signature(check_range).parameters
-    for index, case in _elements(doubtful, inputs):
+    for place in np.argwhere(doubtful | ~np.isfinite(arrays[0])).tolist():
+        index = tuple(place)
+        value, *values = (float(array[index]) for array in arrays)
+        case = dict(zip(numbers, values, strict=True))
         try:
             check(case)
-            check_range(**{name: value for name, value in case.items() if name in formed})
+            check_range(**{name: number for name, number in case.items() if name in formed})
+            if not math.isfinite(value):
+                beyond = InputError("the result", "is beyond what a double can hold")
+                raise explain(case, value) if explain else beyond
         except InputError as error:
-            raise _placed(error, index, inputs, case) from None
-
-
-def _require_finite(result: Any, inputs: Inputs, bounded: str = "", at_most: str = "") -> None:
-    if math.isfinite(result) if isinstance(result, float) else result.max(initial=0.0) < math.inf:
-        return
-    import numpy as np
-
-    _refuse_first(inputs)
-    for index, case in _elements(~np.isfinite(result), inputs):
-        error = InputError("the result", "is beyond what a double can hold")
-        if bounded:
-            error = InputError(bounded, f"is {case[bounded]!r}: it must not exceed {at_most}")
-        raise _placed(error, index, inputs, case)
-
-
-def _elements(bad: Any, inputs: Inputs) -> Iterator[tuple[tuple[int, ...], dict[str, float]]]:
-    import numpy as np
-
-    places = np.argwhere(bad)
-    if len(places):
-        arrays = {name: np.broadcast_to(value, np.shape(bad)) for name, value in inputs.items()}
-    for place in places:
-        index = tuple(map(int, place))
-        yield index, {name: float(array[index]) for name, array in arrays.items()}
-
-
-def _placed(
-    error: InputError, index: tuple[int, ...], inputs: Inputs, case: Mapping[str, float]
-) -> ElementError:
-    """The error of an element: of an input, with its index in that input's own array."""
-    import numpy as np
-
-    if error.name not in inputs:
-        values = ", ".join(f"{name} {value!r}" for name, value in case.items())
-        return ElementError(error.name, f"{error.problem} (with {values})", index)
-    shape = np.shape(inputs[error.name])
-    own = index[len(index) - len(shape) :]
-    own = tuple(i if size > 1 else 0 for i, size in zip(own, shape, strict=True))
-    return ElementError(error.name, error.problem, own)
+            name, problem = error.name, error.problem
+            if name in numbers:  # its place in that input's own array
+                shape = np.shape(numbers[name])
+                own = zip(index[len(index) - len(shape) :], shape, strict=True)
+                index = tuple(i if size > 1 else 0 for i, size in own)
+            elif name != "the sheet":
+                problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
+            raise ElementError(name, problem, index) from None
 
 
 # How it is computed
 
 
 def _each(
-    function: Model, inputs: Inputs, kinds: Sequence[type], weight: int = 1, time: Any = None
+    function: Model,
+    numbers: Numbers,
+    values: Sequence[Any],
+    kinds: Sequence[type],
+    weight: int = 1,
+    own: tuple[int, ...] = (),
 ) -> tuple[Any, ...]:
-    """What a ufunc gives for inputs that broadcast, checked: an array of each kind.
+    """What a ufunc gives for values that broadcast, checked: an array of each kind.
 
-    Where there are times, their last axis is the ufunc's own. Many cases are shared out to all
-    cores; by `weight`, a case is so many times the work of a final depth.
+    The first of them and the results have the ufunc's `own` axis last. Many cases are shared out
+    to all cores; by `weight`, a case is so many times the work of a final depth. Python's threads
+    do it, as compiled code lets go of its lock: Numba's may not be started from two threads at
+    once, and do not outlive a fork. Only the main thread starts any, so that work is not shared
+    out twice where a caller, such as dask, has threads.
     """
-    import numpy as np
-
-    times = [] if time is None else [time]
-    shape, own = (), ()
-    if times:
-        shape, own = time.shape[:-1], time.shape[-1:]
-    if not _alone(inputs):
-        shape = np.broadcast_shapes(shape, *map(np.shape, inputs.values()))
-    pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
-    if pieces < 2:
-        _check(inputs)
-        found = function(*times, *inputs.values())
-        return found if len(kinds) > 1 else (found,)
-    axis = shape.index(max(shape))
-    times = [np.broadcast_to(time, shape + own) for time in times]
-    views = {name: np.broadcast_to(value, shape) for name, value in inputs.items()}
-    results = tuple(np.empty(shape + own, kind) for kind in kinds)
-
-    def work(first: int, last: int) -> None:
-        cut = (slice(None),) * axis + (slice(first, last),)
-        part = {name: view[cut] for name, view in views.items()}
-        _check(inputs, part)
-        out = tuple(result[cut] for result in results)
-        function(*(time[cut] for time in times), *part.values(), out=out)
-
-    _by_cores(shape[axis], pieces, work)
-    return results
-
-
-def _by_cores(count: int, pieces: int, work: Callable[[int, int], None]) -> None:
-    """Have the work done from 0 to count, in so many pieces, by all cores.
-
-    By threads of Python's own, as compiled code lets go of its lock: Numba's may not be started
-    from two threads at once, and do not outlive a fork. Only the main thread starts any, so that
-    work is not shared out twice where a caller, such as dask, has threads.
-    """
-    import os
     import threading
     from concurrent.futures import ThreadPoolExecutor
-    from itertools import count as counter
 
     import numba
+    import numpy as np
 
-    cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
-    helpers = cores - 1 if threading.current_thread() is threading.main_thread() else 0
-    numbers = counter()  # shared: whoever is free takes the next piece
+    shapes = [np.shape(value) for value in values]
+    shape = np.broadcast_shapes(shapes[0][: len(shapes[0]) - len(own)], *shapes[1:])
+    pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
+    if pieces < 2:
+        _check(numbers, values)
+        results = function(*values)
+        return results if len(kinds) > 1 else (results,)
+    axis = shape.index(max(shape))
+    views = [np.broadcast_to(values[0], shape + own)]
+    views += [np.broadcast_to(value, shape) for value in values[1:]]
+    results = tuple(np.empty(shape + own, kind) for kind in kinds)
 
-    def take() -> None:
-        while (k := next(numbers)) < pieces:
-            work(count * k // pieces, count * (k + 1) // pieces)
+    def work(piece: int) -> None:
+        ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
+        cut = (slice(None),) * axis + (slice(*ends),)
+        parts = [view[cut] for view in views]
+        _check(numbers, parts)
+        function(*parts, out=tuple(result[cut] for result in results))
 
-    with ThreadPoolExecutor(max(helpers, 1)) as pool:
-        taken = [pool.submit(take) for _ in range(helpers)]
-        take()
-    for part in taken:
-        part.result()
+    cores = numba.config.NUMBA_NUM_THREADS
+    if cores == 1 or threading.current_thread() is not threading.main_thread():
+        list(map(work, range(pieces)))
+    else:
+        with ThreadPoolExecutor(cores) as pool:
+            list(pool.map(work, range(pieces)))
+    return results
 
 
 @cache
@@ -438,7 +392,7 @@ def _make_known() -> None:
 # Containers of other libraries, told by their types, so that none is imported before it is in use
 
 
-def _contained(compute: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     """What `compute` gives for numbers and arrays, for containers too: a result for each type."""
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
@@ -460,7 +414,7 @@ def _library(kinds: frozenset[type]) -> str:
     return next((library for library in ("pint", *_CONTAINED) if library in found), "")
 
 
-def _xarray(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import xarray
 
     # The result has neither the units nor the name of an input.
@@ -469,7 +423,7 @@ def _xarray(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     return results.rename(None) if len(types) == 1 else tuple(r.rename(None) for r in results)
 
 
-def _dask(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import dask.array
 
     da: Any = dask.array  # it is partly typed
@@ -482,7 +436,7 @@ def _dask(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     return da.apply_gufunc(within, shapes, *arrays, output_dtypes=kinds)
 
 
-def _pandas(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import pandas as pd
 
     series = [value for value in inputs.values() if isinstance(value, pd.Series)]

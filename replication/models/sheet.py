@@ -119,7 +119,7 @@ def last_row(
 ) -> tuple[float, int]:
     """Depth x [m] and number of the sheet's last row; SI units.
 
-    `MAX_STEPS` + 1 is the number where more than `MAX_STEPS` rows are needed.
+    Where more than `MAX_STEPS` rows are needed, NaN and `MAX_STEPS` + 1.
 
     >>> depth, steps = last_row(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10, 1.0, False)
     >>> f"{depth * 1e6:.2f}", steps
@@ -128,10 +128,12 @@ def last_row(
     dt, v_stop, v, x, k = step, stop_velocity, velocity, 0.0, 0
     R, M, rho_t, R_t = radius, particle_mass(radius, particle_density), target_density, resistance
     if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
-        return x, MAX_STEPS + 1
-    while v >= v_stop and k <= MAX_STEPS:
+        return math.nan, MAX_STEPS + 1
+    while v >= v_stop:
         k += 1
         x, _, v = _next_row(k, x, v, dt, centered, R, M, rho_t, R_t)
+        if k > MAX_STEPS:
+            return math.nan, k
     return x, k
 
 
