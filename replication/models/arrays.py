@@ -72,7 +72,7 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
         return _contained(compute, bound.arguments, (float,))
 
     def many(numbers: Numbers) -> Any:
-        return _each(ufunc(model), numbers, list(numbers.values()), (float,))[0]
+        return _each(ufunc(model), numbers, *numbers.values())
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
@@ -139,11 +139,10 @@ def _histories(numbers: Numbers) -> Any:
     import numpy as np
 
     time, *cases = map(np.asarray, numbers.values())
-    function, kinds = ufunc(motion.history), (float, float)
     if time.ndim and all(case.shape[-1:] in ((), (1,)) for case in cases):
         cases = [case[..., 0] if case.ndim else case for case in cases]
-        return _each(function, numbers, [time, *cases], kinds, 20, time.shape[-1:])
-    results = _each(function, numbers, [time[..., None], *cases], kinds, 20, (1,))
+        return _each(ufunc(motion.history), numbers, time, *cases)
+    results = _each(ufunc(motion.history), numbers, time[..., None], *cases)
     return tuple(result[..., 0] for result in results)
 
 
@@ -170,17 +169,15 @@ def run_many(
     inputs = locals()
     sheet.check_scheme(inputs.pop("scheme"))
     centered = scheme == "centered"
-    alone, many = partial(sheet.last_row, centered=centered), partial(_sheets, centered)
+
+    def many(numbers: Numbers) -> Any:
+        return _each(ufunc(_sheet), numbers, *numbers.values(), centered)
+
+    alone = partial(sheet.last_row, centered=centered)
     return _contained(partial(_computed, alone, many, _no_sheet), inputs, (float, int))
 
 
-def _sheets(centered: bool, numbers: Numbers) -> Any:
-    function = partial(ufunc(_sheet), centered)
-    return _each(function, numbers, list(numbers.values()), (float, int), 20)
-
-
 def _sheet(
-    centered: bool,
     V: float,
     R: float,
     rho_p: float,
@@ -188,6 +185,7 @@ def _sheet(
     R_t: float,
     dt: float,
     v_stop: float,
+    centered: bool,
     depth: Any,
     steps: Any,
 ) -> None:
@@ -238,7 +236,7 @@ def _real(name: str, value: Any) -> Any:
 
 def _check(numbers: Numbers, parts: Iterable[Any]) -> None:
     """Refuse the first element of all that cannot be, if any is in these parts of the inputs."""
-    for name, value in zip(numbers, parts, strict=True):
+    for name, value in zip(numbers, parts, strict=False):  # whether centered comes last
         least = 0.0 if name in MAY_BE_ZERO else LEAST
         if type(value) is float:
             sure = least <= value <= GREATEST
@@ -280,21 +278,13 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 # How it is computed
 
 
-def _each(
-    function: Model,
-    numbers: Numbers,
-    values: Sequence[Any],
-    kinds: Sequence[type],
-    weight: int = 1,
-    own: tuple[int, ...] = (),
-) -> tuple[Any, ...]:
-    """What a ufunc gives for values that broadcast, checked: an array of each kind.
+def _each(function: "np.ufunc", numbers: Numbers, *values: Any) -> Any:
+    """What a ufunc gives for values that broadcast, checked; an axis of its own is that of times.
 
-    The first of them and the results have the ufunc's `own` axis last. Many cases are shared out
-    to all cores; by `weight`, a case is so many times the work of a final depth. Python's threads
-    do it, as compiled code lets go of its lock: Numba's may not be started from two threads at
-    once, and do not outlive a fork. Only the main thread starts any, so that work is not shared
-    out twice where a caller, such as dask, has threads.
+    Many cases are shared out to all cores. Python's threads do it, as compiled code lets go of its
+    lock: Numba's may not be started from two threads at once, and do not outlive a fork. Only the
+    main thread starts any, so that work is not shared out twice where a caller, such as dask, has
+    threads.
     """
     import threading
     from concurrent.futures import ThreadPoolExecutor
@@ -302,17 +292,18 @@ def _each(
     import numba
     import numpy as np
 
-    shapes = [np.shape(value) for value in values]
-    shape = np.broadcast_shapes(shapes[0][: len(shapes[0]) - len(own)], *shapes[1:])
+    first, *others = map(np.shape, values)
+    own = first[-1:] if "n" in (function.signature or "") else ()
+    shape = np.broadcast_shapes(first[: len(first) - len(own)], *others)
+    weight = 20 if function.signature else 1  # sheets and histories, in final depths
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2:
         _check(numbers, values)
-        results = function(*values)
-        return results if len(kinds) > 1 else (results,)
+        return function(*values)
     axis = shape.index(max(shape))
     views = [np.broadcast_to(values[0], shape + own)]
     views += [np.broadcast_to(value, shape) for value in values[1:]]
-    results = tuple(np.empty(shape + own, kind) for kind in kinds)
+    results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
 
     def work(piece: int) -> None:
         ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
@@ -327,7 +318,7 @@ def _each(
     else:
         with ThreadPoolExecutor(cores) as pool:
             list(pool.map(work, range(pieces)))
-    return results
+    return tuple(results) if len(results) > 1 else results[0]
 
 
 @cache
@@ -354,7 +345,7 @@ def ufunc(model: Model) -> "np.ufunc":
         types, shapes = [f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"
         compiler = partial(numba.guvectorize, [tuple(types)], shapes)
     elif model is _sheet:
-        types, shapes = [b1, *[f8] * 7, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"
+        types, shapes = [*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"
         compiler = partial(numba.guvectorize, [tuple(types)], shapes)
     else:
         types = [f8] * len(inspect.signature(model).parameters)
@@ -437,37 +428,31 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
 
 
 def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
+    import numpy as np
     import pandas as pd
 
-    series = [value for value in inputs.values() if isinstance(value, pd.Series)]
-    if not series:
+    index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
+    if index is None:
         raise TypeError("a DataFrame is no input: give its columns, each a Series")
-    index = series[0].index
+    numbers = dict(inputs)
+    for name, value in inputs.items():
+        if isinstance(value, pd.Series):
+            for label in index.symmetric_difference(value.index, sort=False)[:1]:
+                raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
+            numbers[name] = value.reindex(index).to_numpy()
+        elif np.shape(value) not in ((), (len(index),)):
+            raise TypeError(
+                f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
+                f"give a Series, a single number, or an array of {len(index)}"
+            )
     try:
-        results = within(*(_matched(name, value, index) for name, value in inputs.items()))
+        results = within(*numbers.values())
     except ElementError as error:
         labels = tuple(index[place] for place in error.index)
         raise ElementError(error.name, error.problem, labels) from None
     if len(types) == 1:
         return pd.Series(results, index)
     return tuple(pd.Series(result, index) for result in results)
-
-
-def _matched(name: str, value: Any, index: Any) -> Any:
-    """An input beside a Series with these labels: its numbers in their order."""
-    import numpy as np
-    import pandas as pd
-
-    if isinstance(value, pd.Series):
-        for label in index.symmetric_difference(value.index, sort=False)[:1]:
-            raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
-        return value.reindex(index).to_numpy()
-    if np.shape(value) not in ((), (len(index),)):
-        raise TypeError(
-            f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
-            f"give a Series, a single number, or an array of {len(index)}"
-        )
-    return value
 
 
 _CONTAINED: dict[str, Model] = {"xarray": _xarray, "dask": _dask, "pandas": _pandas}

@@ -16,8 +16,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from replication.models.impact import Impact, particle_mass
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
     import pandas as pd
 
 SCHEMES = ("published", "centered")
@@ -63,18 +61,11 @@ class Sheet:
         """X/R [1]."""
         return self.final_depth / self.impact.radius
 
-    def arrays(self) -> "dict[str, npt.NDArray[np.float64]]":
-        """The columns, each of shape (steps + 1,), float64; the blank of row 0 is NaN."""
-        import numpy as np
-
-        table = np.array(self.rows, dtype=np.float64)
-        return dict(zip(Row._fields, table.T, strict=True))
-
     def frame(self) -> "pd.DataFrame":
-        """The sheet as a pandas frame, indexed by row number, columns in SI units."""
+        """The sheet as a pandas frame, by row number, float64, in SI; the blank of row 0 is NaN."""
         import pandas as pd
 
-        return pd.DataFrame(self.arrays()).rename_axis("row")
+        return pd.DataFrame(self.rows, dtype="float64").rename_axis("row")
 
 
 def run(impact: Impact, scheme: str = "published") -> Sheet:
