@@ -25,8 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
-    from replication.sweep.output import check_output, provenance, write
-    from replication.sweep.read import read_plan
+    from replication.sweep import check_output, provenance, read_plan, write
 
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")

@@ -30,22 +30,6 @@ PIECE = 25_000
 millisecond, ten times what it takes to hand out, and what it needs stays in the core's cache."""
 
 
-class ElementError(InputError):
-    """An `InputError` of one element of an array.
-
-    >>> print(ElementError("radius", "is 0.0: it must not be", (0, 3)))
-    radius[0, 3] is 0.0: it must not be
-    """
-
-    def __init__(self, name: str, problem: str, index: tuple[Any, ...]) -> None:
-        super().__init__(name, problem)
-        self.args, self.index = (name, problem, index), index
-
-    def __str__(self) -> str:
-        place = f"[{', '.join(map(str, self.index))}]" if self.index else ""
-        return f"{self.name}{place} {self.problem}"
-
-
 _DOC = """
 
 Inputs are in SI units: velocity V [m/s], radius R [m], densities rho_p and rho_t [kg/m^3], target
@@ -117,7 +101,11 @@ def history(
         results = ufunc(motion.history)(time, *case)
         if results[0].dot(results[0]) < math.inf:  # none is NaN
             return results
-    return _contained(partial(_computed, _state, _histories, None), inputs, (float, float))
+
+    def alone(time: float, *case: float) -> Any:
+        return _filled(motion.history, [time], *case)
+
+    return _contained(partial(_computed, alone, _histories, None), inputs, (float, float))
 
 
 def _are_plain(values: Sequence[Any]) -> bool:
@@ -128,10 +116,11 @@ def _are_plain(values: Sequence[Any]) -> bool:
     return True
 
 
-def _state(time: float, *case: float) -> tuple[float, float]:
-    depth, speed = [0.0], [0.0]
-    motion.history([time], *case, depth=depth, speed=speed)  # type: ignore[misc]
-    return depth[0], speed[0]
+def _filled(model: Model, *values: Any) -> tuple[float, Any]:
+    """Depth and the other result of a model that fills them in."""
+    depth, other = [0.0], [0]
+    model(*values, depth, other)
+    return depth[0], other[0]
 
 
 def _histories(numbers: Numbers) -> Any:
@@ -170,34 +159,13 @@ def run_many(
     sheet.check_scheme(inputs.pop("scheme"))
     centered = scheme == "centered"
 
-    def many(numbers: Numbers) -> Any:
-        return _each(ufunc(_sheet), numbers, *numbers.values(), centered)
-
-    alone = partial(sheet.last_row, centered=centered)
-    return _contained(partial(_computed, alone, many, _no_sheet), inputs, (float, int))
-
-
-def _sheet(
-    V: float,
-    R: float,
-    rho_p: float,
-    rho_t: float,
-    R_t: float,
-    dt: float,
-    v_stop: float,
-    centered: bool,
-    depth: Any,
-    steps: Any,
-) -> None:
-    depth[0], steps[0] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered)
-
-
-def _no_sheet(case: Mapping[str, float], depth: float) -> InputError:
-    if math.isnan(depth):
-        problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
-    else:
-        problem = sheet.out_of_range(case["step"])
-    return InputError("the sheet", problem)
+    compute = partial(
+        _computed,
+        lambda *case: _filled(sheet.last_row, *case, centered),
+        lambda numbers: _each(ufunc(sheet.last_row), numbers, *numbers.values(), centered),
+        lambda case, depth: sheet.refusal(depth, case["step"], case["stop_velocity"]),
+    )
+    return _contained(compute, inputs, (float, int))
 
 
 # What is refused
@@ -272,7 +240,7 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
                 index = tuple(i if size > 1 else 0 for i, size in own)
             elif name != "the sheet":
                 problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
-            raise ElementError(name, problem, index) from None
+            raise InputError(name, problem, index) from None
 
 
 # How it is computed
@@ -341,11 +309,12 @@ def ufunc(model: Model) -> "np.ufunc":
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    if model is motion.history:
-        types, shapes = [f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"
-        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
-    elif model is _sheet:
-        types, shapes = [*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"
+    gufuncs: dict[Model, tuple[list[Any], str]] = {
+        motion.history: ([f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"),
+        sheet.last_row: ([*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"),
+    }
+    if model in gufuncs:
+        types, shapes = gufuncs[model]
         compiler = partial(numba.guvectorize, [tuple(types)], shapes)
     else:
         types = [f8] * len(inspect.signature(model).parameters)
@@ -447,9 +416,9 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
             )
     try:
         results = within(*numbers.values())
-    except ElementError as error:
+    except InputError as error:
         labels = tuple(index[place] for place in error.index)
-        raise ElementError(error.name, error.problem, labels) from None
+        raise InputError(error.name, error.problem, labels) from None
     if len(types) == 1:
         return pd.Series(results, index)
     return tuple(pd.Series(result, index) for result in results)

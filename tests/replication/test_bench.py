@@ -20,10 +20,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from replication.bench import run
-from replication.bench.cases import CASES, MEASURES, Case, build
-from replication.bench.methods import OURS, SOLVERS, STEPS, Task, _taylor, tasks
-from replication.bench.report import figure, texts
-from replication.bench.run import DIGITS, Point, bench, error_for, mark_front, met, ratio, trial
+from replication.bench.methods import (
+    CASES,
+    MEASURES,
+    OURS,
+    SOLVERS,
+    STEPS,
+    Case,
+    Task,
+    _taylor,
+    build,
+    tasks,
+)
+from replication.bench.run import (
+    DIGITS,
+    Point,
+    bench,
+    error_for,
+    figure,
+    mark_front,
+    met,
+    ratio,
+    texts,
+    trial,
+)
 
 Command = Callable[..., tuple[int, str, str]]
 
@@ -136,7 +156,7 @@ FINE = {
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.cases.POINTS", 11)
+    monkeypatch.setattr("replication.bench.methods.POINTS", 11)
     case = build(name)
     # Nothing smooths the kink of Eq. 13 at x = R for a method that steps over it.
     kink = 1.0 if name == "beta-5" else 1e4
