@@ -34,20 +34,11 @@ BLOCK = 65_536
 MAX_CASES = 10**12
 """Days of work for many cores."""
 
-RESULTS: dict[str, tuple[str, type]] = {
-    "depth": ("m", float),
-    "normalized_depth": ("1", float),
-    "beyond_radius": ("", bool),
-    "stop_time": ("s", float),
-    "sheet_depth": ("m", float),
-    "sheet_steps": ("1", int),
-}
-"""What is computed of a case: SI unit (none for a truth value) and type."""
+RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
+"""What is computed of every case, with its SI unit: none for a truth value."""
 
-EXTRAS = ("stop_time", "sheet_depth", "sheet_steps")
-"""Results that are computed only if asked for."""
-
-Block = dict[str, npt.NDArray[Any]]
+EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
+"""What is computed only if asked for."""
 
 
 # Where the values of an input come from
@@ -151,12 +142,11 @@ class Plan:
         return -(-self.count // BLOCK)
 
     @property
-    def columns(self) -> dict[str, tuple[str, type]]:
-        """The columns in order, inputs then results: SI unit (none for a truth value) and type."""
-        names = [name for name in INPUTS if name in self.sources or name == "resistance"]
-        results = ("depth", "normalized_depth", "beyond_radius", *self.extras)
-        inputs: dict[str, tuple[str, type]] = {name: (INPUTS[name], float) for name in names}
-        return inputs | {name: RESULTS[name] for name in results}
+    def columns(self) -> dict[str, str]:
+        """The columns in order, inputs then results: SI unit (none for a truth value)."""
+        given = {*self.sources, "resistance"}
+        inputs = {name: unit for name, unit in INPUTS.items() if name in given}
+        return inputs | RESULTS | {name: EXTRAS[name] for name in self.extras}
 
     def inputs(self, first: int, count: int) -> dict[str, Floats]:
         """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
@@ -179,7 +169,7 @@ class Plan:
         return {name: values[name] for name in INPUTS if name in values}
 
 
-def compute(plan: Plan, first: int, count: int) -> Block:
+def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     """Inputs and results of `count` cases from number `first` on, by column, SI.
 
     The inputs, depth at rest [m], normalized_depth [1], beyond_radius, and the extras of the plan,
@@ -229,7 +219,7 @@ def read_plan(path: Path) -> Plan:
         settings = document.get("sweep", {})
         with place("[sweep]"):
             _check_keys(settings, [], ["case", "samples", "seed", "outputs"])
-            base, extras = _base(settings), _extras(settings)
+            base, extras = _settings(settings)
         with place("[inputs]"):
             sources = _sources(document["inputs"], base)
         with place("[sweep]"):
@@ -237,19 +227,17 @@ def read_plan(path: Path) -> Plan:
         return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
 
 
-def _base(settings: Table) -> dict[str, float]:
+def _settings(settings: Table) -> tuple[dict[str, float], tuple[str, ...]]:
+    """The inputs of the case that fills in, and the results that are asked for."""
     name = settings.get("case", "beta-5")
     if not isinstance(name, str) or name not in CASES:
         raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
-    values = {key: getattr(CASES[name], key) for key in INPUTS}
-    return {key: value for key, value in values.items() if value is not None}
-
-
-def _extras(settings: Table) -> tuple[str, ...]:
     asked = settings.get("outputs", [])
     if not isinstance(asked, list) or any(name not in EXTRAS for name in asked):
         raise ValueError(f"outputs must be a list of {', '.join(EXTRAS)}; the depths always come")
-    return tuple(name for name in EXTRAS if name in asked)
+    values = {key: getattr(CASES[name], key) for key in INPUTS}
+    base = {key: value for key, value in values.items() if value is not None}
+    return base, tuple(name for name in EXTRAS if name in asked)
 
 
 def _sampling(settings: Table, sources: dict[str, Source]) -> tuple[int, int]:
@@ -323,22 +311,19 @@ def _spaced(name: str, table: Table) -> Grid:
     return Grid(count, bounds, at)
 
 
-NORMAL, UNIFORM = ("normal", "lognormal"), ("uniform", "loguniform")
-
-
 def _random(name: str, table: Table) -> Random:
-    kind = table["distribution"]
-    if kind not in (*NORMAL, *UNIFORM):
-        raise ValueError(f"there is no {kind!r}: choose one of {', '.join((*NORMAL, *UNIFORM))}")
+    kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
+    if kind not in kinds:
+        raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
     shape, ends = ["mean", "deviation"], ["lower", "upper"]
-    wanted, allowed = (shape, ends) if kind in NORMAL else (ends, [])
+    wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
     _check_keys(table, ["distribution", *wanted], allowed)
     numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
     for key in ("deviation", *(wanted if kind.startswith("log") else [])):
         if numbers.get(key, 1.0) <= 0:
             raise ValueError(f"{key} must be greater than zero")
     log, law = kind.startswith("log"), None
-    if kind in NORMAL:
+    if wanted == shape:
         mean, deviation = (numbers[key] for key in shape)
         if log:  # those given are of the quantity, before it is truncated
             ratio = deviation / mean
@@ -430,8 +415,6 @@ def _read(value: Any, unit: str) -> float:
 
 # The file of the cases: whole under its name, or not there
 
-SUFFIXES = (".csv", ".parquet")
-
 
 def write(
     plan: Plan,
@@ -449,14 +432,12 @@ def write(
     import pyarrow as pa
 
     check_output(path)
-    types = {float: pa.float64(), bool: pa.bool_(), int: pa.int64()}
-    schema = pa.schema(
-        [
-            pa.field(name, types[kind], nullable=False, metadata={"unit": unit})
-            for name, (unit, kind) in plan.columns.items()
-        ],
-        metadata=provenance(plan),
-    )
+    types = {"beyond_radius": pa.bool_(), "sheet_steps": pa.int64()}
+    fields = [
+        pa.field(name, types.get(name, pa.float64()), nullable=False, metadata={"unit": unit})
+        for name, unit in plan.columns.items()
+    ]
+    schema = pa.schema(fields, metadata=provenance(plan))
     numbers = range(plan.blocks) if numbers is None else numbers
     with (
         draft_of(path) as draft,
@@ -479,7 +460,7 @@ def _writer(suffix: str, file: Any, plan: Plan, schema: Any) -> Any:
     if suffix == ".csv":
         from pyarrow.csv import CSVWriter, WriteOptions
 
-        heads = (f"{name} [{unit}]" if unit else name for name, (unit, _) in plan.columns.items())
+        heads = (f"{name} [{unit}]" if unit else name for name, unit in plan.columns.items())
         file.write(f"{','.join(heads)}\n".encode("ascii"))
         return CSVWriter(file, schema, write_options=WriteOptions(include_header=False))
     from pyarrow.parquet import ParquetWriter
@@ -494,10 +475,7 @@ def provenance(plan: Plan) -> dict[str, str]:
 
 
 def check_output(path: Path) -> None:
-    """Whether a sweep can be written there, before it is computed.
-
-    Raises ValueError for another suffix, OSError as `check_target` does.
-    """
-    if path.suffix.lower() not in SUFFIXES:
-        raise ValueError(f"{path}: the file's name must end in {' or '.join(SUFFIXES)}")
+    """Raise ValueError for another suffix, OSError as `check_target` does, before any work."""
+    if path.suffix.lower() not in (".csv", ".parquet"):
+        raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
     check_target(path)

@@ -148,7 +148,7 @@ def tasks(case: Case) -> Iterator[Task]:
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
     for scheme, (step, setting) in product(SCHEMES, steps):
         name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
-        yield Task(name, setting, "depth", partial(_final_depth, impact, scheme), stop)
+        yield Task(name, setting, "depth", partial(_rows, impact, scheme, None), stop)
         yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
         sheets = partial(arrays.run_many, step=step, stop_velocity=stop, scheme=scheme)
         yield _many(name, setting, case, sheets, 1001, stop)
@@ -173,23 +173,19 @@ def tasks(case: Case) -> Iterator[Task]:
         yield Task(name, setting, "depth", alone, stop, compiled=True)
 
 
-def _many(
-    method: str, setting: str, case: Case, work: Function, count: int, stop: float = 0.0
-) -> Task:
+def _many(name: str, setting: str, case: Case, work: Function, count: int, stop: float = 0) -> Task:
     work = partial(work, *case.columns(count))
-    return Task(f"{method}, many", setting, "depth", work, stop, count, compiled=True)
-
-
-def _final_depth(impact: Impact, scheme: str) -> float:
-    return run(impact, scheme).final_depth
+    return Task(f"{name}, many", setting, "depth", work, stop, count, compiled=True)
 
 
 def _rows(impact: Impact, scheme: str, times: Any) -> Any:
-    """The depths of the rows between which the times lie, on straight lines.
+    """The depths of the rows between which the times lie, on straight lines; or the last.
 
     The scheme's x stands in the middle of its row, half a step before the time printed there.
     """
     rows = run(impact, scheme).rows
+    if times is None:
+        return rows[-1].depth
     middles = [0.0, *(row.time - impact.step / 2 for row in rows[1:])]
     return np.interp(times, middles, [row.depth for row in rows])
 

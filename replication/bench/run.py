@@ -230,8 +230,7 @@ def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
         asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
         where: dict[str, list[str]] = {}
         for case, ratio in zip(cases, row, strict=True):
-            best = ratio["fastest"]
-            method = best.rpartition(", ")[0] if best else "none of these"
+            method = (ratio["fastest"] or "none of these, ").rpartition(", ")[0]
             where.setdefault(method, []).append(case["name"])
         if len(where) == 1:
             return asked, next(iter(where))
@@ -272,14 +271,13 @@ _STYLE: Any = {
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
-    "savefig.dpi": 150,
     "svg.hashsalt": "coldspray",  # or the ids in the file would differ from run to run
     "svg.fonttype": "none",
 }
 
 
-def figure(case: dict[str, Any], kind: str) -> bytes:
-    """The figure of one case as "svg" or "png": error against time a case, on a white ground."""
+def figure(case: dict[str, Any]) -> bytes:
+    """The figure of one case as SVG: error against time a case, on a white ground."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
     from matplotlib.rcsetup import cycler
@@ -301,8 +299,8 @@ def figure(case: dict[str, Any], kind: str) -> bytes:
             panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)
         labels = panel.get_legend_handles_labels()
         drawn.legend(*labels, loc="outside lower center", ncols=5, frameon=False)
-        # A date would make the same numbers another file; only SVG would have one.
-        drawn.savefig(content, format=kind, metadata={"Date": None} if kind == "svg" else None)
+        # A date would make the same numbers another file.
+        drawn.savefig(content, format="svg", metadata={"Date": None})
     return content.getvalue()
 
 
@@ -311,20 +309,13 @@ def _line(points: Iterable[Point]) -> Any:
     return np.array([(p["best"], met(p)) for p in points], float).reshape(-1, 2).T
 
 
-KINDS = ("svg", "png")
-
-
 def write(folder: Path, record: dict[str, Any]) -> None:
-    """Write text, JSON, CSV and a figure a case into a folder, made if needed.
-
-    All or none. Raises OSError.
-    """
-    drawn = product(record["cases"], KINDS)
-    figures = {f"bench-{case['name']}.{kind}": figure(case, kind) for case, kind in drawn}
+    """Write text, JSON, CSV and a figure a case into a folder, all or none. Raises OSError."""
+    figures = {f"bench-{case['name']}.svg": figure(case) for case in record["cases"]}
     write_folder(folder, {name: text.encode() for name, text in texts(record).items()} | figures)
 
 
 def check(folder: Path, cases: Iterable[str]) -> None:
     """Raise OSError where the files of a run on these cases cannot be written."""
-    figures = [f"bench-{case}.{kind}" for case in cases for kind in KINDS]
+    figures = [f"bench-{case}.svg" for case in cases]
     check_folder(folder, ["bench.txt", "bench.json", "bench.csv", *figures])

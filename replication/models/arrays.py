@@ -10,13 +10,10 @@ import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from replication.models import crater, depth, frank_zook, impact, motion, sheet, stream
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
-
-if TYPE_CHECKING:
-    import numpy as np
 
 Model = Callable[..., Any]
 Numbers = Mapping[str, Any]
@@ -52,12 +49,12 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, many, explain)
         return _contained(compute, bound.arguments, (float,))
 
     def many(numbers: Numbers) -> Any:
         return _each(ufunc(model), numbers, *numbers.values())
 
+    compute = partial(_computed, model, many, explain)
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
 
@@ -101,11 +98,8 @@ def history(
         results = ufunc(motion.history)(time, *case)
         if results[0].dot(results[0]) < math.inf:  # none is NaN
             return results
-
-    def alone(time: float, *case: float) -> Any:
-        return _filled(motion.history, [time], *case)
-
-    return _contained(partial(_computed, alone, _histories, None), inputs, (float, float))
+    compute = partial(_computed, partial(_filled, motion.history), _histories, None)
+    return _contained(compute, inputs, (float, float))
 
 
 def _are_plain(values: Sequence[Any]) -> bool:
@@ -116,10 +110,10 @@ def _are_plain(values: Sequence[Any]) -> bool:
     return True
 
 
-def _filled(model: Model, *values: Any) -> tuple[float, Any]:
-    """Depth and the other result of a model that fills them in."""
+def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
+    """Depth and the other result of a model that fills them in; of a history, at the first."""
     depth, other = [0.0], [0]
-    model(*values, depth, other)
+    model([first] if model is motion.history else first, *values, depth, other)
     return depth[0], other[0]
 
 
@@ -158,7 +152,6 @@ def run_many(
     inputs = locals()
     sheet.check_scheme(inputs.pop("scheme"))
     centered = scheme == "centered"
-
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
@@ -246,7 +239,7 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 # How it is computed
 
 
-def _each(function: "np.ufunc", numbers: Numbers, *values: Any) -> Any:
+def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     """What a ufunc gives for values that broadcast, checked; an axis of its own is that of times.
 
     Many cases are shared out to all cores. Python's threads do it, as compiled code lets go of its
@@ -290,7 +283,7 @@ def _each(function: "np.ufunc", numbers: Numbers, *values: Any) -> Any:
 
 
 @cache
-def ufunc(model: Model) -> "np.ufunc":
+def ufunc(model: Model) -> Any:
     """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
 
     Compiled once and kept on disk; where no folder can be written to, compiled in every process.
@@ -327,8 +320,7 @@ def ufunc(model: Model) -> "np.ufunc":
     except (RuntimeError, OSError):
         compiled = compiler(cache=False)(root)
     _KEPT.append(compiled)
-    made: np.ufunc = compiled.ufunc
-    return made
+    return compiled.ufunc
 
 
 _KEPT: list[Any] = []
@@ -388,8 +380,8 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
 
     da: Any = dask.array  # it is partly typed
     arrays = [da.asarray(value) for value in inputs.values()]
-    axes = [range(array.ndim)[::-1] for array in arrays]  # counted from the last, as they broadcast
-    pairs = [item for pair in zip(arrays, axes, strict=True) for item in pair]
+    # Axes are counted from the last, as they broadcast.
+    pairs = [item for array in arrays for item in (array, range(array.ndim)[::-1])]
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
     shapes = f"{','.join(['()'] * len(arrays))}->{','.join(['()'] * len(types))}"
     kinds = list(types) if len(types) > 1 else types[0]

@@ -28,6 +28,7 @@ from replication.models.motion import stop_time
 from replication.models.sheet import run
 from replication.sweep import (
     BLOCK,
+    EXTRAS,
     LEAST_SHARE,
     RESULTS,
     Grid,
@@ -227,7 +228,7 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             impact = Impact(**{name: float(cases[name][k]) for name in given})
             sheet, others = run(impact), {n: x for n, x in impact.motion.items() if n != "radius"}
             ratio = normalized_depth(**others)
-            assert {name: cases[name][k] for name in (*RESULTS, "resistance")} == {
+            assert {name: cases[name][k] for name in (*RESULTS, *EXTRAS, "resistance")} == {
                 "depth": final_depth(**impact.motion),
                 "normalized_depth": ratio,
                 "beyond_radius": ratio > 1,
