@@ -49,12 +49,12 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
+        compute = partial(_computed, model, many, explain)
         return _contained(compute, bound.arguments, (float,))
 
     def many(numbers: Numbers) -> Any:
         return _each(ufunc(model), numbers, *numbers.values())
 
-    compute = partial(_computed, model, many, explain)
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
 
