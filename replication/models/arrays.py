@@ -247,10 +247,6 @@ def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     main thread starts any, so that work is not shared out twice where a caller, such as dask, has
     threads.
     """
-    import threading
-    from concurrent.futures import ThreadPoolExecutor
-
-    import numba
     import numpy as np
 
     first, *others = map(np.shape, values)
@@ -261,6 +257,11 @@ def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     if pieces < 2:
         _check(numbers, values)
         return function(*values)
+    import threading
+    from concurrent.futures import ThreadPoolExecutor
+
+    import numba
+
     axis = shape.index(max(shape))
     views = [np.broadcast_to(values[0], shape + own)]
     views += [np.broadcast_to(value, shape) for value in values[1:]]
