@@ -25,9 +25,8 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.bench.cases import CASES
-    from replication.bench.report import check, texts, write
-    from replication.bench.run import bench
+    from replication.bench.methods import CASES
+    from replication.bench.run import bench, check, texts, write
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:

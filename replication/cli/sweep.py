@@ -25,8 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
-    from replication.sweep.output import check_output, provenance, write
-    from replication.sweep.read import read_plan
+    from replication.sweep import check_output, provenance, read_plan, write
 
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")
@@ -38,8 +37,7 @@ def run(options: argparse.Namespace) -> int:
     with bar, place(name_of(options.plan)):
         write(plan, output, done=bar.update)
     if options.json:
-        units = {name: unit for name, (unit, _) in plan.columns.items()}
-        record = {"file": str(output), "cases": plan.count, "columns": units}
+        record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
         shared.print_json(record | provenance(plan))
     elif not options.quiet:
         print(f"Written: {name_of(output)} ({plan.count} cases)")

@@ -8,18 +8,16 @@ Plain numbers need neither NumPy nor Numba. All in SI units.
 
 import inspect
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from replication.models import crater, depth, frank_zook, impact, motion, sheet, stream
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
-if TYPE_CHECKING:
-    import numpy as np
-
 Model = Callable[..., Any]
-Inputs = Mapping[str, Any]
+Numbers = Mapping[str, Any]
+"""The inputs by name, each a float or an array of doubles."""
 
 LEAST, GREATEST = 1e-40, 1e40
 """Inputs within these form nothing that `check_range` refuses: six at most make a product."""
@@ -27,22 +25,6 @@ LEAST, GREATEST = 1e-40, 1e40
 PIECE = 25_000
 """Of two pieces of so many elements and more, each core takes some in turn. A piece takes a
 millisecond, ten times what it takes to hand out, and what it needs stays in the core's cache."""
-
-
-class ElementError(InputError):
-    """An `InputError` of one element of an array.
-
-    >>> print(ElementError("radius", "is 0.0: it must not be", (0, 3)))
-    radius[0, 3] is 0.0: it must not be
-    """
-
-    def __init__(self, name: str, problem: str, index: tuple[Any, ...]) -> None:
-        super().__init__(name, problem)
-        self.args, self.index = (name, problem, index), index
-
-    def __str__(self) -> str:
-        place = f"[{', '.join(map(str, self.index))}]" if self.index else ""
-        return f"{self.name}{place} {self.problem}"
 
 
 _DOC = """
@@ -54,8 +36,8 @@ of range, where the model by itself would give NaN.
 """
 
 
-def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
-    """The model for whatever holds numbers; it gives NaN where an input exceeds what it may."""
+def _for_anything(model: Model, explain: Model | None = None) -> Model:
+    """The model for whatever holds numbers; where it gives NaN, `explain` tells why."""
     signature = inspect.signature(model)
     count = len(signature.parameters)
 
@@ -67,30 +49,28 @@ def _for_anything(model: Model, bounded: str = "", at_most: str = "") -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
+        compute = partial(_computed, model, many, explain)
         return _contained(compute, bound.arguments, (float,))
 
-    def compute(**inputs: Any) -> Any:
-        numbers = _numbers(inputs)
-        if _alone(numbers):
-            _check(numbers)
-            result = model(*numbers.values())
-        else:
-            (result,) = _each(ufunc(model), numbers, (float,))
-        _require_finite(result, numbers, bounded, at_most)
-        return result
+    def many(numbers: Numbers) -> Any:
+        return _each(ufunc(model), numbers, *numbers.values())
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
 
 
+def _exceeds(name: str, most: str) -> Model:
+    return lambda case, _: InputError(name, f"is {case[name]!r}: it must not exceed {most}")
+
+
 normalized_depth = _for_anything(depth.normalized_depth)
 final_depth = _for_anything(depth.final_depth)
 depth_at_velocity = _for_anything(
-    depth.depth_at_velocity, "at_velocity", at_most="the impact velocity"
+    depth.depth_at_velocity, _exceeds("at_velocity", "the impact velocity")
 )
-velocity_at_depth = _for_anything(depth.velocity_at_depth, "at_depth", at_most="the final depth")
-time_to_depth = _for_anything(motion.time_to_depth, "at_depth", at_most="the final depth")
-stop_time = _for_anything(motion.stop_time, "stop_velocity", at_most="the impact velocity")
+velocity_at_depth = _for_anything(depth.velocity_at_depth, _exceeds("at_depth", "the final depth"))
+time_to_depth = _for_anything(motion.time_to_depth, _exceeds("at_depth", "the final depth"))
+stop_time = _for_anything(motion.stop_time, _exceeds("stop_velocity", "the impact velocity"))
 
 
 def history(
@@ -118,7 +98,8 @@ def history(
         results = ufunc(motion.history)(time, *case)
         if results[0].dot(results[0]) < math.inf:  # none is NaN
             return results
-    return _contained(_histories, inputs, (float, float))
+    compute = partial(_computed, partial(_filled, motion.history), _histories, None)
+    return _contained(compute, inputs, (float, float))
 
 
 def _are_plain(values: Sequence[Any]) -> bool:
@@ -129,31 +110,22 @@ def _are_plain(values: Sequence[Any]) -> bool:
     return True
 
 
-def _histories(**inputs: Any) -> Any:
-    numbers = _numbers(inputs)
-    cases = numbers.copy()
-    time = cases.pop("time")  # one that cannot be is told by its result, which is NaN
-    if _alone(numbers):
-        _check(cases)
-        depth, speed = [0.0], [0.0]
-        motion.history([time], **cases, depth=depth, speed=speed)
-        results = depth[0], speed[0]
-    else:
-        results = _by_cases(time, cases)
-    _require_finite(results[0], numbers)
-    return results
+def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
+    """Depth and the other result of a model that fills them in; of a history, at the first."""
+    depth, other = [0.0], [0]
+    model([first] if model is motion.history else first, *values, depth, other)
+    return depth[0], other[0]
 
 
-def _by_cases(time: Any, cases: dict[str, Any]) -> Any:
+def _histories(numbers: Numbers) -> Any:
     """Histories; the times along an axis in which no case changes share the case's series."""
     import numpy as np
 
-    times = np.asarray(time)
-    many = [name for name, value in cases.items() if type(value) is not float]
-    if times.ndim and all(cases[name].shape[-1] == 1 for name in many):
-        cases.update({name: cases[name][..., 0] for name in many})
-        return _each(ufunc(motion.history), cases, (float, float), 20, times)
-    results = _each(ufunc(motion.history), cases, (float, float), 20, times[..., None])
+    time, *cases = map(np.asarray, numbers.values())
+    if time.ndim and all(case.shape[-1:] in ((), (1,)) for case in cases):
+        cases = [case[..., 0] if case.ndim else case for case in cases]
+        return _each(ufunc(motion.history), numbers, time, *cases)
+    results = _each(ufunc(motion.history), numbers, time[..., None], *cases)
     return tuple(result[..., 0] for result in results)
 
 
@@ -179,52 +151,35 @@ def run_many(
     """
     inputs = locals()
     sheet.check_scheme(inputs.pop("scheme"))
-    return _contained(partial(_sheets, scheme == "centered"), inputs, (float, int))
-
-
-def _sheets(centered: bool, **inputs: Any) -> Any:
-    cases = _numbers(inputs)
-    if _alone(cases):
-        _check(cases)
-        depths, steps = sheet.last_row(**cases, centered=centered)
-        if steps <= sheet.MAX_STEPS and depths < math.inf:
-            return depths, steps
-    else:
-        depths, steps = _each(partial(ufunc(_sheet), centered), cases, (float, int), 20)
-    for index, case in _elements(steps > sheet.MAX_STEPS, cases):
-        problem = sheet.too_many_steps(case["step"], case["stop_velocity"])
-        raise ElementError("the sheet", problem, index)
-    import numpy as np
-
-    for index, case in _elements(np.isinf(depths), cases):
-        raise ElementError("the sheet", sheet.out_of_range(case["step"]), index)
-    return depths, steps
-
-
-def _sheet(
-    centered: bool,
-    V: float,
-    R: float,
-    rho_p: float,
-    rho_t: float,
-    R_t: float,
-    dt: float,
-    v_stop: float,
-    depth: Any,
-    steps: Any,
-) -> None:
-    depth[0], steps[0] = sheet.last_row(V, R, rho_p, rho_t, R_t, dt, v_stop, centered)
+    centered = scheme == "centered"
+    compute = partial(
+        _computed,
+        lambda *case: _filled(sheet.last_row, *case, centered),
+        lambda numbers: _each(ufunc(sheet.last_row), numbers, *numbers.values(), centered),
+        lambda case, depth: sheet.refusal(depth, case["step"], case["stop_velocity"]),
+    )
+    return _contained(compute, inputs, (float, int))
 
 
 # What is refused
 
 
-def _numbers(inputs: Inputs) -> dict[str, Any]:
-    return {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -> Any:
+    """What the plain model gives for numbers, or the compiled one for arrays, if nothing is amiss.
 
-
-def _alone(numbers: Inputs) -> bool:
-    return set(map(type, numbers.values())) == {float}
+    Of a case and a result that is not finite, `explain` makes the error to raise.
+    """
+    numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+    if set(map(type, numbers.values())) == {float}:
+        _check(numbers, numbers.values())
+        results = plain(*numbers.values())
+    else:
+        results = many(numbers)
+    first = results[0] if isinstance(results, tuple) else results
+    finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
+    if not finite:
+        _refuse(numbers, first, explain)
+    return results
 
 
 def _real(name: str, value: Any) -> Any:
@@ -240,144 +195,96 @@ def _real(name: str, value: Any) -> Any:
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 
-def _check(inputs: Inputs, part: Inputs | None = None) -> None:
-    """Refuse the first element of the inputs that cannot be, if any is in this part of them."""
-    for name, value in (inputs if part is None else part).items():
+def _check(numbers: Numbers, parts: Iterable[Any]) -> None:
+    """Refuse the first element of all that cannot be, if any is in these parts of the inputs."""
+    for name, value in zip(numbers, parts, strict=False):  # whether centered comes last
         least = 0.0 if name in MAY_BE_ZERO else LEAST
         if type(value) is float:
-            safe = least <= value <= GREATEST
+            sure = least <= value <= GREATEST
         else:
-            safe = not value.size or (least <= value.min() and value.max() <= GREATEST)
-        if not safe:
-            return _refuse_first(inputs)
-    return None
+            sure = least <= value.min(initial=1.0) and value.max(initial=1.0) <= GREATEST
+        if not sure:
+            _refuse(numbers)
+            return
 
 
-def _refuse_first(inputs: Inputs) -> None:
-    """Refuse the first element that `check` or `check_range` refuses."""
+def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -> None:
+    """Raise for the first element that `check` or `check_range` refuses, or without a result."""
     import numpy as np
 
-    arrays = np.broadcast_arrays(*inputs.values())
-    doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays], axis=0)
+    arrays = np.broadcast_arrays(result, *numbers.values())
+    doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays[1:]], axis=0)
     formed = inspect.signature(check_range).parameters
-    for index, case in _elements(doubtful, inputs):
+    for place in np.argwhere(doubtful | ~np.isfinite(arrays[0])).tolist():
+        index = tuple(place)
+        value, *values = (float(array[index]) for array in arrays)
+        case = dict(zip(numbers, values, strict=True))
         try:
             check(case)
-            check_range(**{name: value for name, value in case.items() if name in formed})
+            check_range(**{name: number for name, number in case.items() if name in formed})
+            if not math.isfinite(value):
+                beyond = InputError("the result", "is beyond what a double can hold")
+                raise explain(case, value) if explain else beyond
         except InputError as error:
-            raise _placed(error, index, inputs, case) from None
-
-
-def _require_finite(result: Any, inputs: Inputs, bounded: str = "", at_most: str = "") -> None:
-    if math.isfinite(result) if isinstance(result, float) else result.max(initial=0.0) < math.inf:
-        return
-    import numpy as np
-
-    _refuse_first(inputs)
-    for index, case in _elements(~np.isfinite(result), inputs):
-        error = InputError("the result", "is beyond what a double can hold")
-        if bounded:
-            error = InputError(bounded, f"is {case[bounded]!r}: it must not exceed {at_most}")
-        raise _placed(error, index, inputs, case)
-
-
-def _elements(bad: Any, inputs: Inputs) -> Iterator[tuple[tuple[int, ...], dict[str, float]]]:
-    import numpy as np
-
-    places = np.argwhere(bad)
-    if len(places):
-        arrays = {name: np.broadcast_to(value, np.shape(bad)) for name, value in inputs.items()}
-    for place in places:
-        index = tuple(map(int, place))
-        yield index, {name: float(array[index]) for name, array in arrays.items()}
-
-
-def _placed(
-    error: InputError, index: tuple[int, ...], inputs: Inputs, case: Mapping[str, float]
-) -> ElementError:
-    """The error of an element: of an input, with its index in that input's own array."""
-    import numpy as np
-
-    if error.name not in inputs:
-        values = ", ".join(f"{name} {value!r}" for name, value in case.items())
-        return ElementError(error.name, f"{error.problem} (with {values})", index)
-    shape = np.shape(inputs[error.name])
-    own = index[len(index) - len(shape) :]
-    own = tuple(i if size > 1 else 0 for i, size in zip(own, shape, strict=True))
-    return ElementError(error.name, error.problem, own)
+            name, problem = error.name, error.problem
+            if name in numbers:  # its place in that input's own array
+                shape = np.shape(numbers[name])
+                own = zip(index[len(index) - len(shape) :], shape, strict=True)
+                index = tuple(i if size > 1 else 0 for i, size in own)
+            elif name != "the sheet":
+                problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
+            raise InputError(name, problem, index) from None
 
 
 # How it is computed
 
 
-def _each(
-    function: Model, inputs: Inputs, kinds: Sequence[type], weight: int = 1, time: Any = None
-) -> tuple[Any, ...]:
-    """What a ufunc gives for inputs that broadcast, checked: an array of each kind.
+def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
+    """What a ufunc gives for values that broadcast, checked; an axis of its own is that of times.
 
-    Where there are times, their last axis is the ufunc's own. Many cases are shared out to all
-    cores; by `weight`, a case is so many times the work of a final depth.
+    Many cases are shared out to all cores. Python's threads do it, as compiled code lets go of its
+    lock: Numba's may not be started from two threads at once, and do not outlive a fork. Only the
+    main thread starts any, so that work is not shared out twice where a caller, such as dask, has
+    threads.
     """
     import numpy as np
 
-    times = [] if time is None else [time]
-    shape, own = (), ()
-    if times:
-        shape, own = time.shape[:-1], time.shape[-1:]
-    if not _alone(inputs):
-        shape = np.broadcast_shapes(shape, *map(np.shape, inputs.values()))
+    first, *others = map(np.shape, values)
+    own = first[-1:] if "n" in (function.signature or "") else ()
+    shape = np.broadcast_shapes(first[: len(first) - len(own)], *others)
+    weight = 20 if function.signature else 1  # sheets and histories, in final depths
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2:
-        _check(inputs)
-        found = function(*times, *inputs.values())
-        return found if len(kinds) > 1 else (found,)
-    axis = shape.index(max(shape))
-    times = [np.broadcast_to(time, shape + own) for time in times]
-    views = {name: np.broadcast_to(value, shape) for name, value in inputs.items()}
-    results = tuple(np.empty(shape + own, kind) for kind in kinds)
-
-    def work(first: int, last: int) -> None:
-        cut = (slice(None),) * axis + (slice(first, last),)
-        part = {name: view[cut] for name, view in views.items()}
-        _check(inputs, part)
-        out = tuple(result[cut] for result in results)
-        function(*(time[cut] for time in times), *part.values(), out=out)
-
-    _by_cores(shape[axis], pieces, work)
-    return results
-
-
-def _by_cores(count: int, pieces: int, work: Callable[[int, int], None]) -> None:
-    """Have the work done from 0 to count, in so many pieces, by all cores.
-
-    By threads of Python's own, as compiled code lets go of its lock: Numba's may not be started
-    from two threads at once, and do not outlive a fork. Only the main thread starts any, so that
-    work is not shared out twice where a caller, such as dask, has threads.
-    """
-    import os
+        _check(numbers, values)
+        return function(*values)
     import threading
     from concurrent.futures import ThreadPoolExecutor
-    from itertools import count as counter
 
     import numba
 
-    cores = min(numba.config.NUMBA_NUM_THREADS, os.cpu_count() or 1)
-    helpers = cores - 1 if threading.current_thread() is threading.main_thread() else 0
-    numbers = counter()  # shared: whoever is free takes the next piece
+    axis = shape.index(max(shape))
+    views = [np.broadcast_to(values[0], shape + own)]
+    views += [np.broadcast_to(value, shape) for value in values[1:]]
+    results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
 
-    def take() -> None:
-        while (k := next(numbers)) < pieces:
-            work(count * k // pieces, count * (k + 1) // pieces)
+    def work(piece: int) -> None:
+        ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
+        cut = (slice(None),) * axis + (slice(*ends),)
+        parts = [view[cut] for view in views]
+        _check(numbers, parts)
+        function(*parts, out=tuple(result[cut] for result in results))
 
-    with ThreadPoolExecutor(max(helpers, 1)) as pool:
-        taken = [pool.submit(take) for _ in range(helpers)]
-        take()
-    for part in taken:
-        part.result()
+    cores = numba.config.NUMBA_NUM_THREADS
+    if cores == 1 or threading.current_thread() is not threading.main_thread():
+        list(map(work, range(pieces)))
+    else:
+        with ThreadPoolExecutor(cores) as pool:
+            list(pool.map(work, range(pieces)))
+    return tuple(results) if len(results) > 1 else results[0]
 
 
 @cache
-def ufunc(model: Model) -> "np.ufunc":
+def ufunc(model: Model) -> Any:
     """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
 
     Compiled once and kept on disk; where no folder can be written to, compiled in every process.
@@ -396,11 +303,12 @@ def ufunc(model: Model) -> "np.ufunc":
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    if model is motion.history:
-        types, shapes = [f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"
-        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
-    elif model is _sheet:
-        types, shapes = [b1, *[f8] * 7, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"
+    gufuncs: dict[Model, tuple[list[Any], str]] = {
+        motion.history: ([f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"),
+        sheet.last_row: ([*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"),
+    }
+    if model in gufuncs:
+        types, shapes = gufuncs[model]
         compiler = partial(numba.guvectorize, [tuple(types)], shapes)
     else:
         types = [f8] * len(inspect.signature(model).parameters)
@@ -413,8 +321,7 @@ def ufunc(model: Model) -> "np.ufunc":
     except (RuntimeError, OSError):
         compiled = compiler(cache=False)(root)
     _KEPT.append(compiled)
-    made: np.ufunc = compiled.ufunc
-    return made
+    return compiled.ufunc
 
 
 _KEPT: list[Any] = []
@@ -438,7 +345,7 @@ def _make_known() -> None:
 # Containers of other libraries, told by their types, so that none is imported before it is in use
 
 
-def _contained(compute: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     """What `compute` gives for numbers and arrays, for containers too: a result for each type."""
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
@@ -460,7 +367,7 @@ def _library(kinds: frozenset[type]) -> str:
     return next((library for library in ("pint", *_CONTAINED) if library in found), "")
 
 
-def _xarray(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import xarray
 
     # The result has neither the units nor the name of an input.
@@ -469,51 +376,45 @@ def _xarray(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
     return results.rename(None) if len(types) == 1 else tuple(r.rename(None) for r in results)
 
 
-def _dask(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
+def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import dask.array
 
     da: Any = dask.array  # it is partly typed
     arrays = [da.asarray(value) for value in inputs.values()]
-    axes = [range(array.ndim)[::-1] for array in arrays]  # counted from the last, as they broadcast
-    pairs = [item for pair in zip(arrays, axes, strict=True) for item in pair]
+    # Axes are counted from the last, as they broadcast.
+    pairs = [item for array in arrays for item in (array, range(array.ndim)[::-1])]
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
     shapes = f"{','.join(['()'] * len(arrays))}->{','.join(['()'] * len(types))}"
     kinds = list(types) if len(types) > 1 else types[0]
     return da.apply_gufunc(within, shapes, *arrays, output_dtypes=kinds)
 
 
-def _pandas(within: Model, inputs: Inputs, types: Sequence[type]) -> Any:
-    import pandas as pd
-
-    series = [value for value in inputs.values() if isinstance(value, pd.Series)]
-    if not series:
-        raise TypeError("a DataFrame is no input: give its columns, each a Series")
-    index = series[0].index
-    try:
-        results = within(*(_matched(name, value, index) for name, value in inputs.items()))
-    except ElementError as error:
-        labels = tuple(index[place] for place in error.index)
-        raise ElementError(error.name, error.problem, labels) from None
-    if len(types) == 1:
-        return pd.Series(results, index)
-    return tuple(pd.Series(result, index) for result in results)
-
-
-def _matched(name: str, value: Any, index: Any) -> Any:
-    """An input beside a Series with these labels: its numbers in their order."""
+def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import numpy as np
     import pandas as pd
 
-    if isinstance(value, pd.Series):
-        for label in index.symmetric_difference(value.index, sort=False)[:1]:
-            raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
-        return value.reindex(index).to_numpy()
-    if np.shape(value) not in ((), (len(index),)):
-        raise TypeError(
-            f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
-            f"give a Series, a single number, or an array of {len(index)}"
-        )
-    return value
+    index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
+    if index is None:
+        raise TypeError("a DataFrame is no input: give its columns, each a Series")
+    numbers = dict(inputs)
+    for name, value in inputs.items():
+        if isinstance(value, pd.Series):
+            for label in index.symmetric_difference(value.index, sort=False)[:1]:
+                raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
+            numbers[name] = value.reindex(index).to_numpy()
+        elif np.shape(value) not in ((), (len(index),)):
+            raise TypeError(
+                f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
+                f"give a Series, a single number, or an array of {len(index)}"
+            )
+    try:
+        results = within(*numbers.values())
+    except InputError as error:
+        labels = tuple(index[place] for place in error.index)
+        raise InputError(error.name, error.problem, labels) from None
+    if len(types) == 1:
+        return pd.Series(results, index)
+    return tuple(pd.Series(result, index) for result in results)
 
 
 _CONTAINED: dict[str, Model] = {"xarray": _xarray, "dask": _dask, "pandas": _pandas}

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import Any
 
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
@@ -10,16 +11,19 @@ MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 class InputError(ValueError):
     """An input, or what is formed of the inputs, that cannot be: its name, and what is wrong.
 
-    >>> print(InputError("radius", "is -1.0: it must not be"))
-    radius is -1.0: it must not be
+    Of an element of an array, with its index, or in a pandas Series with its label.
+
+    >>> print(InputError("radius", "is -1.0: it must not be", (0, 3)))
+    radius[0, 3] is -1.0: it must not be
     """
 
-    def __init__(self, name: str, problem: str) -> None:
-        super().__init__(name, problem)
-        self.name, self.problem = name, problem
+    def __init__(self, name: str, problem: str, index: tuple[Any, ...] = ()) -> None:
+        super().__init__(name, problem, index)
+        self.name, self.problem, self.index = name, problem, index
 
     def __str__(self) -> str:
-        return f"{self.name} {self.problem}"
+        place = f"[{', '.join(map(str, self.index))}]" if self.index else ""
+        return f"{self.name}{place} {self.problem}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,8 +20,7 @@ from replication.models.depth import depth_at_velocity, normalized_depth, veloci
 ORDER = 20
 E_2 = math.exp(-2)
 
-Series = Any
-"""A list of floats or, where it is compiled, an array."""
+Series = Any  # a list of floats or, where it is compiled, an array
 
 
 def history(

@@ -11,13 +11,11 @@ power), and a row's time is `k * dt`, not a running sum.
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from replication.models.impact import Impact, particle_mass
+from replication.models.impact import Impact, InputError, particle_mass
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
     import pandas as pd
 
 SCHEMES = ("published", "centered")
@@ -63,18 +61,11 @@ class Sheet:
         """X/R [1]."""
         return self.final_depth / self.impact.radius
 
-    def arrays(self) -> "dict[str, npt.NDArray[np.float64]]":
-        """The columns, each of shape (steps + 1,), float64; the blank of row 0 is NaN."""
-        import numpy as np
-
-        table = np.array(self.rows, dtype=np.float64)
-        return dict(zip(Row._fields, table.T, strict=True))
-
     def frame(self) -> "pd.DataFrame":
-        """The sheet as a pandas frame, indexed by row number, columns in SI units."""
+        """The sheet as a pandas frame, by row number, float64, in SI; the blank of row 0 is NaN."""
         import pandas as pd
 
-        return pd.DataFrame(self.arrays()).rename_axis("row")
+        return pd.DataFrame(self.rows, dtype="float64").rename_axis("row")
 
 
 def run(impact: Impact, scheme: str = "published") -> Sheet:
@@ -98,12 +89,12 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     while v >= v_stop:
         k = len(rows)
         if many or k > MAX_STEPS:
-            raise ValueError(f"the sheet {too_many_steps(dt, v_stop)}")
+            raise refusal(math.nan, dt, v_stop)
         x, a, v_final = _next_row(k, x, v, dt, scheme == "centered", R, M, rho_t, R_t)
         rows.append(Row(k * dt, v, x, a, v_final))
         v = v_final
     if not math.isfinite(x + rows[-1].deceleration + v):  # it only overflows in a last row
-        raise ValueError(f"the sheet {out_of_range(dt)}")
+        raise refusal(math.inf, dt, v_stop)
     return Sheet(impact, tuple(rows), scheme)
 
 
@@ -116,23 +107,26 @@ def last_row(
     step: float,
     stop_velocity: float,
     centered: bool,
-) -> tuple[float, int]:
-    """Depth x [m] and number of the sheet's last row; SI units.
+    depth: Any,
+    steps: Any,
+) -> None:
+    """Fill in depth x [m] and number of the sheet's last row, each in the one place that it has.
 
-    `MAX_STEPS` + 1 is the number where more than `MAX_STEPS` rows are needed.
+    NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. SI units.
 
-    >>> depth, steps = last_row(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10, 1.0, False)
-    >>> f"{depth * 1e6:.2f}", steps
+    >>> depth, steps = [0.0], [0]
+    >>> last_row(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10, 1.0, False, depth, steps)
+    >>> f"{depth[0] * 1e6:.2f}", steps[0]
     ('7.67', 131)
     """
     dt, v_stop, v, x, k = step, stop_velocity, velocity, 0.0, 0
     R, M, rho_t, R_t = radius, particle_mass(radius, particle_density), target_density, resistance
     if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
-        return x, MAX_STEPS + 1
+        k = MAX_STEPS + 1
     while v >= v_stop and k <= MAX_STEPS:
         k += 1
         x, _, v = _next_row(k, x, v, dt, centered, R, M, rho_t, R_t)
-    return x, k
+    depth[0], steps[0] = x if k <= MAX_STEPS else math.nan, k
 
 
 def _next_row(
@@ -173,26 +167,18 @@ def _fewest_steps(
 ) -> float:
     """A number of rows that the sheet takes at least, from V = v.
 
-    A row takes off at most a dt, a with the whole area pi R^2 and at V, hence the first bound. The
-    depth in row k is at most V k dt and the area at most 2 pi R V k dt; n rows together take off at
-    most a V (n dt)^2 / R, hence the second.
+    A row takes off at most a dt, a with the whole area pi R^2 and at V.
     """
-    lost = max(v - v_stop, 0.0)
-    a = deceleration(R, v, R, M, rho_t, R_t)
-    return max(lost / a, math.sqrt(lost / a * (R / v))) / dt
+    return (v - v_stop) / deceleration(R, v, R, M, rho_t, R_t) / dt
 
 
-def too_many_steps(step: float, stop_velocity: float) -> str:
-    """What a sheet that takes too many steps does, and what to do about it."""
-    return (
-        f"takes more than {MAX_STEPS:,} steps of {step!r} s down to {stop_velocity!r} m/s: "
-        "take a larger step"
-    )
-
-
-def out_of_range(step: float) -> str:
-    """What a sheet with a step that is much too long does, and what to do about it."""
-    return f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
+def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
+    """What to say of a sheet whose step is much too long, or much too short (its depth is NaN)."""
+    problem = f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
+    if math.isnan(depth):
+        steps = f"more than {MAX_STEPS:,} steps of {step!r} s"
+        problem = f"takes {steps} down to {stop_velocity!r} m/s: take a larger step"
+    return InputError("the sheet", problem)
 
 
 def check_scheme(scheme: str) -> None:

@@ -284,7 +284,7 @@ def test_any_case_file(folder: Path, document: bytes) -> None:
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 def test_any_plan(folder: Path, document: bytes) -> None:
-    from replication.sweep.read import read_plan
+    from replication.sweep import read_plan
 
     (folder / "any.toml").write_bytes(document)
     try:

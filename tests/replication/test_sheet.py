@@ -132,12 +132,11 @@ def test_a_scheme_that_is_none_is_refused() -> None:
             call()
 
 
-def test_arrays_and_frame_hold_the_rows() -> None:
+def test_a_frame_holds_the_rows() -> None:
     sheet = run(BETA_5)
-    arrays = sheet.arrays()
-    assert {array.shape for array in arrays.values()} == {(132,)}
-    assert {array.dtype for array in arrays.values()} == {np.dtype("float64")}
     frame = sheet.frame()
+    assert frame.shape == (132, 5)
+    assert set(frame.dtypes) == {np.dtype("float64")}
     assert list(frame.columns) == list(Row._fields)
     assert frame.index.name == "row"
     for row, (_, line) in zip(sheet.rows[1:], frame.iloc[1:].iterrows(), strict=True):

@@ -26,9 +26,20 @@ from replication.models.depth import final_depth, normalized_depth
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import run
-from replication.sweep import Plan, compute, read_plan, write
-from replication.sweep.plan import BLOCK, RESULTS
-from replication.sweep.sources import LEAST_SHARE, Random, Spaced, uniform
+from replication.sweep import (
+    BLOCK,
+    EXTRAS,
+    LEAST_SHARE,
+    RESULTS,
+    Grid,
+    Plan,
+    Random,
+    compute,
+    read_plan,
+    read_source,
+    uniform,
+    write,
+)
 from spreadsheets.safely import draft_of, write_bytes
 
 Command = Callable[..., tuple[int, str, str]]
@@ -101,14 +112,16 @@ def test_what_a_plan_means(text: str, tmp_path: Path) -> None:
 )
 def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
     index = np.arange(count)
-    linear = Spaced(first, last, count, log=False)
+    ends = {"from": str(first), "to": str(last), "points": count}
+    linear, log = (read_source("radius", {**ends, "scale": scale}) for scale in ("linear", "log"))
+    assert isinstance(linear, Grid)
+    assert isinstance(log, Grid)
     # Both round a product and a sum, in an order of their own.
     tolerance = 4 * np.spacing(max(first, last))
     np.testing.assert_allclose(
         linear.at(index), np.linspace(first, last, count), rtol=0, atol=tolerance
     )
     # The exponent, at most 9, is off by two ulp (4e-15): relatively that times ln 10.
-    log = Spaced(first, last, count, log=True)
     np.testing.assert_allclose(log.at(index), np.geomspace(first, last, count), rtol=2e-14)
     for source in (linear, log):
         values = source.at(index)
@@ -183,9 +196,13 @@ def test_samples_have_the_moments_of_their_distribution(name: str, tmp_path: Pat
 def test_quantiles_rise_and_keep_within_the_bounds(
     mean: float, deviation: float, lower: float, log: bool, shares: list[float]
 ) -> None:
-    source = Random(lower=lower, upper=lower + 2e-4, log=log, mean=mean, deviation=deviation)
-    if source.kept < 1e-6:
-        return  # refused at the door
+    kind, ends = "lognormal" if log else "normal", {"lower": str(lower), "upper": str(lower + 2e-4)}
+    shape = {"mean": str(mean), "deviation": str(deviation)}
+    try:
+        source = read_source("stop_velocity", {"distribution": kind, **shape, **ends})
+    except ValueError:  # less than a millionth of it would be left
+        return
+    assert isinstance(source, Random)
     values = source.quantile(np.array(sorted(shares)))
     least, greatest = source.bounds
     assert (np.diff(values) >= -1e-14 * values[1:]).all()  # the inverse has 16 digits
@@ -211,7 +228,7 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             impact = Impact(**{name: float(cases[name][k]) for name in given})
             sheet, others = run(impact), {n: x for n, x in impact.motion.items() if n != "radius"}
             ratio = normalized_depth(**others)
-            assert {name: cases[name][k] for name in (*RESULTS, "resistance")} == {
+            assert {name: cases[name][k] for name in (*RESULTS, *EXTRAS, "resistance")} == {
                 "depth": final_depth(**impact.motion),
                 "normalized_depth": ratio,
                 "beyond_radius": ratio > 1,

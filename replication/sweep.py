@@ -1,0 +1,481 @@
+"""Sweeps: many cases by a plan from a TOML file, computed in blocks, written as CSV or Parquet.
+
+The values of an input come from a list or a range, a distribution, or Eq. 1. All values of a source
+lie within its `bounds`, rounding included: what is in range there is in range everywhere between,
+and a sweep is refused before it runs, not in the middle.
+"""
+
+import hashlib
+import itertools
+import math
+from collections.abc import Callable, Collection
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from replication.cases import BETA_5, CASES, INPUTS
+from replication.models import arrays
+from replication.models.impact import Impact, InputError, check, particle_mass
+from replication.models.stream import particle_velocity
+from replication.reading import name_of, parse_toml, place, quoted, read_file, read_number
+from spreadsheets.safely import check_target, draft_of
+
+Floats = npt.NDArray[np.float64]
+
+BLOCK = 65_536
+"""Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
+
+MAX_CASES = 10**12
+"""Days of work for many cores."""
+
+RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
+"""What is computed of every case, with its SI unit: none for a truth value."""
+
+EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
+"""What is computed only if asked for."""
+
+
+# Where the values of an input come from
+
+LEAST_SHARE = 2.0**-53
+"""The least of the uniform numbers; the greatest is 1 less it."""
+
+
+def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
+    """Uniform numbers in (0, 1) of the cases from `first` on, shape (count,).
+
+    Each is a function of the seed, the stream (one for each input) and the number of its case:
+    Philox encrypts that number, four words at a time. 52 bits and a half leave neither 0 nor 1.
+
+    >>> bool((uniform(1, 0, 0, 10)[7:] == uniform(1, 0, 7, 3)).all())
+    True
+    """
+    philox = np.random.Philox(key=np.array([seed, stream], dtype=np.uint64), counter=first // 4)
+    words = philox.random_raw(first % 4 + count)[first % 4 :]
+    return ((words >> np.uint64(12)).astype(np.float64) + 0.5) * (2 * LEAST_SHARE)
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """`count` values one by one, within `bounds`; `at` gives those of positions from 0 on."""
+
+    count: int
+    bounds: tuple[float, float]
+    at: Callable[[npt.NDArray[np.int64]], Floats]
+
+
+@dataclass(frozen=True, slots=True)
+class Random:
+    """Drawn values, within `bounds`; `quantile` gives those that these shares fall short of."""
+
+    bounds: tuple[float, float]
+    quantile: Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True, slots=True)
+class ByMass:
+    """Velocity by Eq. 1, from the mass: average_velocity V [m/s], average_mass m_o [kg]."""
+
+    average_velocity: float
+    average_mass: float
+
+
+Source = Grid | Random | ByMass
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The cases of a sweep.
+
+    `sources` has every input, in the order that the file gives them: the first varies slowest, and
+    of each combination there are `samples` cases, each with random numbers of its own by `seed`.
+    `extras` are of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an input
+    or a combination of them would leave the range that `Impact` allows.
+    """
+
+    sources: dict[str, Source]
+    samples: int
+    seed: int
+    extras: tuple[str, ...]
+    digest: str
+
+    def __post_init__(self) -> None:
+        if self.count > MAX_CASES:
+            raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
+        # All that `Impact` checks is monotone in each input: the ends stand for the rest.
+        sources = self.sources.items()
+        bounds = {name: x.bounds for name, x in sources if not isinstance(x, ByMass)}
+        varying = {name: ends for name, ends in bounds.items() if ends[0] != ends[1]}
+        for corner in itertools.product(*varying.values()):
+            ends = dict(zip(varying, corner, strict=True))
+            case = {name: least for name, (least, _) in bounds.items()} | ends
+            if isinstance(law := self.sources["velocity"], ByMass):
+                mass = particle_mass(case["radius"], case["particle_density"])
+                # Without a mass there is no velocity: infinity, which is refused.
+                args = law.average_velocity, mass, law.average_mass
+                case["velocity"] = particle_velocity(*args) if mass else math.inf
+            try:
+                Impact(**case)
+            except ValueError as error:
+                where = ", ".join(f"{name} {value!r}" for name, value in ends.items())
+                raise ValueError(f"{error} (with {where})" if ends else str(error)) from error
+
+    @property
+    def grid(self) -> dict[str, Grid]:
+        """The sources that are gone through value by value, the slowest first."""
+        return {name: value for name, value in self.sources.items() if isinstance(value, Grid)}
+
+    @property
+    def count(self) -> int:
+        """Number of cases."""
+        return self.samples * math.prod(source.count for source in self.grid.values())
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks."""
+        return -(-self.count // BLOCK)
+
+    @property
+    def columns(self) -> dict[str, str]:
+        """The columns in order, inputs then results: SI unit (none for a truth value)."""
+        given = {*self.sources, "resistance"}
+        inputs = {name: unit for name, unit in INPUTS.items() if name in given}
+        return inputs | RESULTS | {name: EXTRAS[name] for name in self.extras}
+
+    def inputs(self, first: int, count: int) -> dict[str, Floats]:
+        """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
+        values: dict[str, Floats] = {}
+        position = np.arange(first, first + count) // self.samples
+        for name, source in reversed(self.grid.items()):
+            position, own = np.divmod(position, source.count)
+            values[name] = source.at(own)
+        for stream, name in enumerate(INPUTS):
+            drawn = self.sources.get(name)
+            if isinstance(drawn, Random):
+                values[name] = drawn.quantile(uniform(self.seed, stream, first, count))
+        velocity = self.sources["velocity"]
+        if isinstance(velocity, ByMass):
+            mass = arrays.ufunc(particle_mass)(values["radius"], values["particle_density"])
+            law = arrays.ufunc(particle_velocity)
+            values["velocity"] = law(velocity.average_velocity, mass, velocity.average_mass)
+        if "resistance" not in values:
+            values["resistance"] = values["beta"] * values["flow_stress"]
+        return {name: values[name] for name in INPUTS if name in values}
+
+
+def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
+    """Inputs and results of `count` cases from number `first` on, by column, SI.
+
+    The inputs, depth at rest [m], normalized_depth [1], beyond_radius, and the extras of the plan,
+    each of shape (count,): the same for a case whatever is computed beside it. Raises ValueError
+    naming the case that the sheet refuses.
+    """
+    inputs = plan.inputs(first, count)
+    motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
+    ratio = arrays.normalized_depth(**{n: x for n, x in motion.items() if n != "radius"})
+    results = {
+        "depth": inputs["radius"] * ratio,
+        "normalized_depth": ratio,
+        "beyond_radius": ratio > 1,
+    }
+    if "stop_time" in plan.extras:
+        results["stop_time"] = arrays.stop_time(**motion)
+    if {"sheet_depth", "sheet_steps"} & set(plan.extras):
+        try:
+            stepping: Any = {name: inputs[name] for name in ("step", "stop_velocity")}
+            sheets = arrays.run_many(**motion, **stepping)
+        except InputError as error:
+            number = error.index[0]
+            given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
+            case = f"case {first + number} ({given})"
+            raise ValueError(f"{error.name} of {case} {error.problem}") from error
+        results |= dict(zip(("sheet_depth", "sheet_steps"), sheets, strict=True))
+    return {name: (inputs | results)[name] for name in plan.columns}
+
+
+# The TOML file, checked at the door (format: docs/sweeps/README.md)
+
+Table = dict[str, Any]
+
+
+def read_plan(path: Path) -> Plan:
+    """The plan that a TOML file describes.
+
+    Raises OSError, or ValueError that names the file, the table, the key and what would be right.
+    """
+    content = read_file(path)
+    with place(name_of(path)):
+        document = parse_toml(content)
+        _check_keys(document, ["inputs"], ["sweep"])
+        for name, table in document.items():
+            if not isinstance(table, dict):
+                raise ValueError(f"{name} must be a table, [{name}]")
+        settings = document.get("sweep", {})
+        with place("[sweep]"):
+            _check_keys(settings, [], ["case", "samples", "seed", "outputs"])
+            base, extras = _settings(settings)
+        with place("[inputs]"):
+            sources = _sources(document["inputs"], base)
+        with place("[sweep]"):
+            samples, seed = _sampling(settings, sources)
+        return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
+
+
+def _settings(settings: Table) -> tuple[dict[str, float], tuple[str, ...]]:
+    """The inputs of the case that fills in, and the results that are asked for."""
+    name = settings.get("case", "beta-5")
+    if not isinstance(name, str) or name not in CASES:
+        raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
+    asked = settings.get("outputs", [])
+    if not isinstance(asked, list) or any(name not in EXTRAS for name in asked):
+        raise ValueError(f"outputs must be a list of {', '.join(EXTRAS)}; the depths always come")
+    values = {key: getattr(CASES[name], key) for key in INPUTS}
+    base = {key: value for key, value in values.items() if value is not None}
+    return base, tuple(name for name in EXTRAS if name in asked)
+
+
+def _sampling(settings: Table, sources: dict[str, Source]) -> tuple[int, int]:
+    if any(isinstance(source, Random) for source in sources.values()):
+        if "samples" not in settings:
+            raise ValueError("samples is missing: how many cases to draw")
+        seed = _whole_number("seed", settings.get("seed", 0), 0, 2**64 - 1)
+        return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
+    for key in ("samples", "seed"):
+        if key in settings:
+            raise ValueError(f"{key} is for distributions, and no input has one")
+    return 1, 0
+
+
+def _sources(table: Table, base: dict[str, float]) -> dict[str, Source]:
+    _check_keys(table, [], INPUTS)
+    if "resistance" in table:
+        base = {name: base[name] for name in base if name not in ("beta", "flow_stress")}
+    sources: dict[str, Source] = {name: _listed(name, str(x)) for name, x in base.items()}
+    for name, value in table.items():
+        sources.pop(name, None)  # so that the order is the file's
+        with place(name):
+            sources[name] = read_source(name, value)
+    return sources
+
+
+def read_source(name: str, value: Any) -> Source:
+    """The source of an input, all of whose values are such as the input may have.
+
+    Raises ValueError that names the key, what is wrong and what would be right.
+
+    >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
+    (1e-06, 5e-06)
+    """
+    readers: Any = {"distribution": _random, "from": _spaced, "average_mass": _by_mass}
+    named = (readers[key] for key in readers if key in value)
+    reader = next(named, None) if isinstance(value, dict) else _listed
+    if reader is None:
+        raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
+    source: Source = reader(name, value)
+    for number in () if isinstance(source, ByMass) else source.bounds:
+        check({name: number})
+    return source
+
+
+def _listed(name: str, value: Any) -> Grid:
+    items = value if isinstance(value, list) else [value]
+    if not items:
+        raise ValueError("the list is empty: give one value or more")
+    values = [_read(item, INPUTS[name]) for item in items]
+    return Grid(len(values), (min(values), max(values)), np.array(values).take)
+
+
+def _spaced(name: str, table: Table) -> Grid:
+    _check_keys(table, ["from", "to", "points"], ["scale"])
+    scale = table.get("scale", "linear")
+    if scale not in ("linear", "log"):
+        raise ValueError(f"scale is {scale!r}: choose linear or log")
+    first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
+    if scale == "log" and min(first, last) <= 0:
+        raise ValueError("a log scale needs from and to greater than zero")
+    count = _whole_number("points", table["points"], 2, MAX_CASES)
+    bounds = min(first, last), max(first, last)
+    start, stop = (math.log10(first), math.log10(last)) if scale == "log" else (first, last)
+
+    def at(index: npt.NDArray[np.int64]) -> Floats:
+        values = start + index * ((stop - start) / (count - 1))
+        values = np.clip(10.0**values if scale == "log" else values, *bounds)
+        return np.select([index == 0, index == count - 1], [first, last], values)
+
+    return Grid(count, bounds, at)
+
+
+def _random(name: str, table: Table) -> Random:
+    kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
+    if kind not in kinds:
+        raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
+    shape, ends = ["mean", "deviation"], ["lower", "upper"]
+    wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
+    _check_keys(table, ["distribution", *wanted], allowed)
+    numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
+    for key in ("deviation", *(wanted if kind.startswith("log") else [])):
+        if numbers.get(key, 1.0) <= 0:
+            raise ValueError(f"{key} must be greater than zero")
+    log, law = kind.startswith("log"), None
+    if wanted == shape:
+        mean, deviation = (numbers[key] for key in shape)
+        if log:  # those given are of the quantity, before it is truncated
+            ratio = deviation / mean
+            variance = math.log1p(ratio * ratio)
+            mean, deviation = math.log(mean) - variance / 2, math.sqrt(variance)
+        law = NormalDist(mean, deviation)
+    lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
+    if lower >= upper:
+        raise ValueError("lower must be less than upper")
+    return distribution(lower, upper, log, law)
+
+
+def distribution(lower: float, upper: float, log: bool, normal: NormalDist | None) -> Random:
+    """A distribution, by the inverse of its cumulative probability.
+
+    Uniform between lower and upper, or normal: of the quantity itself or (log) of its logarithm.
+    A normal one is truncated: what lies outside lower and upper is as if drawn again, so that
+    inside the density keeps its shape. Raises ValueError if hardly any lies there, or if it may be
+    negative.
+
+    >>> radii = distribution(0.0, math.inf, False, NormalDist(11e-6, 2.8e-6))
+    >>> [f"{x * 1e6:.2f}" for x in radii.quantile(np.array([0.1587, 0.5, 0.8413]))]
+    ['8.20', '11.00', '13.80']
+    """
+    from scipy.special import ndtri
+
+    low, high = (math.log(x) if log and x > 0 else -math.inf if log else x for x in (lower, upper))
+    if normal:
+        low, high = normal.cdf(low), normal.cdf(high)
+        if high - low < 1e-6:
+            raise ValueError("less than a millionth of the distribution is between lower and upper")
+
+    def quantile(share: Floats) -> Floats:
+        values = low + (high - low) * share
+        if normal:  # rounding must not make the share 1
+            values = normal.mean + normal.stdev * ndtri(np.minimum(values, 1 - LEAST_SHARE))
+        with np.errstate(over="ignore"):  # to infinity, which no input may be
+            return np.clip(np.exp(values) if log else values, lower, upper)
+
+    least, greatest = quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE])).tolist()
+    # The inverse of the normal distribution has 15 digits, and need not rise in the last.
+    wide = (least - 1e-14 * abs(least), greatest + 1e-14 * abs(greatest))
+    least, greatest = np.clip(wide, lower, upper).tolist()
+    if least < 0:
+        raise ValueError(f"values down to {least:.3g} would be drawn: give a lower end")
+    return Random((least, greatest), quantile)
+
+
+def _by_mass(name: str, table: Table) -> ByMass:
+    if name != "velocity":
+        raise ValueError("only the velocity follows from the mass, by Eq. 1")
+    units = {"average_velocity": "m/s", "average_mass": "kg"}
+    _check_keys(table, list(units), [])
+    numbers = {key: _number(table, key, unit) for key, unit in units.items()}
+    check(numbers)
+    return ByMass(**numbers)
+
+
+def _check_keys(table: Table, wanted: Collection[str], allowed: Collection[str]) -> None:
+    known = [*wanted, *allowed]
+    for key in table:
+        if key not in known:
+            raise ValueError(f"there is no {key!r} here: choose of {', '.join(known)}")
+    for key in wanted:
+        if key not in table:
+            raise ValueError(f"{key!r} is missing")
+
+
+def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
+    if type(value) is not int or not least <= value <= greatest:
+        raise ValueError(
+            f"{key} is {quoted(value)}: it must be a whole number from {least} to {greatest:,}, "
+            "without point or exponent"
+        )
+    return value
+
+
+def _number(table: Table, key: str, unit: str) -> float:
+    with place(key):
+        return _read(table[key], unit)
+
+
+def _read(value: Any, unit: str) -> float:
+    """A number of TOML, or one in a text with its unit, as SI."""
+    if not isinstance(value, str | int):
+        raise ValueError(f"{quoted(value)} is no finite number, such as 1.1e-5 or '11 um'")
+    return read_number(str(value), unit)
+
+
+# The file of the cases: whole under its name, or not there
+
+
+def write(
+    plan: Plan,
+    path: Path,
+    *,
+    numbers: range | None = None,
+    done: Callable[[int], object] = lambda _: None,
+) -> None:
+    """Compute the blocks of these numbers (default: all) and write them to one file.
+
+    The suffix of the path says which: .csv or .parquet. `done` is told the number of cases of each
+    block. The same plan and numbers make the same bytes. Raises ValueError and OSError as
+    `check_output` and `compute` do, and leaves no file then.
+    """
+    import pyarrow as pa
+
+    check_output(path)
+    types = {"beyond_radius": pa.bool_(), "sheet_steps": pa.int64()}
+    fields = [
+        pa.field(name, types.get(name, pa.float64()), nullable=False, metadata={"unit": unit})
+        for name, unit in plan.columns.items()
+    ]
+    schema = pa.schema(fields, metadata=provenance(plan))
+    numbers = range(plan.blocks) if numbers is None else numbers
+    with (
+        draft_of(path) as draft,
+        draft.open("wb") as file,  # Python's own, whose errors have a number
+        _writer(path.suffix.lower(), file, plan, schema) as writer,
+        ThreadPoolExecutor(1) as pool,  # a block is written while the next is computed
+    ):
+        written = pool.submit(lambda: None)
+        for number in numbers:
+            first = number * BLOCK
+            count = min(BLOCK, plan.count - first)
+            table = pa.table(compute(plan, first, count), schema)
+            written.result()
+            written = pool.submit(writer.write_table, table)
+            done(count)
+        written.result()
+
+
+def _writer(suffix: str, file: Any, plan: Plan, schema: Any) -> Any:
+    if suffix == ".csv":
+        from pyarrow.csv import CSVWriter, WriteOptions
+
+        heads = (f"{name} [{unit}]" if unit else name for name, unit in plan.columns.items())
+        file.write(f"{','.join(heads)}\n".encode("ascii"))
+        return CSVWriter(file, schema, write_options=WriteOptions(include_header=False))
+    from pyarrow.parquet import ParquetWriter
+
+    # Dictionaries do not pay: the results hardly repeat, and the inputs compress as they are.
+    return ParquetWriter(file, schema, compression="zstd", use_dictionary=False)
+
+
+def provenance(plan: Plan) -> dict[str, str]:
+    """What a file comes from: the program's version and the SHA-256 of the sweep's TOML file."""
+    return {"coldspray": version("coldspray"), "sweep_sha256": plan.digest}
+
+
+def check_output(path: Path) -> None:
+    """Raise ValueError for another suffix, OSError as `check_target` does, before any work."""
+    if path.suffix.lower() not in (".csv", ".parquet"):
+        raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
+    check_target(path)
