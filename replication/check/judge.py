@@ -430,11 +430,14 @@ def _effects(f: Verdict) -> None:
                 f.differing += k > steps
             else:
                 f.differing += abs(own - right) > 1e-9 * abs(right)
-    f.differences = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
+    if not any(d.explanation.startswith("other stop") for d in f.differences):
+        steps = f.table.steps
+    found = (_with_effect(f, difference, steps) for difference in f.differences)
+    f.differences = sorted(found, key=lambda d: d.rank)
 
 
-def _with_effect(f: Verdict, difference: Difference) -> Difference:
-    """The difference with the final depth that it alone would give."""
+def _with_effect(f: Verdict, difference: Difference, steps: int) -> Difference:
+    """The difference with the final depth that it alone would give, after so many steps."""
     fixed: dict[tuple[str, int], float] = {}
     rules, case = REPORT, f.intended
     if not f.rules.brake.says:
@@ -443,6 +446,7 @@ def _with_effect(f: Verdict, difference: Difference) -> Difference:
     named = {part: rule for part, rule in others if rule.says in difference.explanation}
     if named or difference.explanation.startswith("other stop"):
         rules = replace(rules, **named)
+        steps = f.table.steps
     elif difference.place in f.spoils:
         case = f.spoils[difference.place](case)
     elif difference.kind in ("typed number", "odd formula", "typed constant", "other scheme"):
@@ -453,8 +457,8 @@ def _with_effect(f: Verdict, difference: Difference) -> Difference:
             return difference  # a text, an error, or a cell beside the table: nothing to go on with
     else:
         return difference
-    depths = march(case, rules, fixed, steps=f.table.steps)["depth"]
-    return replace(difference, effect=depths.get(f.table.steps))
+    depths = march(case, rules, fixed, steps=steps)["depth"]
+    return replace(difference, effect=depths.get(steps))
 
 
 def _counted(f: Verdict, place: Position) -> float | None:
