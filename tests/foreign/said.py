@@ -428,6 +428,9 @@ def stops() -> Iterator[str]:
     yield from said(
         "a hair beyond the radius", plain(replace(COARSE, velocity=712.0)), plain(COARSE)
     )
+    for step, rows in ((7e-9, None), (6e-12, 30)):
+        f = plain(replace(BETA_5, step=step), rows)
+        yield from said(f"steps of {step:g} s", f, plain(COARSE))
     yield from said("403 m/s in rows for 500", changed(plain(COARSE), {"B5": 403}), plain(COARSE))
     yield from said("521 m/s in rows for 500", changed(plain(COARSE), {"B5": 521}), plain(COARSE))
     blank = {f"{letter}55:": None for letter in "ACDEF"}
@@ -445,6 +448,25 @@ def stops() -> Iterator[str]:
     yield from said(
         "beyond the radius, drag without 1/2", changed(plain(FAST), {"E9:": doubled}), plain(COARSE)
     )
+
+
+def halves() -> Iterator[str]:
+    """What exactly half of the rows do: of 52 rows, or of those after the first of 51."""
+    half, whole, shorter = range(10, 60, 2), plain(COARSE), plain(COARSE, 51)
+    doubled = force(drag="$E$1*C{r}^2")
+    typed = force(drag="0.5*7850*C{r}^2")
+    for title, f, cells in (
+        ("times of two shapes", shorter, {f"A{r}": f"=$E$2+A{r - 1}" for r in half}),
+        ("times typed", shorter, {f"A{r}": (r - 8) * 5e-10 for r in half}),
+        ("drag without 1/2", whole, {f"E{r}": doubled.format(r=r) for r in (*half, 60)}),
+        ("drag without 1/2, and one row more", whole,
+         {f"E{r}": doubled.format(r=r) for r in (9, *half, 60)}),
+        ("the target density typed", shorter, {f"E{r}": typed.format(r=r) for r in range(34, 60)}),
+        ("the target density typed, but for one row", shorter,
+         {f"E{r}": typed.format(r=r) for r in range(35, 60)}),
+        ("velocities not those before", whole, {f"C{r}": f"=F{r - 1}*1.001" for r in (*half, 60)}),
+    ):  # fmt: skip
+        yield from said(title, changed(replace(f, cells=dict(f.cells)), cells), plain(COARSE))
 
 
 def digits() -> Iterator[str]:
@@ -919,6 +941,7 @@ SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
     "plain sheet: inputs": partial(plainly, INPUTS),
     "plain sheet: cells": partial(plainly, CELLS),
     "plain sheet: columns": partial(plainly, COLUMNS),
+    "plain sheet: half of the rows": halves,
     "plain sheet: the stop": stops,
     "last digits": last_digits,
     "numbers without formulas": digits,
