@@ -522,6 +522,11 @@ def several() -> Iterator[str]:
         f.put("Budget", f"A{row}", f"item {row}")
         f.put("Budget", f"B{row}", 1000.0 - row * row % 17)
     yield from said("a budget", f)
+    f = Foreign("steady", COARSE)
+    f.line("Sheet1", "A1", "t [s]", "x [m]", "v [m/s]")
+    for row in range(2, 30):
+        f.line("Sheet1", f"A{row}", row * 1e-9, row * 5e-7, 500.0)
+    yield from said("a steady motion", f)
     f = layouts.no_time(BETA_5)
     f.cells["impact", 60, 5] = 1.2e-10
     yield from said("a typed area beside the table", f)
