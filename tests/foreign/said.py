@@ -382,6 +382,9 @@ COLUMNS: dict[str, Cells] = {
     "no row of the impact": {f"{c}8": None for c in "ACDE"} | {
         "C9": "=B5", "D9": "=C9*$E$2/2", "A9": "=$E$2"},
     "zeros after the end": {f"{c}{row}": 0 for c in "CDEF" for row in range(61, 66)},
+    "zeros after the end, no heads": {
+        **{f"{c}{row}": 0 for c in "CDEF" for row in range(61, 66)},
+        **{f"{letter}7": None for letter in "ACDEF"}},
     "the last row again and again": {
         f"{c}{row}": f"={c}{row - 1}" for c in "ACDEF" for row in range(61, 66)},
     "a velocity in the middle of the step, beside the table": {
@@ -428,7 +431,7 @@ def stops() -> Iterator[str]:
     yield from said(
         "a hair beyond the radius", plain(replace(COARSE, velocity=712.0)), plain(COARSE)
     )
-    for step, rows in ((7e-9, None), (6e-12, 30)):
+    for step, rows in ((7e-9, None), (4e-11, None), (6e-12, 30)):
         f = plain(replace(BETA_5, step=step), rows)
         yield from said(f"steps of {step:g} s", f, plain(COARSE))
     yield from said("403 m/s in rows for 500", changed(plain(COARSE), {"B5": 403}), plain(COARSE))
@@ -527,6 +530,11 @@ def several() -> Iterator[str]:
     for row in range(2, 30):
         f.line("Sheet1", f"A{row}", row * 1e-9, row * 5e-7, 500.0)
     yield from said("a steady motion", f)
+    f = Foreign("decay", COARSE)
+    for row in range(1, 20):
+        f.line("Sheet1", f"A{row}", 100 * 0.9**row, 50 * 0.9**row, -5 * 0.9**row)
+    f.cells["Sheet1", 20, 1] = 200.0
+    yield from said("what decays, and jumps up at the end", f)
     f = layouts.no_time(BETA_5)
     f.cells["impact", 60, 5] = 1.2e-10
     yield from said("a typed area beside the table", f)
