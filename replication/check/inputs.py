@@ -345,8 +345,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
     """The power of ten of each column, and by how much the units of some heads contradict it.
 
     The rows tie the units together: dx = v dt and dv = a dt. Of the powers that may be meant, those
-    that contradict the fewest units named, then the fewest of these ties, then those nearest to the
-    report's numbers.
+    that contradict the fewest units named, then the fewest of these ties, then none at all, then
+    those nearest to the report's numbers.
     """
     report = report_inputs()
     speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
@@ -393,8 +393,10 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
         untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
         if step and named.get("time") is not None and "step" in inputs:
             against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
-        far = abs(_round(dt / report["step"][0])) + abs(_round(start * v / impact))
-        options.append(((against, untied, far), powers))
+        slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
+        # Numbers that are all in SI as they stand are, if the step is a hundred times another.
+        other = any(powers.values()) or slower > 0 or faster > 2
+        options.append(((against, untied, other, slower + faster), powers))
     powers = min(options, key=lambda option: option[0])[1]
     off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
     return powers, {role: power for role, power in off.items() if power}

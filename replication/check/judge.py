@@ -22,6 +22,7 @@ from replication.check.scheme import (
     PARTS,
     REPORT,
     Case,
+    Rule,
     march,
 )  # fmt: skip
 from replication.check.table import Line, address
@@ -36,6 +37,9 @@ from replication.check.words import (
     unit_text,
 )  # fmt: skip
 from spreadsheets.foreign import Position
+
+OTHER_STOP: Mapping[str, Rule] = {}
+"""The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
 
 def judge(f: Findings) -> None:
@@ -396,7 +400,7 @@ def _stop(f: Findings) -> None:
     if below is not None:
         cells = f.cells(role, below + 1)
         text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
-        f.add("other scheme", cells, None, text, change={})
+        f.add("other scheme", cells, None, text, change=OTHER_STOP)
         return
     run = march(case, f.rules)["velocity_final"]
     whole = max(run, default=0)
@@ -413,7 +417,9 @@ def _stop(f: Findings) -> None:
     if changed or prepared or 2 * steps < whole:
         f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
     else:
-        f.add("other scheme", [place], None, f"other stop: {text}, {steps} of {of}", change={})
+        f.add(
+            "other scheme", [place], None, f"other stop: {text}, {steps} of {of}", change=OTHER_STOP
+        )
 
 
 def _effects(f: Findings) -> None:
@@ -429,11 +435,14 @@ def _effects(f: Findings) -> None:
                 f.differing += k > steps
             else:
                 f.differing += abs(own - right) > 1e-9 * abs(right)
-    f.differences = sorted((_with_effect(f, d) for d in f.differences), key=lambda d: d.rank)
+    if not any(d.change == OTHER_STOP for d in f.differences):
+        steps = f.table.steps
+    with_effects = (_with_effect(f, difference, steps) for difference in f.differences)
+    f.differences = sorted(with_effects, key=lambda d: d.rank)
 
 
-def _with_effect(f: Findings, difference: Difference) -> Difference:
-    """The difference with the final depth that it alone would give."""
+def _with_effect(f: Findings, difference: Difference, steps: int) -> Difference:
+    """The difference with the final depth that it alone would give, after so many steps."""
     change, fixed = difference.change, {}
     rules, case = REPORT, f.intended
     if not f.rules.brake.says:
@@ -441,7 +450,7 @@ def _with_effect(f: Findings, difference: Difference) -> Difference:
     if callable(change):
         case = change(case)
     elif change is not None:
-        rules = replace(rules, **change)
+        rules, steps = replace(rules, **change), f.table.steps
     elif difference.kind in ("typed number", "odd formula", "typed constant", "other scheme"):
         for place in set(difference.cells) & f.table.places.keys():
             role, k = f.table.places[place]
@@ -454,5 +463,5 @@ def _with_effect(f: Findings, difference: Difference) -> Difference:
             return difference  # a text, an error, or a cell beside the table: nothing to go on with
     else:
         return difference
-    depths = march(case, rules, fixed, steps=f.table.steps)["depth"]
-    return replace(difference, effect=depths.get(f.table.steps))
+    depths = march(case, rules, fixed, steps=steps)["depth"]
+    return replace(difference, effect=depths.get(steps))

@@ -31,8 +31,8 @@ Record = Mapping[str, Any]
 def safe(text: object, limit: int = 90) -> str:
     r"""Text from a file as it may be shown: one line, nothing that moves a terminal, not too long.
 
-    >>> safe("a\nb\x1b[31m"), safe("abcdef", 5)
-    ('a\\nb\\x1b[31m', 'ab...')
+    >>> safe("a\nb\x1b[31m"), safe("abcdef", 5), safe("abcde", 5)
+    ('a\\nb\\x1b[31m', 'ab...', 'abcde')
     """
     cut = str(text)[: limit + 1]
     plain = "".join(c if c.isprintable() else repr(c)[1:-1] for c in cut)

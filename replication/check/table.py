@@ -140,8 +140,8 @@ class Line:
         """Whether it looks like a depth: not negative, rarely falling, and no mere count."""
         pairs = self._pairs
         rising = sum(b >= a for a, b in pairs)
-        grows = pairs[0][0] >= 0 and pairs[-1][1] > pairs[0][0]
-        return grows and rising >= 0.9 * len(pairs) and any(b - a != 1 for a, b in pairs)
+        counts = all(b - a == 1 for a, b in pairs)
+        return pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
 
     @cached_property
     def _pairs(self) -> list[tuple[float, float]]:

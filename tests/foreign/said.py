@@ -385,6 +385,9 @@ COLUMNS: dict[str, Cells] = {
     "no row of the impact": {f"{c}8": None for c in "ACDE"} | {
         "C9": "=B5", "D9": "=C9*$E$2/2", "A9": "=$E$2"},
     "zeros after the end": {f"{c}{row}": 0 for c in "CDEF" for row in range(61, 66)},
+    "zeros after the end, no heads": {
+        **{f"{c}{row}": 0 for c in "CDEF" for row in range(61, 66)},
+        **{f"{letter}7": None for letter in "ACDEF"}},
     "the last row again and again": {
         f"{c}{row}": f"={c}{row - 1}" for c in "ACDEF" for row in range(61, 66)},
     "a velocity in the middle of the step, beside the table": {
@@ -432,6 +435,9 @@ def stops() -> Iterator[str]:
         "a hair beyond the radius", plain(replace(COARSE, velocity=712.0)), plain(COARSE)
     )
     yield from said("60 rows of 4 ps", plain(replace(COARSE, step=4e-12), 60), plain(COARSE))
+    for step, rows in ((7e-9, None), (4e-11, None), (6e-12, 30)):
+        f = plain(replace(BETA_5, step=step), rows)
+        yield from said(f"steps of {step:g} s", f, plain(COARSE))
     yield from said("403 m/s in rows for 500", changed(plain(COARSE), {"B5": 403}), plain(COARSE))
     yield from said("521 m/s in rows for 500", changed(plain(COARSE), {"B5": 521}), plain(COARSE))
     blank = {f"{letter}55:": None for letter in "ACDEF"}
@@ -449,6 +455,25 @@ def stops() -> Iterator[str]:
     yield from said(
         "beyond the radius, drag without 1/2", changed(plain(FAST), {"E9:": doubled}), plain(COARSE)
     )
+
+
+def halves() -> Iterator[str]:
+    """What exactly half of the rows do: of 52 rows, or of those after the first of 51."""
+    half, whole, shorter = range(10, 60, 2), plain(COARSE), plain(COARSE, 51)
+    doubled = force(drag="$E$1*C{r}^2")
+    typed = force(drag="0.5*7850*C{r}^2")
+    for title, f, cells in (
+        ("times of two shapes", shorter, {f"A{r}": f"=$E$2+A{r - 1}" for r in half}),
+        ("times typed", shorter, {f"A{r}": (r - 8) * 5e-10 for r in half}),
+        ("drag without 1/2", whole, {f"E{r}": doubled.format(r=r) for r in (*half, 60)}),
+        ("drag without 1/2, and one row more", whole,
+         {f"E{r}": doubled.format(r=r) for r in (9, *half, 60)}),
+        ("the target density typed", shorter, {f"E{r}": typed.format(r=r) for r in range(34, 60)}),
+        ("the target density typed, but for one row", shorter,
+         {f"E{r}": typed.format(r=r) for r in range(35, 60)}),
+        ("velocities not those before", whole, {f"C{r}": f"=F{r - 1}*1.001" for r in (*half, 60)}),
+    ):  # fmt: skip
+        yield from said(title, changed(replace(f, cells=dict(f.cells)), cells), plain(COARSE))
 
 
 def digits() -> Iterator[str]:
@@ -504,6 +529,16 @@ def several() -> Iterator[str]:
         f.put("Budget", f"A{row}", f"item {row}")
         f.put("Budget", f"B{row}", 1000.0 - row * row % 17)
     yield from said("a budget", f)
+    f = Foreign("steady", COARSE)
+    f.line("Sheet1", "A1", "t [s]", "x [m]", "v [m/s]")
+    for row in range(2, 30):
+        f.line("Sheet1", f"A{row}", row * 1e-9, row * 5e-7, 500.0)
+    yield from said("a steady motion", f)
+    f = Foreign("decay", COARSE)
+    for row in range(1, 20):
+        f.line("Sheet1", f"A{row}", 100 * 0.9**row, 50 * 0.9**row, -5 * 0.9**row)
+    f.cells["Sheet1", 20, 1] = 200.0
+    yield from said("what decays, and jumps up at the end", f)
     f = layouts.no_time(BETA_5)
     f.cells["impact", 60, 5] = 1.2e-10
     yield from said("a typed area beside the table", f)
@@ -926,6 +961,7 @@ SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
     "plain sheet: inputs": partial(plainly, INPUTS),
     "plain sheet: cells": partial(plainly, CELLS),
     "plain sheet: columns": partial(plainly, COLUMNS),
+    "plain sheet: half of the rows": halves,
     "plain sheet: the stop": stops,
     "last digits": last_digits,
     "numbers without formulas": digits,
