@@ -168,12 +168,6 @@ def test_the_refusal_counts_steps_down_to_the_stop_velocity() -> None:
         run(replace(BETA_5, step=BETA_5.step * 131 / 1.1e6))
 
 
-@pytest.mark.parametrize("steps", [[], [1e-10], [1e-10, 1e-10], [1e-10, 2e-10]])
-def test_a_ladder_must_descend(steps: list[float]) -> None:
-    with pytest.raises(ValueError, match="two steps or more, each shorter"):
-        ladder.converge(BETA_5, steps)
-
-
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
@@ -189,15 +183,6 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
         for k in range(4)
     ]
     assert any(failing)
-
-
-def test_digits_that_the_stop_rule_forbids_are_refused() -> None:
-    with pytest.raises(ValueError, match=r"stopping at 1\.0 m/s alone leaves out 2\.05e-11 m"):
-        ladder.step_for_digits(BETA_5, 6)
-    with pytest.raises(ValueError, match="ask for one or more"):
-        ladder.step_for_digits(BETA_5, 0)
-    with pytest.raises(ValueError, match="need more than 1,000,000 steps"):
-        ladder.step_for_digits(replace(BETA_5, stop_velocity=0.0), 9)
 
 
 SAID = {

@@ -103,24 +103,6 @@ def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.Monk
     assert said.endswith("200 rows are prepared, and no workbook takes more.")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("--rows", "20"), "20 rows will not do: give 26 to 20,000"),
-        (("--rows", "30000"), "to 20,000"),
-        (("--scheme", "best"), "no scheme 'best'"),
-        (("--resistance", "1"), "takes 100,000 to 1e+15 Pa for the target resistance, given"),
-    ],
-)
-def test_what_it_cannot_do_is_status_2(
-    run: Run, tmp_path: Path, arguments: tuple[str, ...], message: str
-) -> None:
-    status, out, err = run(*OWN, *arguments)
-    assert (status, out) == (2, "")
-    assert message in err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_json_without_verifying_has_the_warnings(run: Run) -> None:
     status, out, err = run("--step", "40 ns", "--json")
     record = json.loads(out)
