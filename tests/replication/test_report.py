@@ -178,6 +178,12 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 # The other files
 
 
+def test_the_page_in_the_documentation_is_what_the_audit_says(files: dict[str, bytes]) -> None:
+    """To keep a new one: run `coldspray audit`, and copy its audit.md up to the provenance."""
+    kept = (Path(__file__).parents[2] / "docs" / "audit.md").read_text("utf-8")
+    assert files["audit.md"].decode().partition("\n## Provenance")[0] == kept
+
+
 def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
     document = json.loads(files["audit.json"])
     digest = document["provenance"]["sha256"].pop("workbook.xlsx")
@@ -195,12 +201,6 @@ def test_every_claim_is_a_line_of_the_csv_with_all_digits(
         if claim.enclosure:
             ends = row["enclosure_lower"], row["enclosure_upper"]
             assert ends == tuple(map(repr, claim.enclosure))
-
-
-def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record: Record) -> None:
-    text = files["audit.md"].decode()
-    assert all(f"`{part.id}`" in text for part in (*record.claims, *record.findings))
-    assert len({line.count("|") for line in text.splitlines() if line.startswith("| L/D = 1")}) == 1
 
 
 def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -> None:
