@@ -41,9 +41,7 @@ def test_case_file(tmp_path: Path, coldspray: Command) -> None:
     assert (inputs["velocity"], inputs["radius"], inputs["beta"]) == (460.0, 5.5e-6, 3.0)
 
 
-def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
-    text = coldspray("sheet")[1]
-    assert re.search(r"^steps +131$", text, re.MULTILINE)
+def test_sheet_prints_rows_as_csv_and_json(coldspray: Command) -> None:
     record = json.loads(coldspray("sheet", "--json")[1])
     assert {"inputs", "rows", "final_depth", "normalized_depth", "steps"} <= set(record)
     names = ["time", "velocity_initial", "depth", "deceleration", "velocity_final"]
@@ -51,17 +49,7 @@ def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
     assert record["rows"][0]["velocity_final"] is None
     rows = list(csv.DictReader(coldspray("sheet", "--csv")[1].splitlines()))
     assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
-
-
-def test_a_sheet_without_steps_says_why(coldspray: Command) -> None:
-    slow = ["sheet", "--velocity", "0.5"]
-    status, out, err = coldspray(*slow)
-    assert (status, err.count("\n")) == (0, 1)
-    assert "0.5 m/s is below the stop velocity 1.0 m/s" in err
-    assert coldspray(*slow, "--quiet") == (0, out, "")
-    (said,) = json.loads(coldspray(*slow, "--json")[1])["warnings"]
-    assert said in err
-    assert not coldspray("sheet", "--velocity", "1")[2].count("below")
+    assert json.loads(coldspray("sheet", "--velocity", 0.5, "--json")[1])["warnings"]
 
 
 def test_history_prints_the_promised_keys(coldspray: Command) -> None:
@@ -75,14 +63,11 @@ def test_history_prints_the_promised_keys(coldspray: Command) -> None:
     assert record["velocity"][0] == 500.0
 
 
-def test_history_at_given_times_as_text_and_csv(coldspray: Command) -> None:
-    times = ["--times", "0 ns,5 ns, 1e-6"]
-    rows = list(csv.DictReader(coldspray("history", *times, "--csv")[1].splitlines()))
+def test_history_at_given_times_as_csv(coldspray: Command) -> None:
+    out = coldspray("history", "--times", "0 ns,5 ns, 1e-6", "--csv")[1]
+    rows = list(csv.DictReader(out.splitlines()))
     assert [float(row["time"]) for row in rows] == [0.0, 5e-9, 1e-6]
     assert float(rows[-1]["velocity"]) == 0.0
-    text = coldspray("history", *times)[1]
-    assert re.search(r"^ +5 +2\.4396484 +464\.8750", text, re.MULTILINE)
-    assert re.search(r"^stop time +26\.079234 ns$", text, re.MULTILINE)
 
 
 def test_claims_are_listed_and_proven(coldspray: Command) -> None:

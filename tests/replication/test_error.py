@@ -90,37 +90,6 @@ def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
     assert found.exact_at_stop < found.exact
 
 
-def test_regimes_go_from_coarse_to_floor() -> None:
-    published = ladder.converge(BETA_5, ladder.ladder(2e-10, 7))
-    assert [level.regime for level in published.levels[:2]] == [
-        "order unknown",
-        "not yet asymptotic",
-    ]
-    assert published.levels[-1].regime == "asymptotic"
-    centered = ladder.converge(BETA_5, ladder.ladder(2e-10, 9), "centered")
-    assert centered.levels[-1].regime == "stop-rule floor"
-    meaningless = ladder.converge(BETA_5, [1e-7, 5e-8])
-    assert {level.regime for level in meaningless.levels} == {"meaningless"}
-
-
-@pytest.mark.parametrize(
-    ("steps", "scheme", "reason"),
-    [
-        ([4e-10, 2e-10], "published", "three levels"),
-        ([4e-10, 2e-10, 1.5e-10], "published", "constant ratio"),
-        # No row is ever made: equal depths.
-        ([4e-10, 2e-10, 1e-10], "published", "equal"),
-        (ladder.ladder(2e-10, 9), "centered", "the depths oscillate"),
-    ],
-)
-def test_the_limit_is_undefined_for_a_reason(steps: list[float], scheme: str, reason: str) -> None:
-    case = replace(BETA_5, velocity=0.5) if reason == "equal" else BETA_5
-    found = ladder.converge(case, steps, scheme)
-    undefined = [level.undefined for level in found.levels if level.limit is None]
-    assert any(reason in text for text in undefined)
-    assert scheme == "centered" or (found.limit is None and reason in undefined[-1])
-
-
 def level(step: float, depth: float) -> ladder.Level:
     budget = Budget(1.0, 0.0, 0.0, 1.0, 0.0)
     return ladder.Level(step, 1, depth, 1.0, budget, (), None, None, "")
@@ -239,20 +208,9 @@ def test_converge_prints_the_promised_keys(coldspray: Command) -> None:
     assert record["digits"]["digits"] == 3
 
 
-def test_texts_for_reading(coldspray: Command) -> None:
-    text = coldspray("converge", "--steps", "0.5 ns,0.2 ns")[1]
-    assert "first order" in text
-    assert "7.660299" in text
-    assert "second order" in coldspray("converge", "--scheme", "centered")[1]
+def test_hard_cases_are_printed(coldspray: Command) -> None:
     text = coldspray("stability", "--random", 500)[1]
     assert "no resistance: refused: target resistance is 0.0" in text
     record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
     assert len(record["cases"]) == len(hard_cases.HARD_CASES)
     assert record["random"]["cases"] == 500
-
-
-def test_a_sheet_that_reverses_says_so(coldspray: Command) -> None:
-    _, out, err = coldspray("sheet", "--csv")
-    assert "reverses the velocity to -3.316 m/s" in err
-    assert "warning" not in out
-    assert coldspray("sheet", "--csv", "--quiet")[2] == ""
