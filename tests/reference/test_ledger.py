@@ -105,40 +105,6 @@ def test_the_table_cell_by_cell() -> None:
     assert len(LEDGER.blank) == 24 + 6 + 1
 
 
-PLACES = {
-    "eq1-power": "section 2, Eq. 1",
-    "observed-depth-ratio": "section 2, Eq. 4",
-    "fz-kt": "section 3, Eq. 17",
-    "summary-ratio": "section 6",
-    "a-step": "appendix",
-    "a1-deceleration-2": "Table A-1, cell E10",
-}
-INTERVALS = {
-    "depth-beta-5": "[7.665, 7.675)",
-    "a1-time-3": "[5.5E-10, 6.5E-10)",
-    "a1-depth-0": "0",
-    "initial-time-depth": "0",
-    "eq2-factor": "1/3",
-    "observed-ratio": "[0.25, 0.35)",
-    "observed-third": "[7/24, 5/12]",
-    "outlier-volume": "[7450, 7550)",
-    "profile-depth": "(2, inf)",
-    "copper-yield-bound": "(-inf, 100)",
-    "strain-rate": "[1E+7, inf)",
-    "cth-pressure": "(-inf, 5]",
-    "frank-zook-below-observed": "(-inf, 0.298)",
-}
-
-
-def test_places_and_intervals() -> None:
-    # The lines are those of the file, checked with the quotes.
-    places = {name: re.sub(r", line \d+", "", str(LEDGER.claims[name].place)) for name in PLACES}
-    assert places == PLACES
-    assert {name: str(LEDGER.claims[name].interval()) for name in INTERVALS} == INTERVALS
-    with pytest.raises(ValueError, match="prints no number"):
-        LEDGER.claims["coarse-step-remark"].interval()
-
-
 USUAL, ROUNDED = Convention(), Convention(choices_exact=False)
 
 

@@ -86,7 +86,7 @@ EXAMPLES = [part.splitlines() for part in re.sub("\n+#.*", "", SAID).split("\n$ 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda lines: lines[0])
 def test_what_the_commands_say(example: list[str], folder: Path) -> None:
     command, *said = example
-    if refused := said[-1].startswith("coldspray"):
+    if refused := "".join(said[-1:]).startswith("coldspray"):
         case, said = said[:-1], said[-1:]
         (folder / "case.toml").write_text("\n".join(case), "utf-8")
     status, text = check(folder, *shlex.split(command))

@@ -110,16 +110,6 @@ def test_json_without_verifying_has_the_warnings(run: Run) -> None:
     assert any("reverses the velocity" in warning for warning in record["warnings"])
 
 
-def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:
-    err = run("--step", "40 ns")[2]
-    warnings = err.splitlines()
-    assert len(warnings) == 3
-    assert all(w.startswith("coldspray workbook: warning: Sheet beta 5: ") for w in warnings)
-    assert "reverses the velocity to -861.9 m/s" in err
-    assert run("--step", "40 ns", "--quiet") == (0, "", "")
-    assert "0.5 m/s is below the stop velocity 1.0 m/s: no steps" in run("--velocity", "0.5")[2]
-
-
 # Verification
 
 
