@@ -166,21 +166,25 @@ def nothing_is_left(tmp_path: Path) -> Iterator[None]:
     assert not list((tmp_path / "temporary").glob("*"))
 
 
-def test_libreoffice_that_fails_is_an_error(
-    office: Callable[[str], Engine], workbook: Path
+@pytest.mark.parametrize(
+    ("script", "limit", "said"),
+    [
+        ("echo chatter >&2; exit 3", 600, "soffice ended with status 3 before it answered"),
+        # Returning before the sleep is over shows that it was killed: its end is waited for.
+        ("sleep 600", 1, "no answer within 1 s"),
+    ],
+)
+def test_libreoffice_that_fails_or_hangs_is_an_error(
+    script: str,
+    limit: int,
+    said: str,
+    office: Callable[[str], Engine],
+    workbook: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    said = "^libreoffice: soffice ended with status 3 before it answered$"
-    with pytest.raises(EngineError, match=said):
-        office("echo chatter >&2; exit 3").recalculate(workbook)
-
-
-def test_libreoffice_that_hangs_is_ended(
-    office: Callable[[str], Engine], workbook: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(engines, "TIME_LIMIT_S", 1)
-    # Returning before the sleep is over shows that it was killed: its end is waited for.
-    with pytest.raises(EngineError, match=r"^libreoffice: no answer within 1 s$"):
-        office("sleep 600").recalculate(workbook)
+    monkeypatch.setattr(engines, "TIME_LIMIT_S", limit)
+    with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
+        office(script).recalculate(workbook)
 
 
 def test_libreoffice_may_want_a_restart(
