@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from replication.cases import BETA_3, BETA_5, CASES
+from replication.cases import BETA_3, BETA_5
 from replication.error import hard_cases, ladder
 from replication.error.ladder import Budget, exact_motion, split
 from replication.models.depth import final_depth
@@ -48,23 +48,6 @@ def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: st
     assert abs(math.fsum(parts) - budget.total) <= rounding
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("step", [2e-10, 5e-10])
-def test_the_reports_error_is_that_of_the_time_step(case: str, step: float) -> None:
-    budget = split(run(replace(CASES[case], step=step)))
-    assert budget.time_step == pytest.approx(budget.total, rel=0.05)
-    assert budget.total < 0, "the sheet is short of the exact depth"
-    assert abs(budget.rounding or 1) < 1e-18
-
-
-def test_where_parts_of_the_budget_are_nothing_or_undefined() -> None:
-    budget = split(run(replace(BETA_5, velocity=0.5)))  # without a row all the depth is missing
-    assert [getattr(budget, part) for part in PARTS] == [0, 0, 0, budget.total]
-    budget = split(run(replace(BETA_5, step=1e-7)))  # it ends with a velocity that no motion has
-    assert [getattr(budget, part) for part in PARTS] == [None] * 4
-    assert budget.total > 0
-
-
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
 def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
@@ -77,17 +60,6 @@ def test_without_drag_the_published_scheme_is_second_order() -> None:
     dragless = replace(BETA_5, target_density=1e-6)
     found = ladder.converge(dragless, ladder.ladder(1e-10, 6))
     assert found.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
-
-
-def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
-    found = ladder.converge(BETA_5, ladder.ladder(2e-10, 9))
-    assert found.limit is not None
-    gci = found.levels[-1].gci
-    assert gci is not None
-    # The stop rule's jitter is of the size of one step's travel at the stop velocity.
-    jitter = 5 * found.levels[-1].step
-    assert abs(found.limit - found.exact_at_stop) <= gci * found.exact + jitter
-    assert found.exact_at_stop < found.exact
 
 
 def level(step: float, depth: float) -> ladder.Level:
