@@ -70,13 +70,10 @@ def test_history_at_given_times_as_csv(coldspray: Command) -> None:
     assert float(rows[-1]["velocity"]) == 0.0
 
 
-def test_claims_are_listed_and_proven(coldspray: Command) -> None:
+def test_claims_are_listed(coldspray: Command) -> None:
     listing = coldspray("claims")[1].splitlines()
     records = json.loads(coldspray("claims", "--json")[1])
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
-    proof = coldspray("claims", "frank-zook-rha")[1]
-    assert "not reproduced" in proof
-    assert "0.127273" in proof
     assert json.loads(coldspray("claims", "depth-beta-5", "--json")[1])["verdict"] == "reproduced"
 
 
@@ -133,10 +130,3 @@ def test_version_and_help(coldspray: Command) -> None:
         said = coldspray(command, "--help")[1]
         assert "--json" in said
         assert "--quiet" in said
-
-
-def test_a_proof_names_its_cell_and_its_findings(coldspray: Callable[..., tuple]) -> None:
-    status, out, _ = coldspray("claims", "depth-beta-5")
-    assert status == 0
-    assert re.search(r"Sheet beta 5!\$?[A-Z]+\$?\d+", out)
-    assert "Two schemes fit what is printed" in out

@@ -21,7 +21,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.ledger import load
 from replication import text as texts
 from replication.audit.record import Record
 from replication.audit.verdict import OPEN
@@ -225,18 +224,6 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
-
-
-@pytest.mark.parametrize(
-    "name", ["frank-zook-rha", "coarse-step-remark", "eq2-power", "a1-depth-1"]
-)
-def test_a_proof_fits_the_terminal(record: Record, name: str) -> None:
-    text = render.proof(record.claim(name), load(), 80)
-    assert max(map(len, text.splitlines())) <= 80
-    claim = record.claim(name)
-    assert claim.verdict in text
-    assert all(texts.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
-    assert ("One input changed" in text) == bool(claim.back_solved)
 
 
 cells = st.text("ab c", max_size=12)
