@@ -4,14 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.cases import BETA_3, BETA_5, CASES, INPUTS, inputs_of, read_case
+from replication.cases import BETA_5, INPUTS, inputs_of, read_case
 from replication.models.impact import Impact
-
-
-def test_the_reports_cases_differ_only_in_beta() -> None:
-    assert replace(BETA_3, beta=5.0) == BETA_5
-    assert (BETA_3.target_resistance, BETA_5.target_resistance) == (2.1e9, 3.5e9)
-    assert CASES == {"beta-3": BETA_3, "beta-5": BETA_5}
 
 
 @pytest.mark.parametrize("name", [n for n in INPUTS if n != "resistance"])
