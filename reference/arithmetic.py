@@ -302,10 +302,10 @@ class Ratio(Operators):
         is_constant = self.over == self.under * value
         return Fraction(int(value.p), int(value.q)) if is_constant else None
 
-    def _ratio(self, other: Any) -> "Ratio":
-        if isinstance(other, Ratio):
-            return other
-        return Ratio(self.under * 0 + other, self.under * 0 + 1)
+    def _ratio(self, value: Any) -> "Ratio":
+        if isinstance(value, Ratio):
+            return value
+        return Ratio(self.under * 0 + value, self.under * 0 + 1)
 
 
 class Ratios:
@@ -353,6 +353,6 @@ def _polynomials(names: tuple[str, ...]) -> tuple[Any, dict[str, Ratio]]:
     from flint import Ordering, fmpq_mpoly_ctx
 
     context = fmpq_mpoly_ctx.get(names, Ordering.lex)
-    one = context.constant(1)
-    ratios = [Ratio(generator, one) for generator in context.gens()]
+    unity = context.constant(1)
+    ratios = [Ratio(generator, unity) for generator in context.gens()]
     return context, dict(zip(names, ratios, strict=True))

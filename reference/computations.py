@@ -108,8 +108,8 @@ def _contact_diameter(of: Formulas, normalized_depth: Number, diameter: Number) 
 
 
 def _goodier_beta(of: Formulas, q: Number, power: Fraction) -> Number:
-    one = of.ar.number(1)
-    return of.right("eq8", a=one, q=q, n=power) / of.right("eq9", a=one, R_t=one)
+    unity = of.ar.number(1)
+    return of.right("eq8", a=unity, q=q, n=power) / of.right("eq9", a=unity, R_t=unity)
 
 
 def _walker_anderson_alpha(of: Formulas, **steel: Number) -> Number:

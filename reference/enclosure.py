@@ -374,8 +374,8 @@ def extent(
         best = holding(function, corner)
         if outer[top] != box[name][top] and is_met_at_the_bound(best, target, top):
             continue  # what it allows is beyond the bound
-        found = solve(best, name, box[name], target).inner
-        value = found[-top][top] if found else start
+        allowed = solve(best, name, box[name], target).inner
+        value = allowed[-top][top] if allowed else start
         if _undecided(constraints, _points({**corner, name: value})) == []:
             attained.append(value)
     return (min(attained), max(attained)), (outer[0], outer[1])

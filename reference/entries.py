@@ -253,5 +253,5 @@ def _sections(text: str) -> list[tuple[int, str]]:
 @cache
 def _displays(text: str) -> list[tuple[int, int, str]]:
     """Where the numbered equations stand, and their numbers."""
-    found = re.finditer(r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)", text, re.DOTALL)
-    return [(*match.span(), match[1]) for match in found]
+    numbered = r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)"
+    return [(*match.span(), match[1]) for match in re.finditer(numbered, text, re.DOTALL)]

@@ -94,9 +94,9 @@ def _power(x: arb, power: int) -> arb:
 
 def _least(first: arb, *others: arb) -> arb:
     """A ball that has the least number of all: one of them wherever it can be told which."""
-    for other in others:
-        if not (first <= other or first.contains(other)):
-            first = other if other <= first or other.contains(first) else first.min(other)
+    for ball in others:
+        if not (first <= ball or first.contains(ball)):
+            first = ball if ball <= first or ball.contains(first) else first.min(ball)
     return first
 
 

@@ -498,14 +498,14 @@ def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
 
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
     """The number that a claim compares with, its own or another claim's."""
-    other, against = claim, claim.against
+    compared, against = claim, claim.against
     if against is not None:
-        other = _known("number", against, claims)
-        if other.printed is None:
+        compared = _known("number", against, claims)
+        if compared.printed is None:
             raise ValueError(f"there is no number {against!r} to compare with")
-        if other.unit != claim.unit:
-            raise ValueError(f"is in {claim.unit}, but {against} in {other.unit}")
-    return None if claim.relation is None or other.printed is None else other.printed.value
+        if compared.unit != claim.unit:
+            raise ValueError(f"is in {claim.unit}, but {against} in {compared.unit}")
+    return None if claim.relation is None or compared.printed is None else compared.printed.value
 
 
 # What does not fit between entries

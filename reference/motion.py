@@ -50,11 +50,11 @@ def sheet_rows(
         area_over_mass = ar.pi * radius * radius / mass
 
     drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
-    half_step, per_radius, one = step / 2, 1 / radius, ar.number(1)
+    half_step, per_radius, unity = step / 2, 1 / radius, ar.number(1)
 
     def deceleration(x: Number, v: Number) -> Number:
         # Eqs. 12-13: the contact area over pi R^2 is 2y - y^2, and 1 beyond y = x/R = 1.
-        return (drag * v**2 + push) * ar.contact_share(ar.least(x * per_radius, one))
+        return (drag * v**2 + push) * ar.contact_share(ar.least(x * per_radius, unity))
 
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):

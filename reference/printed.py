@@ -83,13 +83,13 @@ class Interval:
         """Whether no value from lower to upper lies inside."""
         return (upper, 0) < self._starts or self._stops < (lower, 0)
 
-    def meets(self, other: "Interval") -> bool:
+    def meets(self, another: "Interval") -> bool:
         """Whether some value lies in both.
 
         >>> parse("403").interval().meets(parse("404").interval())
         False
         """
-        return self._starts <= other._stops and other._starts <= self._stops
+        return self._starts <= another._stops and another._starts <= self._stops
 
     def scaled(self, factor: Fraction) -> "Interval":
         """The interval times a positive factor (a change of unit)."""

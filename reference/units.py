@@ -126,13 +126,13 @@ def unit_dimension(unit: str) -> Dimension:
     return _unit(unit)[1]
 
 
-def same_dimension(unit: str, other: str) -> bool:
+def same_dimension(first: str, second: str) -> bool:
     """Whether two units measure the same kind of quantity.
 
     >>> same_dimension("ksi", "MPa"), same_dimension("um", "MPa")
     (True, False)
     """
-    return unit_dimension(unit) == unit_dimension(other)
+    return unit_dimension(first) == unit_dimension(second)
 
 
 _SUPERSCRIPTS = str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")

@@ -41,7 +41,10 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     """
     if name not in CASES:
         raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
-    from_file = {} if file is None else _displaced(_file(file), given)
+    from_file = {} if file is None else _file(file)
+    for group, instead in ((_PRODUCT, {"resistance"}), ({"resistance"}, _PRODUCT)):
+        if group & set(given):  # displaces in the file what stands instead of it
+            from_file = {key: text for key, text in from_file.items() if key not in instead}
     places = {**dict.fromkeys(from_file, f"{name_of(file)}: "), **dict.fromkeys(given, "")}
     values: dict[str, Any] = {}
     for key, text in {**from_file, **given}.items():
@@ -56,13 +59,6 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
 
 
 _PRODUCT = {"beta", "flow_stress"}
-
-
-def _displaced(from_file: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
-    """What the file gives, less what the inputs given singly take the place of."""
-    gone = _PRODUCT if "resistance" in given else set()
-    gone = {"resistance"} if _PRODUCT & set(given) else gone
-    return {key: text for key, text in from_file.items() if key not in gone}
 
 
 def _file(path: Path) -> dict[str, str]:

@@ -18,6 +18,7 @@ from replication.audit.audit import Audit
 from replication.audit.edits import edits_of
 from replication.audit.explain import Screen, dependents
 from replication.audit.verdict import OPEN, Verdict, assess_equation
+from replication.text import Table, table
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,10 @@ class Counts(msgspec.Struct, kw_only=True):
     repaired: int = 0
     repaired_first: int = 0
 
+    def percent(self, count: int) -> str:
+        """A count in percent of what is visible."""
+        return f"{100 * count / self.visible:.1f}" if self.visible else "-"
+
     def add(self, trial: Trial) -> None:
         """Count one more."""
         self.planted += 1
@@ -80,24 +85,20 @@ class Power(Counts, kw_only=True):
     by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
 
-    def table(self) -> list[tuple[str, ...]]:
-        """Heads and rates in percent of what is visible: all, by kind of entry, by kind of edit."""
-        heads = (
-            "", "planted", "visible", "noticed", "text named", "named first", "accused wrongly",
-        )  # fmt: skip
-        kinds = [(f"in {name}", self.by_kind[name]) for name in sorted(self.by_kind)]
-        edits = [(f"by {name}", self.by_edit[name]) for name in sorted(self.by_edit)]
-        return [heads, *(_row(name, counts) for name, counts in [("all", self), *kinds, *edits])]
-
-
-def _row(name: str, counts: Counts) -> tuple[str, ...]:
-    shares = (counts.detected, counts.repaired, counts.repaired_first, counts.accused_wrongly)
-    return (
-        name,
-        str(counts.planted),
-        str(counts.visible),
-        *(f"{100 * share / counts.visible:.1f}" if counts.visible else "-" for share in shares),
-    )
+    def table(self) -> Table:
+        """Rates in percent of what is visible: all, by kind of entry, by kind of edit."""
+        counts: dict[str, Counts] = {"all": self}
+        for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
+            counts |= {f"{word} {name}": parts[name] for name in sorted(parts)}
+        return table("Rates in percent", counts, {
+            "": str,
+            "planted": lambda name: str(counts[name].planted),
+            "visible": lambda name: str(counts[name].visible),
+            "noticed": lambda name: counts[name].percent(counts[name].detected),
+            "text named": lambda name: counts[name].percent(counts[name].repaired),
+            "named first": lambda name: counts[name].percent(counts[name].repaired_first),
+            "accused wrongly": lambda name: counts[name].percent(counts[name].accused_wrongly),
+        })  # fmt: skip
 
 
 def measured() -> Power:

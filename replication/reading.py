@@ -7,7 +7,7 @@ import sys
 import threading
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -62,12 +62,19 @@ def read_file(path: Path, largest: int = _SIZE) -> bytes:
     mode = path.stat().st_mode
     if stat.S_ISCHR(mode):
         raise ValueError(f"{name_of(path)} is a device, not a file")
+    note = f"coldspray: waiting for a program to write to {name_of(path)}\n"
+    timer = threading.Timer(_PATIENCE, lambda: sys.stderr.write(note))
+    timer.daemon = True  # whoever is tired of waiting may leave
     try:
-        with _waiting(path) if stat.S_ISFIFO(mode) else nullcontext(), path.open("rb") as file:
+        if stat.S_ISFIFO(mode):
+            timer.start()
+        with path.open("rb") as file:
             content = file.read(largest + 1)
     except OSError as error:
         error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
         raise
+    finally:
+        timer.cancel()
     if len(content) > largest:
         raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
     return content
@@ -86,19 +93,6 @@ def place(name: str) -> Iterator[None]:
         yield
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from error
-
-
-@contextmanager
-def _waiting(path: Path) -> Iterator[None]:
-    """Say what is waited for, if it takes long."""
-    note = f"coldspray: waiting for a program to write to {name_of(path)}\n"
-    timer = threading.Timer(_PATIENCE, lambda: sys.stderr.write(note))
-    timer.daemon = True  # whoever is tired of waiting may leave
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
 
 
 class _Float(str):

@@ -1,13 +1,55 @@
-"""Numbers as text for reading: shortened, but never so that a proven range becomes narrower."""
+"""Results as text: JSON and CSV with every digit; shortened numbers and tables for reading.
 
+A proven range never becomes narrower by being shortened.
+"""
+
+import csv
+import io
+import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import zip_longest
 from textwrap import wrap
+from typing import Any, NamedTuple, TypeVar
+
+import msgspec
 
 from reference.units import superscript
+
+# For programs
+
+
+def json_text(record: Any) -> str:
+    r"""One JSON document; every float with the digits that make it the same double again.
+
+    Raises ValueError for a float that is not finite, which JSON cannot hold.
+
+    >>> json_text({"depth": 1e-06})
+    '{\n  "depth": 1e-06\n}\n'
+    """
+    compact = json.dumps(msgspec.to_builtins(record), ensure_ascii=False, allow_nan=False)
+    # A file's name may hold what no encoding has; escaped, it is JSON again.
+    return msgspec.json.format(compact.encode(errors="backslashreplace"), indent=2).decode() + "\n"
+
+
+def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    r"""Records as CSV; floats keep all digits, None is an empty field, truth is true or false.
+
+    >>> rows_csv([{"depth": 1e-06, "beyond_radius": False, "gap": None}])
+    'depth,beyond_radius,gap\n1e-06,false,\n'
+    """
+    buffer = io.StringIO()
+    writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    for row in rows:
+        spelt = {k: str(x).lower() if isinstance(x, bool) else x for k, x in row.items()}
+        writer.writerow(spelt)
+    return buffer.getvalue()
+
+
+# For people
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
@@ -70,15 +112,48 @@ def rounded(value: Fraction, digits: int, rounding: str) -> str:
     return f"{float(shortened):.{digits}g}"
 
 
-def aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
+_T = TypeVar("_T")
+
+
+class Table(NamedTuple):
+    """A table; the first cell of a row is its head."""
+
+    caption: str
+    heads: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+
+
+def table(caption: str, things: Iterable[_T], columns: Mapping[str, Callable[[_T], str]]) -> Table:
+    """A table with a row for each thing; `columns` names what stands in it, and writes it.
+
+    >>> table("Powers", [2, 3], {"n": str, "square": lambda n: str(n * n)}).rows
+    [('2', '4'), ('3', '9')]
+    """
+    rows = [tuple(write(thing) for write in columns.values()) for thing in things]
+    return Table(caption, tuple(columns), rows)
+
+
+def aligned(rows: Sequence[tuple[str, ...]], right: bool = False) -> list[str]:
     """Rows of texts as lines, each column as wide as its widest text.
+
+    `right`: all columns but the first stand to the right.
 
     >>> aligned([("a", "bc"), ("def", "g")])
     ['a    bc', 'def  g']
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    padded = (zip(row, widths, strict=True) for row in rows)
-    return ["  ".join(f"{text:{width}}" for text, width in row).rstrip() for row in padded]
+    ways = ["<", *(">" if right else "<") * len(widths)]
+    return ["  ".join(map("{:{}{}}".format, row, ways, widths)).rstrip() for row in rows]
+
+
+def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> list[str]:
+    """Numbers to nine digits as lines, in columns of one width under their heads.
+
+    >>> numbers(["x", "v"], [(0.5, None)])
+    ['                    x                    v', '                  0.5                     ']
+    """
+    texts = (["" if x is None else number(x, 9) for x in row] for row in rows)
+    return ["".join(f"{text:>21}" for text in row) for row in (heads, *texts)]
 
 
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, starmap
 from typing import TYPE_CHECKING, Any
 
 from reference.ledger import Ledger, load
@@ -18,6 +18,7 @@ from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DEEP
 from replication.error import warnings as doubts_about
+from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, frank_zook, resistance, stream
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
@@ -118,15 +119,15 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     from replication.audit.verdict import Verdict
 
     usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
-    verdicts = {claim.id: str(claim.verdict) for claim in record.claims}
-    explanations = {claim.id: claim.explanation for claim in record.claims}
-    for name in explanations if scheme != SCHEMES[0] else ():
-        if ledger.claims[name].by_scheme:
-            explanations[name] = f"With the {SCHEMES[0]} scheme: {explanations[name]}"
+    verdicts, explanations = {}, {}
     for claim in record.claims:
+        verdict, explanation = claim.verdict, claim.explanation
         for judged in claim.otherwise:
             if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
-                verdicts[claim.id] = str(judged.verdict)
+                verdict = judged.verdict
+        if scheme != SCHEMES[0] and ledger.claims[claim.id].by_scheme:
+            explanation = f"With the {SCHEMES[0]} scheme: {explanation}"
+        verdicts[claim.id], explanations[claim.id] = str(verdict), explanation
     counts = Counter(verdicts.values())
     return Findings(
         headline=record.headline,
@@ -172,37 +173,42 @@ _TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resista
 
 
 class _Builder:
-    """Computes the values of one workbook. A case is known by its slug: low and high, or case."""
+    """Computes one workbook. `runs` and `coarse`: a case's page in the plan, and its sheet."""
 
     def __init__(self, case: Impact | None, scheme: str, rows: int | None, ledger: Ledger) -> None:
         self.scheme, self.ledger = scheme, ledger
         self.cases = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-        self.pages = {slug: self._page(slug, impact) for slug, impact in self.cases.items()}
-        blocks = inputs.inputs_of(list(self.pages.values()), report=case is None)
-        self.entries = {entry.name: entry for block in blocks.values() for entry in block}
-        self.typed = {name: self._to_type(entry) for name, entry in self.entries.items()}
-        self.changed = {n for n, e in self.entries.items() if self.typed[n] != e.of_report(ledger)}
-        self.si = {name: _si(self.typed[name], e.unit) for name, e in self.entries.items()}
+        pages = [self._page(slug, impact) for slug, impact in self.cases.items()]
+        blocks = inputs.inputs_of(pages, report=case is None)
+        entries = {entry.name: entry for block in blocks.values() for entry in block}
+        self.typed = {name: self._to_type(entry) for name, entry in entries.items()}
+        self.changed = {n for n, e in entries.items() if self.typed[n] != e.of_report(ledger)}
+        self.si = {name: _si(self.typed[name], entry.unit) for name, entry in entries.items()}
         # The cases with the numbers that their cells hold.
         held = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
-        self.impacts = {slug: replace(impact, **held) for slug, impact in self.cases.items()}
-        self.first, self.last = (list(self.impacts.values())[k] for k in (0, -1))
-        self.sheets = {slug: run(impact, scheme) for slug, impact in self.impacts.items()}
-        self.coarse: dict[str, Sheet] = {}
-        for slug, impact in self.impacts.items() if case is None else ():
-            self.coarse[slug] = run(replace(impact, step=self.si[inputs.COARSE]), scheme)
-        self.rows = steps.prepared_rows(max(s.steps for s in self.sheets.values()), rows)
-        self.ladder = [self.first.step * 2.0 ** (4 - k) for k in range(figures.LEVELS)]
-        self.levels = {slug: _levels(i, self.ladder, scheme) for slug, i in self.impacts.items()}
+        sheets = [run(replace(impact, **held), scheme) for impact in self.cases.values()]
+        self.first, self.last = sheets[0].impact, sheets[-1].impact
+        self.rows = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
+        self.runs = list(zip(pages, sheets, strict=True))
+        self.coarse = [
+            (
+                replace(page, coarse=True, name=f"{page.name} coarse"),
+                run(replace(sheet.impact, step=self.si[inputs.COARSE]), scheme),
+            )
+            for page, sheet in self.runs
+            if case is None
+        ]
 
     def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
         """What the plan must know of a case's sheet, but for its length."""
         beta = "3" if impact.beta == BETA_3.beta else "5"
         own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
+        # As spreadsheet programs join a number to a text.
+        label = "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
         return steps.CaseSheet(
             name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
             slug=slug,
-            label=_label(impact),
+            label=label,
             steps=0,
             rows=0,
             scheme=self.scheme,
@@ -232,66 +238,58 @@ class _Builder:
 
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
-        longer = [_flags(case) for slug, case in self.cases.items() if slug == "case"]
+        longer = [_flags(self.cases["case"])] if "case" in self.cases else []
         longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
         longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
         command = " ".join(["coldspray workbook", *longer]) if self.rows < steps.MAX_ROWS else ""
-        more: dict[str, Any] = {"rows": self.rows, "longer": command}
         cases, coarse = (
-            [replace(self.pages[slug], steps=sheet.steps, **more) for slug, sheet in runs.items()]
-            for runs in (self.sheets, self.coarse)
+            [replace(p, steps=sheet.steps, rows=self.rows, longer=command) for p, sheet in runs]
+            for runs in (self.runs, self.coarse)
         )
-        plan = workbook_plan(
-            self.ledger,
-            cases,
-            [replace(page, coarse=True, name=f"{page.name} coarse") for page in coarse],
-            findings,
-        )
-        values = {
-            key: value if isinstance(value, str) else float(value) for key, value in self._values()
-        }
+        plan = workbook_plan(self.ledger, cases, coarse, findings)
+        values = dict(_keyed(self._values()))
         if findings is not None:
             values |= live_verdicts(self.ledger, plan, values, findings)
         warnings = [
-            f"{self.pages[slug].name}: {doubt.text}"
-            for slug, sheet in self.sheets.items()
+            f"{page.name}: {doubt.text}"
+            for page, sheet in self.runs
             for doubt in doubts_about(sheet)
         ]
-        rounding = max(map(rounding_bound, (*self.sheets.values(), *self.coarse.values())))
+        rounding = max(rounding_bound(sheet) for _, sheet in (*self.runs, *self.coarse))
         return Workbook(plan, values, warnings, rounding)
 
-    # The values, sheet by sheet
+    # The values, sheet by sheet, as trees: a branch is a part of a key, a list a number in brackets
 
-    def _values(self) -> Iterator[tuple[str, Any]]:
-        parts: dict[str, Any] = {
+    def _values(self) -> dict[str, Any]:
+        sheets = {page.part: self._sheet(page, sheet) for page, sheet in self.runs}
+        coarse = {page.part: self._sheet(page, sheet) for page, sheet in self.coarse}
+        for values, beside in zip(coarse.values(), sheets.values(), strict=False):
+            fine = beside["depth_um"]
+            over = values["depth_um"] / fine if fine else NOT_COMPUTED
+            values |= {"fine_depth_um": fine, "over_fine": over}
+        results = {
+            part: {name: values[name] for name in ("depth_um", "normalized_depth", "message")}
+            for part, values in sheets.items()
+        }
+        last = list(sheets.values())[-1]
+        of_table = {*Row._fields, "velocity_middle"}
+        rows = [{k: v for k, v in row.items() if k in of_table} for row in last["row"]]
+        return {
             "inputs": self._inputs(),
-            "table": self._table(),
-            "figure_3": self._figure_3(),
+            "overview": {"inputs_changed": len(self.changed), "inputs_unusable": 0, **results},
+            "table": {name: last[name] for name in _TABLE} | {"row": rows[: table_a1.ROWS]},
+            "figure_3": {page.slug: self._curve(page, sheet) for page, sheet in self.runs},
             "figure_5": self._figure_5(),
             "convergence": self._convergence(),
             "frank_zook": self._frank_zook(),
             "crater": self._crater(),
             "resistance": self._resistance(),
-            "overview": self._overview(),
+            **sheets,
+            **coarse,
         }
-        for slug, sheet in self.sheets.items():
-            parts[slug] = self._sheet(slug, sheet)
-        for slug, sheet in self.coarse.items():
-            fine = self.sheets[slug].final_depth * 1e6
-            over = sheet.final_depth * 1e6 / fine if fine else NOT_COMPUTED
-            against = {"fine_depth_um": fine, "over_fine": over}
-            parts[f"{slug}_coarse"] = self._sheet(slug, sheet) | against
-        for part, held in parts.items():
-            for what, value in dict(held).items():
-                yield f"{part}.{what}", value
 
-    def _inputs(self) -> Iterator[tuple[str, Any]]:
-        for name in self.entries:
-            yield name, self.si[name]
-            yield f"{name}.typed", self.typed[name]
-            own = "as inferred" if name == "rho_t" else "the report’s"
-            yield f"{name}.check", "yours" if name in self.changed else own
-        yield from {
+    def _inputs(self) -> dict[str, Any]:
+        values: dict[str, Any] = {
             "from": "yours",
             "unusable": 0,
             "changed": len(self.changed),
@@ -302,126 +300,118 @@ class _Builder:
             "mean_radius": self.si["D_mean"] / 2 * 1e6,
             "travel_most": COARSE,
             "excess_most": DEEP,
-        }.items()
-        for slug, impact in self.impacts.items():
-            if impact.resistance is None:
-                yield self.pages[slug].named("R_t"), impact.target_resistance
+        }
+        for name, typed in self.typed.items():
+            own = "as inferred" if name == "rho_t" else "the report’s"
+            check = "yours" if name in self.changed else own
+            values |= {name: self.si[name], f"{name}.typed": typed, f"{name}.check": check}
+        return values | {
+            page.named("R_t"): sheet.impact.target_resistance
+            for page, sheet in self.runs
+            if not page.resistance_given
+        }
 
-    def _overview(self) -> Iterator[tuple[str, Any]]:
-        yield from {"inputs_changed": len(self.changed), "inputs_unusable": 0}.items()
-        for slug, sheet in self.sheets.items():
-            yield f"{slug}.depth_um", sheet.final_depth * 1e6
-            yield f"{slug}.normalized_depth", sheet.normalized_depth
-            yield f"{slug}.message", _state(sheet)[1]
-
-    def _table(self) -> dict[str, Any]:
-        sheet, given = list(self.sheets.values())[-1], _given(self.last)
-        return {name: given[name] for name in _TABLE} | dict(_row_values(sheet, table_a1.ROWS - 1))
-
-    def _sheet(self, slug: str, sheet: Sheet) -> dict[str, Any]:
+    def _sheet(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
         impact, final = sheet.impact, sheet.rows[-1]
-        held = _given(impact) | dict(_row_values(sheet, self.rows))
-        for k in range(self.rows + 1):
-            used = k <= sheet.steps
-            held[f"row[{k}].index"] = k if used else ""
-            held[f"row[{k}].depth_um"] = sheet.rows[k].depth * 1e6 if used else ""
         trust, message = _state(sheet)
-        v, exact = impact.velocity, depth.normalized_depth(*_materials(impact))
-        if impact.resistance is None:
-            held |= {"label": self.pages[slug].label, "renamed": ""}
-        return held | {
+        v, at_rest = impact.velocity, _at_rest(impact)
+        label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
+        return {
+            **impact.motion,
+            **_of(impact, "mass", "diameter", "step", "stop_velocity"),
+            **_of(sheet, "steps", "final_depth", "normalized_depth"),
+            **label,
+            "row": _rows(sheet, self.rows),
             "message": message,
             "trust": trust,
             "stopped": 1,
-            "final_depth": sheet.final_depth,
             "depth_um": sheet.final_depth * 1e6,
-            "normalized_depth": sheet.normalized_depth,
-            "steps": sheet.steps,
             "stop_time": final.time,
             "final_velocity": v if final.velocity_final is None else final.velocity_final,
             "excess": sheet.normalized_depth / self.si["observed_ratio"],
-            **_work(impact),
-            "exact_normalized_depth": exact,
-            "exact_depth_um": depth.final_depth(*impact.motion.values()) * 1e6,
+            **{name: at_rest[name] for name in ("pressure", "c")},
+            **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
             "travel": impact.step * v / impact.radius,
-            "over_exact": sheet.normalized_depth / exact,
+            "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
         }
 
-    def _figure_3(self) -> Iterator[tuple[str, Any]]:
-        """The curves in ns and µm; after the stop they hold the last row."""
-        for slug, sheet in self.sheets.items():
-            for k in range(self.rows + 1):
-                row = sheet.rows[min(k, sheet.steps)]
-                yield f"{slug}.time[{k}]", row.time * 1e9
-                yield f"{slug}.depth[{k}]", row.depth * 1e6
-            yield f"{slug}.message", f"{self.pages[slug].label}: {_state(sheet)[1]}"
+    def _curve(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
+        """A curve of Figure 3 in ns and µm; after the stop it holds the last row."""
+        rows = [sheet.rows[min(k, sheet.steps)] for k in range(self.rows + 1)]
+        return {
+            "time": [row.time * 1e9 for row in rows],
+            "depth": [row.depth * 1e6 for row in rows],
+            "message": f"{page.label}: {_state(sheet)[1]}",
+        }
 
-    def _figure_5(self) -> Iterator[tuple[str, Any]]:
+    def _figure_5(self) -> dict[str, Any]:
         low, high = self.si["V_from"], self.si["V_to"]
-        yield "message", figures.COMPLETE
-        for point in range(figures.POINTS):
-            there = replace(self.last, velocity=low + (high - low) * point / (figures.POINTS - 1))
-            yield f"velocity[{point}]", there.velocity
-            yield f"normalized_depth[{point}]", depth.normalized_depth(*_materials(there))
-            yield f"depth_um[{point}]", depth.final_depth(*there.motion.values()) * 1e6
-            for what, value in _work(there).items():
-                yield f"{what}[{point}]", value
+        velocities = [
+            low + (high - low) * point / (figures.POINTS - 1) for point in range(figures.POINTS)
+        ]
+        points = [_at_rest(replace(self.last, velocity=velocity)) for velocity in velocities]
+        columns = {what: [point[what] for point in points] for what in points[0]}
+        return {"message": figures.COMPLETE, "velocity": velocities, **columns}
 
-    def _convergence(self) -> Iterator[tuple[str, Any]]:
+    def _convergence(self) -> dict[str, Any]:
         """The ladder of the cases as written, with inputs that are as yet those in use."""
-        for k, step in enumerate(self.ladder):
-            yield f"step[{k}]", step
-            yield f"step_ns[{k}]", step * 1e9
         of_runs = {name: self.si[name] for name in figures.RUN_INPUTS}
-        for slug, impact in self.impacts.items():
-            of_runs[self.pages[slug].named("R_t")] = impact.target_resistance
-            for what, value in self.levels[slug].items():
-                yield f"{slug}.{what}", value
-        for name, value in of_runs.items():
-            yield from {f"run.{name}": value, f"in_use.{name}": value, f"same.{name}": 1}.items()
-        yield "message", figures.CURRENT
+        for page, sheet in self.runs:
+            of_runs[page.named("R_t")] = sheet.impact.target_resistance
+        time_steps = ladder(self.first.step, figures.LEVELS)
+        return {
+            "message": figures.CURRENT,
+            "step": time_steps,
+            "step_ns": [step * 1e9 for step in time_steps],
+            **{page.slug: _levels(sheet, time_steps) for page, sheet in self.runs},
+            "run": of_runs,
+            "in_use": of_runs,
+            "same": dict.fromkeys(of_runs, 1),
+        }
 
-    def _frank_zook(self) -> Iterator[tuple[str, Any]]:
+    def _frank_zook(self) -> dict[str, Any]:
         impact, ratio, k_t = self.last, frank_zook.sphere_length_ratio(), self.si["k_t"]
         v, target = impact.velocity, impact.target_density
-        yield "length_ratio", ratio
+        values: dict[str, Any] = {"length_ratio": ratio}
         for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
             r_t = self.si[name]
             arguments = ratio, impact.particle_density, target, self.si["k_1"], k_t, r_t, v
-            yield f"{which}.resistance", r_t
-            yield f"{which}.pressure", k_t * target * v * v / r_t
-            yield f"{which}.as_printed", frank_zook.depth_as_printed(*arguments)
-            yield f"{which}.derived", frank_zook.depth_derived(*arguments)
+            values[which] = {
+                "resistance": r_t,
+                "pressure": k_t * target * v * v / r_t,
+                "as_printed": frank_zook.depth_as_printed(*arguments),
+                "derived": frank_zook.depth_derived(*arguments),
+            }
+        return values
 
-    def _crater(self) -> Iterator[tuple[str, Any]]:
+    def _crater(self) -> dict[str, Any]:
         impact, third = self.first, float(self.ledger.value("observed-third"))
         volume = crater.volume(impact.radius)
         contact = crater.contact_diameter(third, impact.diameter)
-        yield from {
-            "volume": volume,
-            "volume_um3": _cubed(volume),
-            "on_line": self.si["CV_PV_line"] * _cubed(volume),
+        values: dict[str, Any] = {
+            **_cubed(volume),
+            "on_line": self.si["CV_PV_line"] * _cubed(volume)["volume_um3"],
             "third": third,
             "contact_diameter": contact,
             "contact_diameter_um": contact * 1e6,
-        }.items()
+        }
         for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
             y = crater.depth_from_volume_ratio(self.si[name])
             x = y * impact.radius
-            cap = crater.cap_volume(x, impact.radius)
-            yield f"{which}.normalized_depth", y
-            yield f"{which}.over_diameter", y / 2
-            yield f"{which}.depth", x
-            yield f"{which}.depth_um", x * 1e6
-            yield f"{which}.volume", cap
-            yield f"{which}.volume_um3", _cubed(cap)
-            yield f"{which}.ratio", crater.volume_ratio(y)
+            values[which] = {
+                "normalized_depth": y,
+                "over_diameter": y / 2,
+                "depth": x,
+                "depth_um": x * 1e6,
+                **_cubed(crater.cap_volume(x, impact.radius)),
+                "ratio": crater.volume_ratio(y),
+            }
         sizes = self.si["d_min"], impact.diameter, self.si["d_max"]
         for which, size in zip(("smallest", "average", "largest"), sizes, strict=True):
             mass = particle_mass(size / 2, impact.particle_density)
-            yield f"{which}_mass", mass
             velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
-            yield f"{which}_velocity", velocity
+            values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
+        return values
 
     def _resistance(self) -> dict[str, Any]:
         alpha = resistance.walker_anderson_alpha(self.si["E_t"], self.si["Y_steel"])
@@ -430,27 +420,44 @@ class _Builder:
             "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
             "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
         }
-        feathery, clear, bulk = (self.si[f"S_{w}"] / 1e6 for w in ("feathery", "clear", "bulk"))
-        mean = (feathery + clear) / 2
-        held = betas | {
+        grains = {name: self.si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
+        mean = (grains["feathery"] + grains["clear"]) / 2
+        values: dict[str, Any] = betas | {
             "alpha": alpha,
             "least_beta": min(betas.values()),
             "greatest_beta": max(betas.values()),
-            "feathery": feathery,
-            "clear": clear,
-            "bulk": bulk,
+            **grains,
             "mean_grain": mean,
-            "clear_over_bulk": clear / bulk,
-            "grain_over_bulk": mean / bulk,
+            "clear_over_bulk": grains["clear"] / grains["bulk"],
+            "grain_over_bulk": mean / grains["bulk"],
             "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
         }
-        for slug, impact in self.impacts.items():
+        for page, sheet in self.runs:
+            impact = sheet.impact
             r_t = impact.target_resistance
             stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
-            held[f"{slug}.target_resistance"] = r_t
-            held[f"{slug}.centerline_stress"] = stress
-            held[f"{slug}.over_copper"] = stress / self.si["Y_copper"]
-        return held
+            values[page.slug] = {
+                "target_resistance": r_t,
+                "centerline_stress": stress,
+                "over_copper": stress / self.si["Y_copper"],
+            }
+        return values
+
+
+def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
+    """The values of a tree by key.
+
+    >>> dict(_keyed({"low": {"steps": 85, "time": [0.0, 2e-10]}}))
+    {'low.steps': 85.0, 'low.time[0]': 0.0, 'low.time[1]': 2e-10}
+    """
+    if isinstance(tree, dict):
+        for name, branch in tree.items():
+            yield from _keyed(branch, f"{key}.{name}" if key else name)
+    elif isinstance(tree, list):
+        for k, branch in enumerate(tree):
+            yield from _keyed(branch, f"{key}[{k}]")
+    else:
+        yield key, tree if isinstance(tree, str) else float(tree)
 
 
 def live_verdicts(
@@ -478,11 +485,6 @@ def live_verdicts(
     return held
 
 
-def _label(impact: Impact) -> str:
-    """What tells a case from the other, spelled as spreadsheet programs join a number to a text."""
-    return "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
-
-
 def _flags(impact: Impact) -> str:
     """The options of `coldspray workbook` for a case."""
     name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
@@ -494,21 +496,20 @@ def _flags(impact: Impact) -> str:
     )
 
 
-def _given(impact: Impact) -> dict[str, Any]:
-    """What a sheet shows of its case, by name; the resistance is that in use."""
-    names = ("mass", "diameter", "step", "stop_velocity")
-    return impact.motion | {name: getattr(impact, name) for name in names}
+def _of(thing: object, *names: str) -> dict[str, Any]:
+    return {name: getattr(thing, name) for name in names}
 
 
-def _materials(impact: Impact) -> tuple[float, float, float, float]:
-    return impact.velocity, impact.particle_density, impact.target_density, impact.target_resistance
-
-
-def _work(impact: Impact) -> dict[str, float]:
-    """Dynamic pressure over target resistance, rho_t V^2 / 2 R_t [1], and c of the closed form."""
-    v, particle, target, r_t = _materials(impact)
+def _at_rest(impact: Impact) -> dict[str, float]:
+    """Depth at rest without steps, from p = rho_t V^2 / 2 R_t [1] and c of the closed form."""
+    v, radius, particle, target, r_t = impact.motion.values()
     pressure = target * v * v / 2 / r_t
-    return {"pressure": pressure, "c": 4 * particle / (3 * target) * math.log1p(pressure)}
+    return {
+        "pressure": pressure,
+        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "normalized_depth": depth.normalized_depth(v, particle, target, r_t),
+        "depth_um": depth.final_depth(v, radius, particle, target, r_t) * 1e6,
+    }
 
 
 def _state(sheet: Sheet) -> tuple[int, str]:
@@ -519,44 +520,46 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     return trust, message if sheet.steps else steps.NO_STEPS
 
 
-def _cubed(volume: float) -> float:
-    return volume * 1e6 * 1e6 * 1e6
+def _cubed(volume: float) -> dict[str, float]:
+    return {"volume": volume, "volume_um3": volume * 1e6 * 1e6 * 1e6}
 
 
-def _row_values(sheet: Sheet, rows: int) -> Iterator[tuple[str, Any]]:
-    """The cells of so many rows but the final velocity of row 0; blank ("") below the stop."""
-    impact = sheet.impact
-    for k in range(rows + 1):
-        used = k <= sheet.steps
-        for name in Row._fields:
-            value = getattr(sheet.rows[k], name) if used else ""
-            if value is not None and (k, name) != (0, "velocity_final"):
-                yield f"row[{k}].{name}", value
-        if k and sheet.scheme == "centered":
-            middle: float | str = ""
-            if used:
-                v, x = sheet.rows[k].velocity_initial, sheet.rows[k].depth
-                materials = impact.mass, impact.target_density, impact.target_resistance
-                a = deceleration(x, v, impact.radius, *materials)
-                middle = v - a * (impact.step / 2)
-            yield f"row[{k}].velocity_middle", middle
+def _rows(sheet: Sheet, count: int) -> list[dict[str, Any]]:
+    """The cells of rows 0 to `count`; blank ("") below the stop."""
+    impact, centered = sheet.impact, sheet.scheme == "centered"
+    materials = impact.radius, impact.mass, impact.target_density, impact.target_resistance
+    rows: list[dict[str, Any]] = []
+    for k, row in enumerate(sheet.rows):
+        values = {"index": k, **row._asdict(), "depth_um": row.depth * 1e6}
+        if centered:
+            a = deceleration(row.depth, row.velocity_initial, *materials)
+            values["velocity_middle"] = row.velocity_initial - a * (impact.step / 2)
+        rows.append(values)
+    blank = dict.fromkeys(("index", *Row._fields, "depth_um", *["velocity_middle"] * centered), "")
+    for name in ("velocity_final", "velocity_middle"):
+        rows[0].pop(name, None)
+    return rows + [blank] * (count - sheet.steps)
 
 
-def _levels(impact: Impact, ladder: Sequence[float], scheme: str) -> dict[str, Any]:
+def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
     """Final depths at steps, each half of the one before, against the depth at rest, in um."""
+    impact = written.impact
     rest = depth.final_depth(*impact.motion.values()) * 1e6
-    held: dict[str, Any] = {"rest_um": rest}
-    errors = []
-    for k, step in enumerate(ladder):
-        sheet = run(replace(impact, step=step), scheme)
-        reached = sheet.final_depth * 1e6
-        errors.append(reached - rest)
-        held |= {f"steps[{k}]": sheet.steps, f"depth_um[{k}]": reached}
-        held |= {f"error[{k}]": errors[k], f"size[{k}]": abs(errors[k])}
-    for k, (above, here) in enumerate(pairwise(errors), 1):
-        defined = min(above, here) > 0 or max(above, here) < 0
-        held[f"order[{k}]"] = math.log(above / here) / math.log(2) if defined else figures.NO_ORDER
-    return held
+    sheets = [run(replace(impact, step=step), written.scheme) for step in time_steps]
+    depths = [sheet.final_depth * 1e6 for sheet in sheets]
+    errors = [reached - rest for reached in depths]
+    orders = {
+        f"order[{k}]": figures.NO_ORDER if order is None else order
+        for k, order in enumerate(starmap(error_order, pairwise(errors)), 1)
+    }
+    return {
+        "rest_um": rest,
+        "steps": [sheet.steps for sheet in sheets],
+        "depth_um": depths,
+        "error": errors,
+        "size": list(map(abs, errors)),
+        **orders,
+    }
 
 
 def _verdict(value: Value, interval: Interval) -> str:

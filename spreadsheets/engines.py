@@ -205,10 +205,10 @@ class SystemEngine(Engine):
         return output
 
     def _version_of(self, program: str, pattern: str) -> str:
-        found = re.search(pattern, self._run([program, "--version"]))
-        if found is None:
+        match = re.search(pattern, self._run([program, "--version"]))
+        if match is None:
             raise EngineError(self.name, f"{Path(program).name} does not tell its version")
-        return found[1]
+        return match[1]
 
 
 class LibreOffice(SystemEngine):

@@ -344,8 +344,8 @@ def guarded(expression: str) -> str:
     >>> guarded("=2*R_p"), guarded("=R_p")
     ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
     """
-    found = [match["cell"] for match in _REFERENCE.finditer(expression)]
-    names = list(dict.fromkeys(name for name in found if name))
+    called = [match["cell"] for match in _REFERENCE.finditer(expression)]
+    names = list(dict.fromkeys(name for name in called if name))
     if not names or expression == f"={names[0]}":
         return expression
     return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'

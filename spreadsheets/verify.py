@@ -182,7 +182,7 @@ def verify(
                 reason = "It verifies nothing: it gives stored values back, right or wrong."
                 return made(outcome="echoes", reason=reason)
         start = time.perf_counter()
-        found = engine.recalculate(path)
+        recalculated = engine.recalculate(path)
         seconds = time.perf_counter() - start
     except EngineError as error:
         return EngineCheck(engine=engine.name, outcome="failed", reason=str(error))
@@ -190,11 +190,11 @@ def verify(
     # The sheets that the file should have, or has got from the engine.
     sheets = {
         sheet: SheetCheck(sheet=sheet, cells=formulas[sheet])
-        for sheet in dict.fromkeys([*expected, *found])
+        for sheet in dict.fromkeys([*expected, *recalculated])
     }
     of_functions = tolerances(plan, expected)
     of_doubles = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
-    for left in compare(expected, found):
+    for left in compare(expected, recalculated):
         place = left.sheet, left.cell
         sheets[left.sheet].add(left, of_functions.get(place, 0.0), of_doubles.get(place, 0.0))
     outcome = "differs" if any(sheet.unexplained for sheet in sheets.values()) else "verified"

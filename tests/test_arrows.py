@@ -13,7 +13,7 @@ ROOMS = ("reference", "replication", "spreadsheets")
 EVERY = sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py"))
 
 FLOORS: tuple[set[str], ...] = (
-    {"models", "reading", "text", "plain"},
+    {"models", "reading", "text"},
     {"cases"},
     {"error"},
     {"audit"},

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from replication.audit.record import Record
-from replication.plain import json_text
+from replication.text import json_text
 
 PROGRAM = Path(__file__).parent.parent / "docs" / "recheck.py"
 differences = runpy.run_path(str(PROGRAM))["differences"]

@@ -161,7 +161,7 @@ def scatter(known: Known) -> list[r.Scatter]:
 
 def curves(known: Known) -> list[r.Curve]:
     """Depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
-    found = []
+    drawn = []
     for beta in BETAS:
         impact = case(known, beta)
         rows = sheet.run(impact).rows
@@ -169,7 +169,7 @@ def curves(known: Known) -> list[r.Curve]:
         times = [stop * k / 100 for k in range(101)]
         depths, speeds = [0.0] * 101, [0.0] * 101
         motion.history(times, **impact.motion, depth=depths, speed=speeds)
-        found.append(
+        drawn.append(
             r.Curve(
                 beta=float(beta),
                 sheet_time=[row.time for row in rows],
@@ -179,7 +179,7 @@ def curves(known: Known) -> list[r.Curve]:
                 printed=known.ledger.claims[f"depth-beta-{beta}"].shown,
             )
         )
-    return found
+    return drawn
 
 
 def velocity_curve(known: Known) -> r.VelocityCurve:

@@ -96,10 +96,10 @@ def _shifted(text: str) -> Iterator[str]:
     """The exponent one less and one more, written as wide as it was, or its sign turned."""
     for match in _EXPONENT.finditer(text):
         number = match["number"]
-        for other in (int(number) - 1, int(number) + 1, -int(number)):
-            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and other >= 0 else ""
-            width = len(number.lstrip("+-")) + len(sign or "-" * (other < 0))
-            shown = f"{sign}{other:0{width - len(sign)}d}"
+        for exponent in (int(number) - 1, int(number) + 1, -int(number)):
+            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and exponent >= 0 else ""
+            width = len(number.lstrip("+-")) + len(sign or "-" * (exponent < 0))
+            shown = f"{sign}{exponent:0{width - len(sign)}d}"
             yield text[: match.start("number")] + shown + text[match.end("number") :]
 
 
@@ -147,19 +147,19 @@ def equation_edits(
     ...  if kind == "number dropped"]
     ['D = R']
     """
-    found: dict[str, str] = {}
+    edits: dict[str, str] = {}
     symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
     tokens = re.compile(
         rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        for other, kind in _replacements(match, written, dimensions):
-            found.setdefault(text[: match.start()] + other + text[match.end() :], kind)
+        for replacement, kind in _replacements(match, written, dimensions):
+            edits.setdefault(text[: match.start()] + replacement + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
         turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
-        found.setdefault(turned, "fraction turned over")
-    found.pop(text, None)
-    return iter(found.items())
+        edits.setdefault(turned, "fraction turned over")
+    edits.pop(text, None)
+    return iter(edits.items())
 
 
 def _replacements(
@@ -174,6 +174,6 @@ def _replacements(
         yield r"\log" if text == r"\ln" else r"\ln", "function changed"
     elif match["symbol"]:
         own = dimensions[written[text]]
-        for other, name in written.items():
+        for mistaken, name in written.items():
             if name != written[text] and dimensions[name] == own:
-                yield other, "symbol changed"
+                yield mistaken, "symbol changed"

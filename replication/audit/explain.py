@@ -307,8 +307,8 @@ class Explainer:
         quickest = min(names, key=self._cost)
         suspects = [set(self._suspects(name)) for name in names]
         common = set.intersection(*suspects) or suspects[0]
-        found = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
-        return found if found or len(names) == 1 else self.ranked([quickest])
+        repairs = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
+        return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _is_only_shown(self, name: str) -> bool:
         claim = self.ledger.claims.get(name)

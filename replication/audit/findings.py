@@ -522,18 +522,18 @@ def _rigid_strength(known: Known) -> Evidence:
 
 
 def _inertia_term(known: Known) -> Evidence:
-    found: dict[str, float] = {}
+    evidence: dict[str, float] = {}
     for beta in (3, 5):
         impact = case(known, beta)
-        found[f"pressed_{beta}"] = pressed = constant_pressure_ratio(impact)
-        found[f"exact_{beta}"] = exact = depth.normalized_depth(
+        evidence[f"pressed_{beta}"] = pressed = constant_pressure_ratio(impact)
+        evidence[f"exact_{beta}"] = exact = depth.normalized_depth(
             impact.velocity, impact.particle_density, impact.target_density,
             impact.target_resistance,
         )  # fmt: skip
-        found[f"price_{beta}"] = 1 - exact / pressed
+        evidence[f"price_{beta}"] = 1 - exact / pressed
     energy = known["a1-density"] * known["a1-initial-velocity"] ** 2 / 2
-    found["work"] = energy / case(known, 5).target_resistance
-    return found
+    evidence["work"] = energy / case(known, 5).target_resistance
+    return evidence
 
 
 def constant_pressure_ratio(impact: Impact) -> float:
@@ -548,11 +548,11 @@ def constant_pressure_ratio(impact: Impact) -> float:
 
 def _unlike_strengths(known: Known) -> Evidence:
     steel, code = known["autodyne-steel-yield"], known["autodyne-ratio"]
-    found: dict[str, float] = {}
+    evidence: dict[str, float] = {}
     for name, beta in (("low", 3), ("high", 5)):
         ratio = exact_ratio(case(known, 5, resistance=known[f"depth-beta-{beta}-beta"] * steel))
-        found |= {name: ratio, f"times_{name}": ratio / code}
-    return found
+        evidence |= {name: ratio, f"times_{name}": ratio / code}
+    return evidence
 
 
 def _autodyne_cells(known: Known) -> Evidence:

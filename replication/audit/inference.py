@@ -67,8 +67,9 @@ class Inference:
             start = sum(self.inner.ends, Fraction(0)) / 2
             by_mass = not convention.header_exact
             box = self._box(convention, by_mass=by_mass)
-            found, bounds = extent(self._joint(convention, by_mass=by_mass), self.name, box, start)
-            self._admitted[key] = Interval(*found), Interval(*bounds)
+            joint = self._joint(convention, by_mass=by_mass)
+            attained, bounds = extent(joint, self.name, box, start)
+            self._admitted[key] = Interval(*attained), Interval(*bounds)
         return self._admitted[key]
 
     def _box(self, convention: Convention, *, by_mass: bool) -> dict[str, Ends]:
@@ -94,11 +95,11 @@ class Inference:
         ends = claim.as_input(convention).ends
         if (name, ends) not in self._rounded:
             low, high = ends
-            for shown in (self.ledger.claims[other] for other in claim.shown_by):
+            for shown in (self.ledger.claims[shown] for shown in claim.shown_by):
                 if low != high and shown.entries == [name]:
                     function = self.ledger.function(shown)
-                    found = solve(function, name, (low, high), shown.target()).outer
-                    low, high = (found[0][0], found[-1][1]) if found else (low, high)
+                    allowed = solve(function, name, (low, high), shown.target()).outer
+                    low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
             self._rounded[name, ends] = low, high
         return self._rounded[name, ends]
 
@@ -177,7 +178,7 @@ def infer(ledger: Ledger, name: str, *, centered: bool = False, by_mass: bool = 
     search, each = entry.search, {}
     for claim in (ledger.claims[evidence] for evidence in entry.evidence):
         own = claim.resting_on(mass=entry.mass) if by_mass else claim
-        printed = {other: ledger.value(other) for other in own.entries if other != name}
+        printed = {key: ledger.value(key) for key in own.entries if key != name}
         function = holding(ledger.function(own, centered=centered), printed)
         each[claim.id] = solve(function, name, search, claim.target())
     agreeing = _agreeing(each)

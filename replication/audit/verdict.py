@@ -240,11 +240,11 @@ class Judge:
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
-            found = explore(function, box, inside, budget)
-            if found.inside is not None and self._evidence_holds(claim, convention, found.inside):
+            search = explore(function, box, inside, budget)
+            if search.inside is not None and self._evidence_holds(claim, convention, search.inside):
                 ends = enclose(function, whole).ends
-                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, found.inside)
-        if found.inside is not None:
+                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, search.inside)
+        if search.inside is not None:
             never = any(
                 self.inference(entry, centered=convention.centered).excludes(
                     function, around, convention, whole, budget
@@ -252,12 +252,12 @@ class Judge:
                 for entry in claim.inferred
             )
         else:
-            never = found.never and (
-                around.excludes(*found.ends) or explore(function, whole, around, budget).never
+            never = search.never and (
+                around.excludes(*search.ends) or explore(function, whole, around, budget).never
             )
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        judgement = _judgement(claim, convention, verdict, found.ends)
-        return replace(judgement, against_evidence=never and found.inside is not None)
+        judgement = _judgement(claim, convention, verdict, search.ends)
+        return replace(judgement, against_evidence=never and search.inside is not None)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""

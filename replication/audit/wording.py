@@ -46,9 +46,10 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
 def _restated(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
     if "value" not in claim.inputs:
         return f"The report lists {len(claim.inputs)}."
-    other = ledger.claims[claim.inputs["value"][0]]
+    restated = ledger.claims[claim.inputs["value"][0]]
     but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
-    return f"It repeats or compares with {quantity(other.shown, other.unit)} ({other.title}){but}."
+    shown = f"{quantity(restated.shown, restated.unit)} ({restated.title})"
+    return f"It repeats or compares with {shown}{but}."
 
 
 def chosen(shown: Shown | None) -> str:
@@ -80,8 +81,8 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
                 return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
             return []
         case Verdict.WITHIN_ROUNDING:
-            found = _inputs(judge, judgement)
-            return [f"Inputs that print like the report's give it, for instance {found}."]
+            inputs = _inputs(judge, judgement)
+            return [f"Inputs that print like the report's give it, for instance {inputs}."]
         case Verdict.NOT_REPRODUCED if low == high:
             return ["No rounded input enters, so none could change it."]
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:

@@ -13,8 +13,7 @@ import numpy as np
 from replication.bench.cases import MEASURES
 from replication.bench.methods import OURS
 from replication.bench.run import Point, met, ranked, title
-from replication.plain import json_text, rows_csv
-from replication.text import aligned, number
+from replication.text import aligned, json_text, number, rows_csv
 from spreadsheets.safely import check_folder, write_folder
 
 

@@ -30,25 +30,35 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
             stream.reconfigure(errors="backslashreplace")
-    options = _options(sys.argv[1:] if arguments is None else arguments)
-    if arguments is None:
-        _end_as_interrupted()
+    program = "coldspray"
     try:
+        options = _options(sys.argv[1:] if arguments is None else arguments)
+        program += f" {options.command}"
+        if arguments is None:
+            _end_as_interrupted()
         status = options.run(options)
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of a pipe has seen enough; nothing more can be said to it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()  # the reader of a pipe has seen enough
         return 0
     except KeyboardInterrupt as interrupt:
-        print(f"coldspray {options.command}: interrupted, nothing written", file=sys.stderr)
+        print(f"{program}: interrupted, nothing written", file=sys.stderr)
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except (ValueError, OSError) as error:
-        print(f"coldspray {options.command}: {one_line(_message(error))}", file=sys.stderr)
+        if isinstance(error, OSError) and error.filename is None:
+            _discard_output()  # its disk may be full
+        print(f"{program}: {one_line(_message(error))}", file=sys.stderr)
         return 2
     assert isinstance(status, int)
     return status
+
+
+def _discard_output() -> None:
+    """Have Python not try again, at its end, to write what could not be written."""
+    own = sys.__stdout__
+    if own and sys.stdout is own:  # nobody has put another in its place
+        os.dup2(os.open(os.devnull, os.O_WRONLY), own.fileno())
 
 
 def _end_as_interrupted() -> None:
@@ -79,6 +89,10 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
 
+    def _print_message(self, message: str, file: Any = None) -> None:
+        # argparse passes over a full disk.
+        print(message, end="", file=file or sys.stderr, flush=True)
+
 
 _DASHES = re.compile(r"(-\w|--[\w-]+=)--")
 """Two dashes as an option's value: argparse drops them (CPython issue 59317)."""
@@ -107,5 +121,5 @@ class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
         from importlib.metadata import version
 
-        print(f"coldspray {version('coldspray')}")
+        print(f"coldspray {version('coldspray')}", flush=True)
         parser.exit(0)

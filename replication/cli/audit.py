@@ -3,6 +3,7 @@
 import argparse
 import gc
 import sys
+from functools import partial
 from pathlib import Path
 
 from replication.cli import options as shared
@@ -16,15 +17,12 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--out", type=shared.path, default=folder, metavar="DIR", help=f"default: {folder}/"
     )
-    command.add_argument(
-        "--exit-code", action="store_true", help="status 1 if any claim is not reproduced"
-    )
-    command.add_argument(
-        "--force", action="store_true", help="write over a workbook.xlsx that was changed, too"
-    )
-    command.add_argument("--json", action="store_true", help="print audit.json instead of text")
-    command.add_argument("--schema", action="store_true", help="print the schema of audit.json")
-    command.add_argument("--quiet", action="store_true", help="write the files, print nothing")
+    flag = partial(command.add_argument, action="store_true")
+    flag("--exit-code", help="status 1 if any claim is not reproduced")
+    flag("--force", help="write over a workbook.xlsx that was changed, too")
+    flag("--json", help="print audit.json instead of text")
+    flag("--schema", help="print the schema of audit.json")
+    flag("--quiet", help="write the files, print nothing")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -33,14 +31,6 @@ def run(options: argparse.Namespace) -> int:
 
         shared.print_json(schema())
         return 0
-    gc.disable()  # to look for garbage would take a twentieth of the time
-    try:
-        return _audit(options)
-    finally:
-        gc.enable()
-
-
-def _audit(options: argparse.Namespace) -> int:
     from replication.report import render
     from spreadsheets import emit
 
@@ -52,13 +42,17 @@ def _audit(options: argparse.Namespace) -> int:
     from replication.error import hard_cases
     from replication.workbook import build
 
-    record = audit()
-    random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
-    beside = {
-        "workbook.xlsx": build(record=record).to_bytes(),
-        "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
-    }
-    written = render.write(record, options.out, beside)
+    gc.disable()  # to look for garbage would take a twentieth of the time
+    try:
+        record = audit()
+        random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
+        beside = {
+            "workbook.xlsx": build(record=record).to_bytes(),
+            "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
+        }
+        written = render.write(record, options.out, beside)
+    finally:
+        gc.enable()
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:

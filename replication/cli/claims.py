@@ -1,7 +1,6 @@
 """`coldspray claims`: the ledger, or one claim with its proof."""
 
 import argparse
-from collections.abc import Iterable
 from typing import Any
 
 from replication.cli import options as shared
@@ -21,30 +20,23 @@ def run(options: argparse.Namespace) -> int:
 
     ledger = load()
     if options.id is None:
-        if options.json:
-            shared.print_json([_listed(claim) for claim in ledger.claims.values()])
-        else:
-            from replication.audit.wording import quantity
+        from replication.audit.wording import quantity
 
-            rows = [
-                (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
-                for claim in ledger.claims.values()
-            ]
-            print(columns(rows, shared.width(piped=10_000)))
-        return 0
+        claims = ledger.claims.values()
+        rows = [(c.id, quantity(c.shown, c.unit), c.kind, str(c.place)) for c in claims]
+        record = [_listed(claim) for claim in claims]
+        return shared.put(options, record, lambda: columns(rows, shared.width(piped=10_000)))
     if options.id not in ledger.claims:
-        near = _nearest(options.id, ledger.claims)
-        raise ValueError(f"there is no claim {quoted(options.id)}{near}")
+        from difflib import get_close_matches
+
+        near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
+        hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+        raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
     from replication.audit.audit import audit_claim
+    from replication.report.render import proof
 
-    claim = audit_claim(options.id)
-    if options.json:
-        shared.print_json(claim)
-    else:
-        from replication.report.render import proof
-
-        print(proof(claim, ledger, shared.width(), shared.may_emphasize()))
-    return 0
+    claim, strong = audit_claim(options.id), shared.may_emphasize()
+    return shared.put(options, claim, lambda: proof(claim, ledger, shared.width(), strong))
 
 
 def _listed(claim: Any) -> dict[str, Any]:
@@ -61,10 +53,3 @@ def _listed(claim: Any) -> dict[str, Any]:
         "unit": claim.unit,
         "kind": claim.kind,
     }
-
-
-def _nearest(name: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(name[:80], list(known), n=3, cutoff=0.4)
-    return f"; near it: {', '.join(near)}" if near else "; `coldspray claims` lists them"

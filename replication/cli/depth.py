@@ -17,20 +17,17 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.depth import final_depth, normalized_depth
 
     case = shared.case(options)
-    target = case.target_density, case.target_resistance
+    depth, target = final_depth(**case.motion), (case.target_density, case.target_resistance)
     ratio = normalized_depth(case.velocity, case.particle_density, *target)
-    depth, beyond = final_depth(**case.motion), ratio > 1
-    if options.json:
-        shared.print_json(
-            {
-                "inputs": inputs_of(case),
-                "depth": depth,
-                "normalized_depth": ratio,
-                "beyond_radius": beyond,
-            }
-        )
-        return 0
-    print(f"final depth       {depth * 1e6:.8g} um ({depth!r} m)")
-    print(f"normalized depth  {ratio:.8g}")
-    print(f"beyond radius     {'yes' if beyond else 'no'}")
-    return 0
+    record = {
+        "inputs": inputs_of(case),
+        "depth": depth,
+        "normalized_depth": ratio,
+        "beyond_radius": ratio > 1,
+    }
+    text = (
+        f"final depth       {depth * 1e6:.8g} um ({depth!r} m)\n"
+        f"normalized depth  {ratio:.8g}\n"
+        f"beyond radius     {'yes' if ratio > 1 else 'no'}"
+    )
+    return shared.put(options, record, lambda: text)

@@ -1,13 +1,12 @@
 """`coldspray history`: depth and velocity of a case against time, without small steps."""
 
 import argparse
-import sys
-from typing import Any
 
 from replication.cases import inputs_of
 from replication.cli import options as shared
 from replication.models.impact import Impact
 from replication.reading import quoted, read_number
+from replication.text import numbers
 
 HELP = "depth and velocity of a case against time, without small steps"
 
@@ -18,13 +17,8 @@ MAX_POINTS = 1_000_000
 def options(command: argparse.ArgumentParser) -> None:
     shared.input_options(command)
     at = command.add_mutually_exclusive_group()
-    at.add_argument(
-        "--points",
-        metavar="N",
-        type=shared.whole(2, MAX_POINTS),
-        default=101,
-        help="so many times, equally spaced from touch to rest (default: 101)",
-    )
+    told = "so many times, equally spaced from touch to rest (default: 101)"
+    shared.whole_option(at, "--points", 2, MAX_POINTS, told, default=101)
     at.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
     shared.output_options(command, csv=True)
 
@@ -36,26 +30,22 @@ def run(options: argparse.Namespace) -> int:
     stop = stop_time(**case.motion)
     times = _times(options, stop)
     depth, velocity = _history(times, case)
-    if options.json:
-        shared.print_json(
-            {
-                "inputs": inputs_of(case),
-                "time": times,
-                "depth": depth,
-                "velocity": velocity,
-                "stop_time": stop,
-            }
-        )
-    elif options.csv:
-        from replication.plain import rows_csv
+    record = {
+        "inputs": inputs_of(case),
+        "time": times,
+        "depth": depth,
+        "velocity": velocity,
+        "stop_time": stop,
+    }
+    table = list(zip(times, depth, velocity, strict=True))
+    rows = [{"time": t, "depth": x, "velocity": v} for t, x, v in table] if options.csv else []
 
-        names = ("time", "depth", "velocity")
-        rows = zip(times, depth, velocity, strict=True)
-        sys.stdout.write(rows_csv([dict(zip(names, row, strict=True)) for row in rows]))
-    else:
-        print("\n".join(_table(times, depth, velocity)))
-        print(f"\nstop time  {stop * 1e9:.8g} ns")
-    return 0
+    def text() -> str:
+        heads = ("time [ns]", "x [um]", "velocity [m/s]")
+        lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
+        return "\n".join([*lines, "", f"stop time  {stop * 1e9:.8g} ns"])
+
+    return shared.put(options, record, text, rows)
 
 
 def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]]:
@@ -73,27 +63,17 @@ def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]
 
 
 def _times(options: argparse.Namespace, stop: float) -> list[float]:
-    if options.times is not None:
-        return [_time(k, text) for k, text in enumerate(options.times.split(","), 1)]
-    last = options.points - 1
-    return [stop * (k / last) for k in range(options.points)]
-
-
-def _time(place: int, text: str) -> float:
-    """The time [s] that stands at a place, from 1 on, in --times."""
-    try:
-        time = read_number(text.strip(), "s")
-        if not 0 <= time <= 1e250:
-            raise ValueError(f"{quoted(text.strip())} is not from 0 to 1e250 s")
-    except ValueError as error:
-        wanted = 'give times such as "0 ns,5 ns"'
-        raise ValueError(f"--times, value {place}: {error}: {wanted}") from error
-    return time
-
-
-def _table(*columns: Any) -> list[str]:
-    lines = ["".join(f"{head:>21}" for head in ("time [ns]", "x [um]", "velocity [m/s]"))]
-    for time, depth, velocity in zip(*columns, strict=True):
-        values = (time * 1e9, depth * 1e6, velocity)
-        lines.append("".join(f"{value:>21.9g}" for value in values))
-    return lines
+    """The times [s] that were asked for; `stop`: that of rest."""
+    if options.times is None:
+        last = options.points - 1
+        return [stop * (k / last) for k in range(options.points)]
+    times = []
+    for k, text in enumerate(map(str.strip, options.times.split(",")), 1):
+        try:
+            times.append(read_number(text, "s"))
+            if not 0 <= times[-1] <= 1e250:
+                raise ValueError(f"{quoted(text)} is not from 0 to 1e250 s")
+        except ValueError as error:
+            wanted = 'give times such as "0 ns,5 ns"'
+            raise ValueError(f"--times, value {k}: {error}: {wanted}") from error
+    return times

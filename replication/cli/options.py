@@ -4,13 +4,14 @@ import argparse
 import os
 import shutil
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from replication.cases import INPUTS, read_case
 from replication.models.impact import Impact
 from replication.reading import one_line, quoted
+from replication.text import json_text, rows_csv
 
 
 def path(text: str) -> Path:
@@ -38,6 +39,16 @@ def whole(least: int, most: int) -> Callable[[str], int]:
         )
 
     return read
+
+
+def whole_option(
+    command: "argparse._ActionsContainer", flag: str, least: int, most: int,
+    help_text: str, default: int | None = None,
+) -> None:  # fmt: skip
+    """An option that takes a whole number within bounds."""
+    command.add_argument(
+        flag, type=whole(least, most), default=default, metavar="N", help=help_text
+    )
 
 
 def output_options(
@@ -83,9 +94,29 @@ def case(options: argparse.Namespace) -> Impact:
 
 def print_json(record: Any) -> None:
     """One JSON document on standard output."""
-    from replication.plain import json_text
-
     sys.stdout.write(json_text(record))
+
+
+def put(
+    options: argparse.Namespace,
+    record: Any,
+    text: Callable[[], str],
+    rows: Sequence[Mapping[str, Any]] = (),
+    warnings: Iterable[object] = (),
+) -> int:
+    """Print what a command found as JSON, as rows of CSV or as text, as it was asked to; 0.
+
+    Warnings go to standard error, but not beside JSON: they stand in the record.
+    """
+    if options.json:
+        print_json(record)
+        return 0
+    if "csv" in options and options.csv:
+        sys.stdout.write(rows_csv(rows))
+    else:
+        print(text())
+    warn(options, warnings)
+    return 0
 
 
 def width(piped: int = 80) -> int:

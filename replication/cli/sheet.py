@@ -1,15 +1,14 @@
 """`coldspray sheet`: the Excel scheme's rows for a case."""
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
 from replication.cli import options as shared
-from replication.text import number
+from replication.text import number, numbers
 
 if TYPE_CHECKING:
-    from replication.models.sheet import Row, Sheet
+    from replication.models.sheet import Sheet
 
 HELP = "the Excel scheme's rows for a case"
 
@@ -25,46 +24,33 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.sheet import run
 
     sheet = run(shared.case(options), options.scheme)
+    rows = [row._asdict() for row in sheet.rows] if options.json or options.csv else []
     doubts = [warning.text for warning in warnings(sheet)]
-    if options.json:
-        record = {
-            "inputs": inputs_of(sheet.impact),
-            "scheme": sheet.scheme,
-            "rows": [row._asdict() for row in sheet.rows],
-            "final_depth": sheet.final_depth,
-            "normalized_depth": sheet.normalized_depth,
-            "steps": sheet.steps,
-            "warnings": doubts,
-        }
-        shared.print_json(record)
-        return 0
-    if options.csv:
-        from replication.plain import rows_csv
-
-        sys.stdout.write(rows_csv([row._asdict() for row in sheet.rows]))
-    else:
-        print(_text(sheet))
-    shared.warn(options, doubts)
-    return 0
+    record = {
+        "inputs": inputs_of(sheet.impact),
+        "scheme": sheet.scheme,
+        "rows": rows,
+        "final_depth": sheet.final_depth,
+        "normalized_depth": sheet.normalized_depth,
+        "steps": sheet.steps,
+        "warnings": doubts,
+    }
+    return shared.put(options, record, lambda: _text(sheet), rows, doubts)
 
 
-_HEADS = ("row", "time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]")
+_HEADS = ("time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]")
 
 
 def _text(sheet: "Sheet") -> str:
     """The rows, then what the report reads off the last."""
-    lines = ["".join(f"{head:>21}" if i else f"{head:>5}" for i, head in enumerate(_HEADS))]
-    lines += [_line(k, row) for k, row in enumerate(sheet.rows)]
-    lines += [
-        "",
-        f"final depth       {number(sheet.final_depth * 1e6, 8)} um",
-        f"normalized depth  {number(sheet.normalized_depth, 8)}",
-        f"steps             {sheet.steps}",
-    ]
-    return "\n".join(lines)
-
-
-def _line(k: int, row: "Row") -> str:
-    final = "" if row.velocity_final is None else number(row.velocity_final, 9)
-    values = (row.time * 1e9, row.velocity_initial, row.depth * 1e6, row.deceleration)
-    return f"{k:>5}" + "".join(f"{number(v, 9):>21}" for v in values) + f"{final:>21}"
+    rows = ((time * 1e9, v, x * 1e6, a, final) for time, v, x, a, final in sheet.rows)
+    lines = numbers(_HEADS, rows)
+    return "\n".join(
+        [
+            *(f"{k:>5}{line}" for k, line in zip(("row", *range(len(lines))), lines, strict=False)),
+            "",
+            f"final depth       {number(sheet.final_depth * 1e6, 8)} um",
+            f"normalized depth  {number(sheet.normalized_depth, 8)}",
+            f"steps             {sheet.steps}",
+        ]
+    )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
 from replication.reading import name_of
+from replication.text import aligned
 
 if TYPE_CHECKING:
     from spreadsheets.verify import EngineCheck
@@ -21,18 +22,11 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "-o", "--output", type=shared.path, default=output, metavar="FILE", help=f"{output}"
     )
-    command.add_argument(
-        "--force", action="store_true", help="write over a file that is not as coldspray wrote it"
-    )
-    command.add_argument(
-        "--rows",
-        type=shared.whole(1, 10**6),
-        metavar="N",
-        help="time steps to prepare (default: twice those needed)",
-    )
-    command.add_argument(
-        "--verify", action="store_true", help="recalculate it in every engine; status 1 if they err"
-    )
+    flag = partial(command.add_argument, action="store_true")
+    flag("--force", help="write over a file that is not as coldspray wrote it")
+    prepared = "time steps to prepare (default: twice those needed)"
+    shared.whole_option(command, "--rows", 1, 10**6, prepared)
+    flag("--verify", help="recalculate it in every engine; status 1 if they err")
     shared.output_options(command, quiet="no warnings and no other words")
     shared.scheme_option(command)
     shared.input_options(command, "the report's two cases")
@@ -117,16 +111,13 @@ def _engine_lines(check: "EngineCheck") -> Iterator[str]:
         yield from (f"{head}: {check.outcome}", f"  {check.reason}")
         return
     yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
-    rows: list[tuple[Any, ...]] = [
+    rows = [
         (s.sheet, s.cells, s.differ, s.explained, s.largest_ulps, s.tolerated) for s in check.sheets
     ]
     _, *columns = zip(_HEADS, *rows, strict=True)
-    rows.append(("all", *((max if head == "largest" else sum)(of) for head, *of in columns)))
-    table = [_HEADS, _UNITS, *(tuple(map(str, row)) for row in rows)]
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    for name, *numbers in table:
-        right = (f"{text:>{width}}" for text, width in zip(numbers, widths[1:], strict=True))
-        yield "  ".join(["", f"{name:{widths[0]}}", *right]).rstrip()
+    total = ("all", *((max if head == "largest" else sum)(of) for head, *of in columns))
+    texts = [tuple(map(str, row)) for row in (*rows, total)]
+    yield from (f"  {line}" for line in aligned([_HEADS, _UNITS, *texts], right=True))
     wrong = [left for sheet in check.sheets for left in sheet.unexplained]
     yield from (f"  {left}" for left in wrong[:_SHOWN])
     if len(wrong) > _SHOWN:

@@ -21,9 +21,6 @@ class Doubt(NamedTuple):
     kind: str
     text: str
 
-    def __str__(self) -> str:
-        return self.text
-
 
 def warnings(sheet: Sheet) -> list[Doubt]:
     """The warnings about a sheet.

@@ -139,26 +139,25 @@ def outcome(name: str, changes: dict[str, float]) -> Outcome:
         impact = impact_of(changes)
     except ValueError as error:
         return Outcome(name, changes, refused=str(error))
-    motion = exact_motion(impact)
+    motion, depth = exact_motion(impact), final_depth(**impact.motion)
     exact = motion.final_depth
-    depth = final_depth(**impact.motion)
-    common: dict[str, Any] = {
-        "closed_form": depth,
-        "reference": motion.context.nstr(exact, 20),
-        "ulps": float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth)),
-    }
+    closed = Outcome(
+        name,
+        changes,
+        closed_form=depth,
+        reference=motion.context.nstr(exact, 20),
+        ulps=float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth)),
+    )
     try:
         sheet = run(impact)
     except ValueError as error:
-        return Outcome(name, changes, sheet_refused=str(error), **common)
-    return Outcome(
-        name,
-        changes,
+        return replace(closed, sheet_refused=str(error))
+    return replace(
+        closed,
         steps=sheet.steps,
         sheet=sheet.final_depth,
         sheet_error=sheet.final_depth / float(exact) - 1,
-        warnings=tuple(map(str, warnings(sheet))),
-        **common,
+        warnings=tuple(warning.text for warning in warnings(sheet)),
     )
 
 

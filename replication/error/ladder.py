@@ -1,18 +1,21 @@
 """The sheet's final depth against its time step: error, its parts, observed order, limit."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice, pairwise
+from typing import Any
 
 from reference.arithmetic import Number, Reals
 from reference.motion import Trajectory, sheet_rows
+from replication.cases import inputs_of
 from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, Sheet, run
+from replication.text import aligned, number
 
 # The error of one sheet
 
@@ -31,10 +34,10 @@ class Budget:
     """
 
     total: float
-    rounding: float | None
-    half_step: float | None
-    time_step: float | None
-    stop_rule: float | None
+    rounding: float | None = None
+    half_step: float | None = None
+    time_step: float | None = None
+    stop_rule: float | None = None
 
 
 def exact_motion(impact: Impact) -> Trajectory:
@@ -61,7 +64,7 @@ def split(sheet: Sheet) -> Budget:
     total = motion.reals.number(Fraction(sheet.final_depth)) - rest
     x, v, lag = _last_row(motion.reals, sheet)
     if abs(v) > motion.velocity:
-        return Budget(float(total), None, None, None, None)
+        return Budget(float(total))
     same_velocity = motion.depth_at_velocity(v)
     return Budget(
         total=float(total),
@@ -142,19 +145,19 @@ class Convergence:
         return self.levels[-1].limit
 
 
-def ladder(step: float, levels: int, ratio: float = 2.0) -> list[float]:
-    """Steps from `ratio`^4 times the given one down, coarsest first.
+def ladder(step: float, levels: int) -> list[float]:
+    """So many steps from 16 times the given one down by halves, coarsest first.
 
     >>> ladder(2e-10, 6)
     [3.2e-09, 1.6e-09, 8e-10, 4e-10, 2e-10, 1e-10]
     """
-    return [step * ratio ** (4 - k) for k in range(levels)]
+    return [step * 2.0 ** (4 - k) for k in range(levels)]
 
 
 def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> Convergence:
     """Run the sheet at each step, coarsest first.
 
-    Raises ValueError for less than two steps, for steps that do not fall, and as `midpoint.run`.
+    Raises ValueError for less than two steps, for steps that do not fall, and as `run` of a sheet.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10]).levels[-1]
@@ -177,15 +180,15 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     order = time_step_order = None
     if before:
         ratio = before[-1].step / impact.step
-        order = _order(before[-1].error, budget.total, ratio)
-        time_step_order = _order(before[-1].budget.time_step, budget.time_step, ratio)
+        order = error_order(before[-1].error, budget.total, ratio)
+        time_step_order = error_order(before[-1].budget.time_step, budget.time_step, ratio)
     level = Level(
         step=impact.step,
         steps=sheet.steps,
         depth=sheet.final_depth,
         error=budget.total,
         budget=budget,
-        warnings=tuple(map(str, warnings(sheet))),
+        warnings=tuple(warning.text for warning in warnings(sheet)),
         order=order,
         time_step_order=time_step_order,
         regime=_regime(budget, time_step_order, ORDER[scheme]),
@@ -193,7 +196,12 @@ def _level(impact: Impact, scheme: str, before: Sequence[Level]) -> Level:
     return _extrapolated([*before[-2:], level], ORDER[scheme])
 
 
-def _order(coarse: float | None, fine: float | None, ratio: float) -> float | None:
+def error_order(coarse: float | None, fine: float | None, ratio: float = 2.0) -> float | None:
+    """The order by which an error falls with the step; None where it vanishes or changes sign.
+
+    >>> error_order(0.04, 0.01)
+    2.0
+    """
     if coarse is None or fine is None or coarse * fine <= 0:
         return None
     return math.log(coarse / fine) / math.log(ratio)
@@ -304,3 +312,84 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> S
     step = fails / 1.01
     final = run(replace(impact, step=step), scheme)
     return StepForDigits(digits, step, final.steps, final.final_depth, error(step), fails)
+
+
+# As the command shows them
+
+
+def record(result: Convergence, digits: StepForDigits | None) -> dict[str, Any]:
+    """As JSON."""
+    return {
+        "inputs": inputs_of(result.impact),
+        "scheme": result.scheme,
+        "nominal_order": ORDER[result.scheme],
+        "levels": result.levels,
+        "limit": result.limit,
+        "limit_undefined": result.levels[-1].undefined,
+        "exact": result.exact,
+        "exact_at_stop": result.exact_at_stop,
+        "digits": digits,
+    }
+
+
+_WHY = {
+    "published": (
+        "The published scheme is first order: it takes a row's deceleration at the middle depth,\n"
+        "but at the initial velocity, and drag depends on velocity."
+    ),
+    "centered": (
+        "The centered scheme is second order: it takes a row's deceleration at the middle depth\n"
+        "and at the middle velocity."
+    ),
+}
+
+
+def _um(length: float | None, digits: int) -> str:
+    return "-" if length is None else number(length * 1e6, digits)
+
+
+def _shown(order: float | None) -> str:
+    return "-" if order is None else f"{order:.2f}"
+
+
+_COLUMNS: tuple[tuple[str, str, Callable[[Level], str]], ...] = (
+    ("step", "[ns]", lambda level: number(level.step * 1e9, 5)),
+    ("steps", "", lambda level: str(level.steps)),
+    ("depth", "[um]", lambda level: _um(level.depth, 7)),
+    ("error", "[um]", lambda level: _um(level.error, 3)),
+    ("order", "", lambda level: _shown(level.order)),
+    ("time step", "[um]", lambda level: _um(level.budget.time_step, 3)),
+    ("order", "", lambda level: _shown(level.time_step_order)),
+    ("stop rule", "[um]", lambda level: _um(level.budget.stop_rule, 3)),
+    ("half step", "[um]", lambda level: _um(level.budget.half_step, 3)),
+    ("rounding", "[um]", lambda level: _um(level.budget.rounding, 2)),
+    ("governed by", "", lambda level: level.regime),
+)
+"""Head, unit and text of each column."""
+
+
+def text(result: Convergence, digits: StepForDigits | None) -> str:
+    """The ladder as a table, its limit, and where every part of the error comes from."""
+    heads, units, writers = zip(*_COLUMNS, strict=True)
+    rows = [tuple(write(level) for write in writers) for level in result.levels]
+    last = result.levels[-1]
+    limit = last.undefined or f"{_um(result.limit, 8)} um"
+    if last.gci is not None:
+        limit += f", observed order {last.observed_order:.2f}, grid convergence index "
+        limit += f"{100 * last.gci:.2g} %"
+    lines = [
+        *aligned([heads, units, *rows]),
+        "",
+        f"exact, at rest            {_um(result.exact, 10)} um",
+        f"exact, at stop velocity   {_um(result.exact_at_stop, 10)} um",
+        f"limit of the last three   {limit}",
+        "The error is the sum of the four parts: time step, stop rule, half step, rounding.",
+        _WHY[result.scheme],
+    ]
+    if digits is not None:
+        lines.append(
+            f"{digits.digits} correct digits: largest step {number(digits.step * 1e9, 5)} ns "
+            f"({digits.steps} steps, error {_um(digits.error, 3)} um); "
+            f"{number(digits.fails * 1e9, 5)} ns fails."
+        )
+    return "\n".join(lines)

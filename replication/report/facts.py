@@ -4,41 +4,32 @@ Texts are sentences for `Prose`: ids stand between backticks.
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
 from math import isclose
-from typing import NamedTuple
 
 from reference.ledger import shown
 from replication.audit import record as r
-from replication.audit.verdict import OPEN, Verdict
+from replication.audit.verdict import OPEN
 from replication.audit.wording import quantity
 from replication.cases import INPUTS
 from replication.report.prose import Named, quoted
-from replication.text import number, rounded
-
-VERDICTS = {
-    Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the printed one, "
-    "for every admitted value of an input that the report does not print",
-    Verdict.WITHIN_ROUNDING: "the inputs as printed do not give it, some that print alike do",
-    Verdict.NOT_REPRODUCED: "proven: no inputs that print like the report's give it",
-    Verdict.UNDECIDED: "neither could be proven",
-    Verdict.CONSISTENT: "it repeats another number of the report, or is a choice that agrees with "
-    "what is computed from it; nothing new is shown",
-    Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
-    "agree",
-    Verdict.AGREES: "the report does not derive it; a public source prints it",
-    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
-    Verdict.REMARK: "words, no number, with the figures to judge them by",
-    Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
-}
-"""The verdicts, and what they say."""
+from replication.text import Table, number, rounded, table
 
 
 def printed(claim: r.ClaimRecord) -> str:
     """What the report prints, with its unit; the words of a remark as they are."""
     return quantity(shown(claim.printed), claim.unit)
+
+
+def measured(value: float | None, unit: str, digits: int = 6) -> str:
+    """A number with its unit; nothing where there is none.
+
+    >>> measured(7.669556888793411, "um"), measured(None, "um")
+    ('7.66956 µm', '')
+    """
+    return "" if value is None else quantity(number(value, digits), unit)
 
 
 def between(ends: Sequence[float | None], digits: int = 10, inward: bool = False) -> str:
@@ -87,7 +78,7 @@ def names_of(record: r.Record) -> dict[str, Named]:
         for e in record.equations
     }
     inferred = {
-        f"inferred:{i.id}": Named(i.title, f"inferred-{i.id}", quantity(number(i.assumed), i.unit))
+        f"inferred:{i.id}": Named(i.title, f"inferred-{i.id}", measured(i.assumed, i.unit))
         for i in record.inferred
     }
     claims = {c.id: Named(c.title, f"claim-{c.id}", printed(c)) for c in record.claims}
@@ -102,7 +93,7 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
         for entries in claim.rests_on.values()
     )
     readings = (
-        f"{reading.name}: {quantity(number(reading.computed, 10), unit)}, {reading.verdict}, "
+        f"{reading.name}: {measured(reading.computed, unit, 10)}, {reading.verdict}, "
         f"proven range {between(reading.enclosure)}. {reading.holds}"
         + (f" For instance (SI) {_values(reading.witness)}." if reading.witness else "")
         for reading in claim.readings
@@ -113,7 +104,7 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
     )
     told = {
         "rounds to it": quantity((claim.interval_text or "").replace("E", "e"), unit),
-        "computed": claim.computed is not None and quantity(number(claim.computed, 10), unit),
+        "computed": measured(claim.computed, unit, 10),
         "to 25 digits": claim.reference,
         "proven range": claim.enclosure and between(claim.enclosure),
         "off by": off is not None
@@ -139,30 +130,32 @@ def _values(values: Mapping[str, float]) -> str:
 # Tables
 
 
-class Table(NamedTuple):
-    """A table; the first cell of a row is its head."""
-
-    caption: str
-    heads: tuple[str, ...]
-    rows: Sequence[tuple[str, ...]]
-
-
 def failing(record: r.Record) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
     claims = [claim for claim in record.claims if claim.verdict in OPEN]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
-    names = list(dict.fromkeys(reading.name for claim in claims for reading in claim.readings))
-    rows = []
-    for claim in claims:
-        shortened = f"#.{significant(claim.printed)}g"
-        computed = "" if claim.computed is None else format(claim.computed, shortened)
+
+    def shortened(claim: r.ClaimRecord, value: float | None) -> str:
+        return "" if value is None else f"{value:#.{significant(claim.printed)}g}"
+
+    def computed(claim: r.ClaimRecord) -> str:
         if claim.id in needed:
-            computed = f"derived: {' or '.join(needed[claim.id])}"
-        otherwise = {reading.name: f"{reading.computed:{shortened}}" for reading in claim.readings}
-        others = (otherwise.get(name, "") for name in names)
-        rows.append((f"`{claim.id}`", printed(claim), computed, *others))
-    heads = ("number", "printed", "computed as printed", *names)
-    return Table("What does not come out as printed", heads, rows)
+            return f"derived: {' or '.join(needed[claim.id])}"
+        return shortened(claim, claim.computed)
+
+    def read(name: str) -> Callable[[r.ClaimRecord], str]:
+        return lambda claim: "".join(
+            shortened(claim, reading.computed) for reading in claim.readings if reading.name == name
+        )
+
+    names = dict.fromkeys(reading.name for claim in claims for reading in claim.readings)
+    columns = {
+        "number": lambda claim: f"`{claim.id}`",
+        "printed": printed,
+        "computed as printed": computed,
+        **{name: read(name) for name in names},
+    }
+    return table("What does not come out as printed", claims, columns)
 
 
 def significant(text: str) -> int:
@@ -175,20 +168,23 @@ def significant(text: str) -> int:
     return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
 
 
-# What was tried for a claim
-
-
 def tried(claim: r.ClaimRecord) -> list[Table]:
     """What was tried to explain a claim that fails, and the figures that a remark is judged by."""
-    figures = [(f.means, quantity(number(f.value, 5), f.unit)) for f in claim.figures]
-    slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
     tables = (
-        Table("The figures", ("what", "computed"), figures),
+        table("The figures", claim.figures, {
+            "what": lambda f: f.means,
+            "computed": lambda f: measured(f.value, f.unit, 5),
+        }),
         _back_solved(claim.back_solved),
         repairs(claim.repairs, claim.id),
-        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
-    )
-    return [table for table in tables if table.rows]
+        table("Slips the author may have made", claim.slips, {
+            "slip": lambda s: s.name,
+            "what it is": lambda s: s.reason,
+            "gives": lambda s: number(s.value, 3),
+            "fits": lambda s: s.fits or "no",
+        }),
+    )  # fmt: skip
+    return [shown for shown in tables if shown.rows]
 
 
 def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
@@ -202,7 +198,7 @@ def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
         item = next(iter(row.values()))
         needed = (_needed(row[reading]) if reading in row else "" for reading in readings)
         search = f"{between(item.search, 4)}: {item.search_reason}"
-        rows.append((f"`{entry}`", quantity(number(item.printed), item.unit), *needed, search))
+        rows.append((f"`{entry}`", measured(item.printed, item.unit), *needed, search))
     heads = (f"needed, {reading or 'as printed'}" for reading in readings)
     caption = "One input changed, all others as printed: proven values that would give the number"
     return Table(caption, ("input", "printed", *heads, "searched"), rows)
@@ -221,25 +217,25 @@ def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
 
     Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
     """
-    rows = [
-        (
-            f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text), repair.kind,
-            repair.reading or "as printed",
-            ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing",
-        )
-        for repair in records
-    ]  # fmt: skip
-    heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    return Table("Misprints, one edit of the text, that would explain it", heads, rows)
+    return table("Misprints, one edit of the text, that would explain it", records, {
+        "text of": lambda repair: f"`{repair.entry}`",
+        "printed": lambda repair: quoted(repair.printed),
+        "instead": lambda repair: quoted(repair.text),
+        "edit": lambda repair: repair.kind,
+        "read": lambda repair: repair.reading or "as printed",
+        "what else still fails": lambda repair: (
+            ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing"
+        ),
+    })  # fmt: skip
 
 
 def evidence(finding: r.FindingRecord) -> Table:
     """The numbers of a finding, as asserted and as computed."""
-    rows = [
-        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
-        for x in finding.evidence
-    ]
-    return Table("The finding's numbers, computed anew", ("what", "stated", "computed"), rows)
+    return table("The finding's numbers, computed anew", finding.evidence, {
+        "what": lambda x: x.means,
+        "stated": lambda x: quantity(x.asserted, x.unit),
+        "computed": lambda x: computed(x) + ": NOT AS STATED" * (not x.holds),
+    })  # fmt: skip
 
 
 def computed(piece: r.EvidenceRecord) -> str:
@@ -260,37 +256,29 @@ def computed(piece: r.EvidenceRecord) -> str:
     return quantity(rounded(Fraction(piece.computed), digits, safe), piece.unit)
 
 
-# Beside the claims
-
-
-def proven(cells: Mapping[str, r.ClaimRecord]) -> Table:
+def proven(claims: Iterable[r.ClaimRecord]) -> Table:
     """The cells of Table A-1 that are computed, with all digits that matter."""
-    rows = [
-        (claim.title, cell, quantity(number(claim.computed, 10), claim.unit),
-         between(claim.enclosure or ()))
-        for cell, claim in cells.items()
-        if claim.computed is not None
-    ]  # fmt: skip
-    return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
+    return table("Cells of Table A-1", (c for c in claims if c.computed is not None), {
+        "what": lambda c: c.title,
+        "cell": lambda c: c.cell or "",
+        "computed": lambda c: measured(c.computed, c.unit, 10),
+        "proven range": lambda c: between(c.enclosure or ()),
+    })  # fmt: skip
 
 
 def approaches(record: r.Record) -> Table:
     """Every approach to X/R."""
-    rows = [
-        (
-            f"{a.kind}: {a.name}",
-            "not recomputable" if a.computed is None else number(a.computed, 5),
-            f"{a.printed} `{a.claim}`" if a.claim else "",
-        )
-        for a in record.approaches
-    ]
-    return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
+    return table("Normalized depth X/R", record.approaches, {
+        "approach": lambda a: f"{a.kind}: {a.name}",
+        "computed": lambda a: "not recomputable" if a.computed is None else number(a.computed, 5),
+        "printed": lambda a: f"{a.printed} `{a.claim}`" if a.claim else "",
+    })  # fmt: skip
 
 
 def ladders(record: r.Record) -> Table:
     """The sheet at other time steps: a row for each, a column for each case and scheme."""
     schemes = {"published": "initial", "centered": "middle"}
-    columns = list(dict.fromkeys((level.beta, level.scheme) for level in record.ladders))
+    columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
     rows: dict[float, list[str]] = {}
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
@@ -300,41 +288,30 @@ def ladders(record: r.Record) -> Table:
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 
 
-def sensitivity(record: r.Record) -> list[Table]:
-    """For each case, what its inputs' own ranges do to the depth."""
-    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
-    return [
-        Table(
-            f"Derivatives and stated ranges, beta = {case.beta:g}",
-            heads,
-            [
-                (
-                    effect.input.replace("_", " "),
-                    f"{case.elasticities[effect.input]:+.3f}",
-                    shown_range(effect),
-                    " to ".join(f"{depth * 1e6:.3f}" for depth in effect.depths),
-                    " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in effect.ratios)),
-                    effect.why,
-                )
-                for effect in case.stated
-            ],
-        )
-        for case in record.sensitivity
-    ]
+def sensitivity(case: r.Sensitivity) -> Table:
+    """What the inputs' own ranges do to the depth of a case."""
+    return table(f"Derivatives and stated ranges, beta = {case.beta:g}", case.stated, {
+        "input": lambda e: e.input.replace("_", " "),
+        "d ln X / d ln input": lambda e: f"{case.elasticities[e.input]:+.3f}",
+        "range": shown_range,
+        "X [um]": lambda e: " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
+        "X/R": lambda e: " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)),
+        "the range is": lambda e: e.why,
+    })  # fmt: skip
 
 
 def scatter(record: r.Record) -> Table:
     """The stream of particles by three laws."""
-    shares = (
-        f"V and X/R that {number(100 * point.share)} % do not exceed"
-        for point in record.scatter[0].points
-    )
-    rows = [
-        (
-            law.law, f"{law.standard_deviation:.1f} m/s", f"{law.mean_deviation:.1f} m/s",
-            *(f"{point.velocity:.0f} m/s, {point.ratio:.3f}" for point in law.points),
-        )
-        for law in record.scatter
-    ]  # fmt: skip
-    heads = ("law", "standard deviation", "mean deviation", *shares)
-    return Table("Velocity and X/R over the particles of the stream", heads, rows)
+
+    def at(k: int) -> Callable[[r.Scatter], str]:
+        return lambda law: f"{law.points[k].velocity:.0f} m/s, {law.points[k].ratio:.3f}"
+
+    return table("Velocity and X/R over the particles of the stream", record.scatter, {
+        "law": lambda law: law.law,
+        "standard deviation": lambda law: f"{law.standard_deviation:.1f} m/s",
+        "mean deviation": lambda law: f"{law.mean_deviation:.1f} m/s",
+        **{
+            f"V and X/R that {number(100 * point.share)} % do not exceed": at(k)
+            for k, point in enumerate(record.scatter[0].points)
+        },
+    })  # fmt: skip

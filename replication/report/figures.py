@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from itertools import count
 from math import log10
-from typing import NamedTuple
 
 from replication.audit.record import Effect, Level, Record
 from replication.report.facts import shown_range
@@ -22,23 +21,23 @@ WIDTH = 440
 Points = Iterable[tuple[float, float]]
 
 
-class Drawing(NamedTuple):
-    """A figure: the name of its file, its title, what it shows in words, and its SVG."""
-
-    name: str
-    title: str
-    words: str
-    svg: str
+_Figure = tuple[str, str, int, list[str]]
+"""Title, what it shows in words for those who do not see it, height, and elements."""
 
 
-def draw(record: Record) -> list[Drawing]:
-    """Every figure of the record."""
-    figures = (_comparison, _sensitivity, _figure_3, _figure_5, _convergence)
-    return [figure(record) for figure in figures]
+def draw(record: Record) -> dict[str, str]:
+    """Every figure of the record as SVG, by name; in a file of its own it stands on white paper."""
+    figures = {
+        "comparison": _comparison,
+        "sensitivity": _sensitivity,
+        "figure-3": _figure_3,
+        "figure-5": _figure_5,
+        "convergence": _convergence,
+    }
+    return {name: _svg(name, *figure(record)) for name, figure in figures.items()}
 
 
-def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str]) -> Drawing:
-    """Parts as one SVG; in a file of its own it stands on white paper."""
+def _svg(name: str, title: str, words: str, height: int, parts: list[str]) -> str:
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
         f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
@@ -48,7 +47,7 @@ def _drawing(name: str, title: str, words: str, height: int, parts: Iterable[str
         f'<desc id="{name}-words">{escape(words)}</desc>',
         f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
     )
-    return Drawing(name, title, words, "\n".join((*head, *parts, "</svg>\n")))
+    return "\n".join((*head, *parts, "</svg>\n"))
 
 
 # What a plot is made of
@@ -163,7 +162,7 @@ def _legend(x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> list[
 # Normalized depth by every approach
 
 
-def _comparison(record: Record) -> Drawing:
+def _comparison(record: Record) -> _Figure:
     """A row for each approach: what is computed filled, what is printed or quoted hollow."""
     observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
     shown = [a for a in record.approaches if a.kind != "observed"]
@@ -193,13 +192,13 @@ def _comparison(record: Record) -> Drawing:
     words = f"{'; '.join(values)}.".replace("beta", "β")
     title = "Normalized depth by every approach of the report"
     parts = plot.parts + _legend(100, bottom + 52, legend)
-    return _drawing("comparison", title, words, int(bottom + 115), parts)
+    return title, words, int(bottom + 115), parts
 
 
 # What each input does
 
 
-def _sensitivity(record: Record) -> Drawing:
+def _sensitivity(record: Record) -> _Figure:
     """Two panels of bars about the depth as printed, the longest on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
     at_rest = case.depth * 1e6
@@ -231,7 +230,7 @@ def _sensitivity(record: Record) -> Drawing:
     legend = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
     parts += [*_legend(150, top + 4, legend), _text(434, 16, "change [µm]", "end")]
     title = f"What each input does to the exact penetration depth, β = {case.beta:g}"
-    return _drawing("sensitivity", title, " ".join(words), int(top + 32), parts)
+    return title, " ".join(words), int(top + 32), parts
 
 
 def _input(effect: Effect) -> str:
@@ -241,7 +240,7 @@ def _input(effect: Effect) -> str:
 # Depth against time, and against velocity
 
 
-def _figure_3(record: Record) -> Drawing:
+def _figure_3(record: Record) -> _Figure:
     """Every eighth row of each sheet as a point, the exact motion as a line."""
     plot = _Plot((44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
@@ -267,10 +266,10 @@ def _figure_3(record: Record) -> Drawing:
         )
     told = f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
     title = "Penetration depth against time, as in Figure 3 of the report"
-    return _drawing("figure-3", title, told, 310, plot.parts + _legend(205, 205, legend))
+    return title, told, 310, plot.parts + _legend(205, 205, legend)
 
 
-def _figure_5(record: Record) -> Drawing:
+def _figure_5(record: Record) -> _Figure:
     """The exact line, the sheet's points, and the observed level."""
     curve = record.velocity_curve
     low, high = curve.velocity[0], curve.velocity[-1]
@@ -294,13 +293,13 @@ def _figure_5(record: Record) -> Drawing:
         f"exact line. All of it is above the observed {observed:.3f}."
     )
     title = "Normalized depth against impact velocity, as in Figure 5 of the report"
-    return _drawing("figure-5", title, words, 280, plot.parts + _legend(290, 180, legend))
+    return title, words, 280, plot.parts + _legend(290, 180, legend)
 
 
 # The sheet's error against its time step
 
 
-def _convergence(record: Record) -> Drawing:
+def _convergence(record: Record) -> _Figure:
     """The error of the final depth over the time step, both axes logarithmic."""
     ladders: dict[tuple[str, float], list[Level]] = {}
     for level in record.ladders:
@@ -322,4 +321,4 @@ def _convergence(record: Record) -> Drawing:
         words.append(f"{name}: {errors}")
     parts = plot.parts + _legend(140, 322, legend)
     title = "Error of the sheet's final depth against its time step"
-    return _drawing("convergence", title, "; ".join(words), 388, parts)
+    return title, "; ".join(words), 388, parts

@@ -9,7 +9,7 @@ from importlib import resources
 from pathlib import Path
 from string import ascii_lowercase
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -18,16 +18,12 @@ from reference.ledger import INFERRED, Ledger
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
 from replication.audit.wording import quantity
-from replication.plain import json_text, rows_csv
 from replication.power import measured
 from replication.report import facts as told
-from replication.report.figures import Drawing, draw
+from replication.report.figures import draw
 from replication.report.prose import Named, Prose, quoted
-from replication.text import columns, number
+from replication.text import columns, json_text, number, rows_csv, table
 from spreadsheets.safely import check_folder, write_folder
-
-if TYPE_CHECKING:
-    from jinja2 import Template
 
 
 def check(folder: Path) -> None:
@@ -56,7 +52,7 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
         "audit.html": page(record, drawings),
         "audit.md": markdown(record),
         "audit.csv": _csv(record),
-        **{f"figures/{drawing.name}.svg": drawing.svg for drawing in drawings},
+        **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
     }
     files = {name: text.encode() for name, text in texts.items()}
     return {**beside, **files, "audit.json": json_text(record).encode()}
@@ -84,55 +80,31 @@ def _cell(claim: ClaimRecord, column: str) -> Any:
 
 # Page and Markdown: one arrangement, two templates
 
-SECTIONS = {
-    "summary": "Summary",
-    "open": "What does not follow",
-    "findings": "Findings, the heaviest first",
-    "approaches": "All approaches side by side",
-    "sheet": "The sheet and the exact motion",
-    "sensitivity": "What the depth depends on",
-    "scatter": "What scatter does",
-    "inferred": "The target density, inferred",
-    "equations": "The equations",
-    "table-a-1": "Table A-1",
-    "computed": "Numbers computed anew",
-    "remarks": "Remarks, with figures",
-    "sources": "Numbers compared with public sources",
-    "repeated": "Numbers that repeat or are chosen",
-    "undecided": "Numbers that nothing in the report decides",
-    "power": "What this audit would notice",
-    "symbols": "Symbols",
-    "provenance": "Provenance",
-}
 
-
-def page(record: Record, drawings: Sequence[Drawing]) -> str:
+def page(record: Record, drawings: Mapping[str, str]) -> str:
     """The page: no script, nothing from outside, its style named in its content policy by hash."""
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
-    prose = Prose(record.symbols, told.names_of(record))
-    template = _template("page.html.j2", prose.html, escaping=True)
-    return template.render(
-        _context(record),
-        drawings={drawing.name: drawing for drawing in drawings},
-        style=style,
-        style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-    ).lstrip()
+    digest = b64encode(sha256(style.encode()).digest()).decode()
+    more = {"drawings": drawings, "style": style, "style_hash": digest}
+    return _filled("page.html.j2", _prose(record).html, _parts(record) | more).lstrip()
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    prose = Prose(record.symbols, told.names_of(record))
-    template = _template("page.md.j2", prose.markdown)
-    return re.sub(r"\n{3,}", "\n\n", template.render(_context(record)).lstrip())
+    return _filled("page.md.j2", _prose(record).markdown, _parts(record)).lstrip()
 
 
-def _template(name: str, prose: Callable[[str], str], escaping: bool = False) -> "Template":
-    """One of the templates beside this file, with the filters of all."""
+def _prose(record: Record) -> Prose:
+    return Prose(record.symbols, told.names_of(record))
+
+
+def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
+    """One of the templates beside this file, filled; at most one empty line stands in a row."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
         loader=PackageLoader("replication.report", ""),
-        autoescape=escaping,  # noqa: S701  (the page is escaped; the others are no HTML)
+        autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (all HTML there is)
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -142,25 +114,21 @@ def _template(name: str, prose: Callable[[str], str], escaping: bool = False) ->
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
-        "prose": cache(prose),
+        "prose": cache(lambda sentence: prose(str(sentence))),  # of a macro it is markup
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    return environment.get_template(name)
+    text = environment.get_template(name).render(parts)
+    return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
 
 
-def _context(record: Record) -> dict[str, Any]:
+def _parts(record: Record) -> dict[str, Any]:
     """What both templates show: the record, and its parts in the order in which they stand."""
-    groups, names, power = _groups(record), told.names_of(record), measured()
+    groups, names = _groups(record), told.names_of(record)
     return {
         "record": record,
-        "sections": {name: title for name, title in SECTIONS.items() if groups.get(name, True)},
         "groups": groups,
         "names": names,
-        "counted": _counted(record),
-        "verdicts": told.VERDICTS,
-        "none": [verdict for verdict in told.VERDICTS if not record.summary[verdict]],
-        "inferred": _inferred(record),
         "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
         "tables": told,
@@ -168,22 +136,8 @@ def _context(record: Record) -> dict[str, Any]:
         "touching": _touching(record),
         "sources": _sources(record),
         "table": _table_a_1(groups["table-a-1"]),
-        "power": power,
-        "rates": told.Table("Rates in percent", power.table()[0], power.table()[1:]),
+        "power": measured(),
     }
-
-
-def _counted(record: Record) -> str:
-    """The counts in words, the independent checks first."""
-    counts = record.counts
-    failing = sum(equation.verdict == Verdict.NOT_REPRODUCED for equation in record.equations)
-    return (
-        f"{counts.calculations} independent checks come out as printed; they cover "
-        f"{counts.reproduced} of the {counts.numbers} numbers that the report prints. "
-        f"{counts.failing} numbers do not follow from what it says. Of its {counts.equations} "
-        f"equations {counts.equations_derived} follow from those before them or from mechanics, "
-        f"{failing} does not, and the others are definitions or taken from the literature."
-    )
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
@@ -219,7 +173,7 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
-        "proven": told.proven(cells),
+        "proven": told.proven(cells.values()),
     }
 
 
@@ -230,27 +184,6 @@ def _touching(record: Record) -> dict[str, list[FindingRecord]]:
         for claim in finding.claims:
             touching.setdefault(claim, []).append(finding)
     return touching
-
-
-def _inferred(record: Record) -> dict[str, str]:
-    """By id, what is known of an input that the report never prints."""
-    velocities = {"published": "velocity with which a row begins", "centered": "middle velocity"}
-    texts = {
-        one.id: f"The {one.title} is printed nowhere. The audit computes with "
-        f"{quantity(number(one.assumed), one.unit)}: {one.nominal_source}."
-        for one in record.inferred
-    }
-    for one in record.inferred:
-        ends = quantity(told.between(one.interval, 7, inward=True), one.unit)
-        texts[one.id] += (
-            f" With the drag at the {velocities[one.scheme]} the header of Table A-1 exactly as "
-            f"printed admits {ends}"
-        )
-        if one.possible_with_rounded_inputs:
-            ends = quantity(told.between(one.possible_with_rounded_inputs, 7), one.unit)
-            texts[one.id] += f"; if its numbers are themselves rounded, none outside {ends} does"
-        texts[one.id] += "."
-    return texts
 
 
 def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
@@ -283,22 +216,20 @@ FINDINGS = 3
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
     """The audit on one screen: what it found, the counts, all that fails, the main results."""
-    rows = [
-        (claim.title, told.printed(claim), quantity(number(claim.computed), claim.unit),
-         claim.verdict)
-        for claim in record.claims
-        if claim.id in MAIN and claim.computed is not None
-    ]  # fmt: skip
+    main = (claim for claim in record.claims if claim.id in MAIN and claim.computed is not None)
     failing = told.failing(record)
     titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in failing.rows]
     context = {
         "record": record,
-        "counted": _counted(record),
-        "verdicts": told.VERDICTS,
         "failing": failing._replace(rows=titles),
-        "main": told.Table("Main results", ("number", "printed", "computed", "verdict"), rows),
+        "main": table("Main results", main, {
+            "number": lambda claim: claim.title,
+            "printed": told.printed,
+            "computed": lambda claim: told.measured(claim.computed, claim.unit),
+            "verdict": lambda claim: claim.verdict,
+        }),
         "shown": FINDINGS,
-    }
+    }  # fmt: skip
     return _terminal(Prose(record.symbols, {}), context, width, strong)
 
 
@@ -306,7 +237,7 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
     """One claim with all that its verdict rests on; the ledger names what it refers to."""
     names = (
         {name: Named(e.title) for name, e in ledger.equations.items()}
-        | {f"{INFERRED}{name}": Named(e.title, "", quantity(number(e.nominal), e.unit))
+        | {f"{INFERRED}{name}": Named(e.title, "", told.measured(float(e.nominal), e.unit))
            for name, e in ledger.inferred.items()}
         | {name: Named(c.title, "", quantity(c.shown, c.unit))
            for name, c in ledger.claims.items()}
@@ -334,7 +265,6 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
     def table(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose.text, row)) for row in rows], width)
 
-    template = _template("terminal.txt.j2", prose.text)
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    text = template.render(context, fill=filled, columns=table, strong=bold.format)
-    return re.sub(r"\n{3,}", "\n\n", text.strip("\n"))
+    parts = {"fill": filled, "columns": table, "strong": bold.format}
+    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).strip("\n")

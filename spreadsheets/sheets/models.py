@@ -52,9 +52,9 @@ def crater(ledger: Ledger) -> SheetPlan:
     for which, diameter in (("smallest", "d_min"), ("average", "D_p"), ("largest", "d_max")):
         half = f"({diameter}/2)"
         lines += [
-            Line(f"{which}_mass", "m", f"mass, {which} particle",
+            Line(f"{which}_mass", "m", f"mass for diameter {diameter}",
                  f"=rho_p*4/3*pi_*{half}*{half}*{half}", "kg", "Eq. 3 times ρ_p", shown=_SI),
-            Line(f"{which}_velocity", "V_p", f"velocity, {which} particle",
+            Line(f"{which}_velocity", "V_p", f"velocity for diameter {diameter}",
                  f"=V_impact*SQRT(M_p/{{{which}_mass}})", "m/s",
                  "Eq. 1, with V the impact velocity and m_o = M", shown="0.0"),
         ]

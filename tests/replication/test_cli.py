@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import re
 import subprocess
 import sys
@@ -121,6 +122,18 @@ def test_a_closed_pipe_is_no_error() -> None:
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stdout == "[\n"
     assert done.stderr == ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("arguments", ["--help", "--version", "depth --help", "depth"])
+def test_a_full_disk_gets_one_line_and_status_2(arguments: str, unbuffered: str) -> None:
+    command = [sys.executable, "-m", "replication", *arguments.split()]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, stdout=full, stderr=-1, text=True, env=environment)
+    assert done.returncode == 2
+    assert re.fullmatch(r"coldspray( depth)?: No space left on device\n", done.stderr)
 
 
 def test_version_and_help(coldspray: Command) -> None:

@@ -20,7 +20,7 @@ from replication.audit.record import ClaimRecord, Record, schema
 from replication.audit.verdict import Verdict
 from replication.cases import BETA_3, BETA_5, INPUTS
 from replication.models.impact import Impact
-from replication.plain import json_text
+from replication.text import json_text
 
 LEDGER = load()
 VERDICTS = {verdict.value for verdict in Verdict}
