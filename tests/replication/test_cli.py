@@ -42,9 +42,7 @@ def test_case_file(tmp_path: Path, coldspray: Command) -> None:
     assert (inputs["velocity"], inputs["radius"], inputs["beta"]) == (460.0, 5.5e-6, 3.0)
 
 
-def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
-    text = coldspray("sheet")[1]
-    assert re.search(r"^steps +131$", text, re.MULTILINE)
+def test_sheet_prints_rows_as_csv_and_json(coldspray: Command) -> None:
     record = json.loads(coldspray("sheet", "--json")[1])
     assert {"inputs", "rows", "final_depth", "normalized_depth", "steps"} <= set(record)
     names = ["time", "velocity_initial", "depth", "deceleration", "velocity_final"]
@@ -52,17 +50,7 @@ def test_sheet_prints_rows_as_text_csv_and_json(coldspray: Command) -> None:
     assert record["rows"][0]["velocity_final"] is None
     rows = list(csv.DictReader(coldspray("sheet", "--csv")[1].splitlines()))
     assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
-
-
-def test_a_sheet_without_steps_says_why(coldspray: Command) -> None:
-    slow = ["sheet", "--velocity", "0.5"]
-    status, out, err = coldspray(*slow)
-    assert (status, err.count("\n")) == (0, 1)
-    assert "0.5 m/s is below the stop velocity 1.0 m/s" in err
-    assert coldspray(*slow, "--quiet") == (0, out, "")
-    (said,) = json.loads(coldspray(*slow, "--json")[1])["warnings"]
-    assert said in err
-    assert not coldspray("sheet", "--velocity", "1")[2].count("below")
+    assert json.loads(coldspray("sheet", "--velocity", 0.5, "--json")[1])["warnings"]
 
 
 def test_history_prints_the_promised_keys(coldspray: Command) -> None:
@@ -76,23 +64,17 @@ def test_history_prints_the_promised_keys(coldspray: Command) -> None:
     assert record["velocity"][0] == 500.0
 
 
-def test_history_at_given_times_as_text_and_csv(coldspray: Command) -> None:
-    times = ["--times", "0 ns,5 ns, 1e-6"]
-    rows = list(csv.DictReader(coldspray("history", *times, "--csv")[1].splitlines()))
+def test_history_at_given_times_as_csv(coldspray: Command) -> None:
+    out = coldspray("history", "--times", "0 ns,5 ns, 1e-6", "--csv")[1]
+    rows = list(csv.DictReader(out.splitlines()))
     assert [float(row["time"]) for row in rows] == [0.0, 5e-9, 1e-6]
     assert float(rows[-1]["velocity"]) == 0.0
-    text = coldspray("history", *times)[1]
-    assert re.search(r"^ +5 +2\.4396484 +464\.8750", text, re.MULTILINE)
-    assert re.search(r"^stop time +26\.079234 ns$", text, re.MULTILINE)
 
 
-def test_claims_are_listed_and_proven(coldspray: Command) -> None:
+def test_claims_are_listed(coldspray: Command) -> None:
     listing = coldspray("claims")[1].splitlines()
     records = json.loads(coldspray("claims", "--json")[1])
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
-    proof = coldspray("claims", "frank-zook-rha")[1]
-    assert "not reproduced" in proof
-    assert "0.127273" in proof
     assert json.loads(coldspray("claims", "depth-beta-5", "--json")[1])["verdict"] == "reproduced"
 
 
@@ -135,93 +117,6 @@ def test_workbook_of_the_report_and_of_a_case(tmp_path: Path, coldspray: Command
     assert "Audit" not in openpyxl.load_workbook(own).sheetnames
 
 
-WRONG = {
-    "unknown case": (["depth", "--case", "beta-4"], "beta-4.*beta-3, beta-5"),
-    "negative radius": (["depth", "--radius=-1 um"], "radius is -1e-06.*greater than zero"),
-    "not a number": (["sheet", "--velocity", "nan"], "velocity: .nan. is no finite number"),
-    "zero resistance": (["depth", "--resistance", "0"], r"resistance is 0\.0"),
-    "wrong unit": (["depth", "--radius", "11 MPa"], "MPa does not measure what m does"),
-    "unknown unit": (["depth", "--radius", "11 parsnips"], "unknown unit 'parsnips'"),
-    "no such file": (["depth", "--case-file", "absent.toml"], "absent.toml: No such file"),
-    "unknown claim": (["claims", "depth-beta-4"], "no claim 'depth-beta-4'.*depth-beta-"),
-    "unknown command": (["dept"], "invalid choice: 'dept'"),
-    "unknown option": (["depth", "--speed", "3"], "unrecognized arguments: --speed"),
-    "no command": ([], "required: COMMAND"),
-    "too many rows": (["sheet", "--step", "1e-18"], "takes more than 1,000,000 steps of 1e-18 s"),
-    "one point": (["history", "--points", "1"], "give a whole number from 2 to 1,000,000, not"),
-    "before the impact": (
-        ["history", "--times", "0,-1 ns"],
-        r"--times, value 2: '-1 ns' is not from 0 to 1e250 s: give times such as \"0 ns,5 ns\"",
-    ),
-    "no time": (["history", "--times", "soon"], "--times, value 1: 'soon' is no finite"),
-    "empty time": (["history", "--times", "0,,1"], "--times, value 2: '' is .*times such as"),
-    "decimal comma": (["depth", "--velocity", "500,5"], "velocity: '500,5': write the decimal"),
-    "unit of a plain number": (["depth", "--beta", "5 m"], "beta: '5 m': give no unit"),
-    "endless limit": (["bench", "--limit", "inf"], "--limit: 'inf' is no finite number"),
-    "endless time": (["history", "--times", "inf"], "--times, value 1: 'inf' is no finite number"),
-    "two forms": (["history", "--json", "--csv"], "--csv: not allowed with argument --json"),
-    "two forms of a sheet": (["sheet", "--csv", "--json"], "--json: not allowed with argument --c"),
-    "points and times": (["history", "--points", "3", "--times", "0"], "not allowed with"),
-    "unknown scheme": (["sheet", "--scheme", "upwind"], "no scheme 'upwind': choose one of publ"),
-    "unknown ladder": (["converge", "--scheme", "upwind"], "no scheme 'upwind': choose one of"),
-    "one step": (["converge", "--steps", "1 ns"], "two steps or more"),
-    "one level": (["converge", "--levels", "1"], "--levels: give a whole number from 2 to 40,"),
-    "no step": (["converge", "--steps", "1 ns,x"], "--steps, value 2: 'x' is no finite number"),
-    "too many digits": (["converge", "--digits", "6"], "lower the stop velocity"),
-    "no random cases": (
-        ["stability", "--random", "0"],
-        "--random: give a whole number from 1 to 10,000,000,",
-    ),
-    "folder for a file": (["workbook", "-o", "."], "is a folder; give a file"),
-    "missing folder": (["workbook", "-o", "absent/workbook.xlsx"], "absent"),
-    "file for a folder": (["audit", "--out", "taken"], "taken: is no folder"),
-    "unwritable folder": (["audit", "--out", "/proc/coldspray"], "/proc"),
-}
-
-
-@pytest.mark.parametrize("problem", WRONG)
-def test_bad_input_gets_one_line_and_status_2(
-    problem: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    coldspray: Command,
-) -> None:
-    arguments, message = WRONG[problem]
-    monkeypatch.chdir(tmp_path)
-    Path("taken").write_text("mine")
-    status, out, err = coldspray(*arguments)
-    assert (status, out) == (2, "")
-    assert len(err.splitlines()) == 1
-    assert re.search(message, err)
-    assert names(tmp_path) == {"taken"}
-    assert Path("taken").read_text() == "mine"
-
-
-BAD_FILES = {
-    "no TOML": ("velocity 450", "is no TOML file"),
-    "no table": ("velocity = 450", r"give one table, \[impact\]"),
-    "other table": ("[impact]\n[more]\n", r"give one table, \[impact\]"),
-    "misspelled": ("[impact]\nvelocty = 450", "no such input as 'velocty'"),
-    "bad value": ('[impact]\nradius = "x"', "radius: 'x' is no finite number"),
-    "bad kind": ("[impact]\nradius = [1]", "radius"),
-    "bad sign": ("[impact]\nradius = -1.0", r"radius is -1\.0"),
-    "binary": ("\udcff\udcfe\0", "is no TOML file"),
-    "too many digits": ("[impact]\nradius = " + "9" * 5000, "a whole number of more than 4300"),
-    "too large": ("#" * 2**21, "is larger than 1,048,576 bytes"),
-}
-
-
-@pytest.mark.parametrize("problem", BAD_FILES)
-def test_bad_case_files_name_the_file(problem: str, tmp_path: Path, coldspray: Command) -> None:
-    text, message = BAD_FILES[problem]
-    file = tmp_path / "case.toml"
-    file.write_bytes(text.encode(errors="surrogateescape"))
-    status, out, err = coldspray("depth", "--case-file", file)
-    assert (status, out) == (2, "")
-    assert re.search(rf"case\.toml.*{message}", err)
-    assert err.count("case.toml") == len(err.splitlines()) == 1
-
-
 def test_a_closed_pipe_is_no_error() -> None:
     command = f"{sys.executable} -m replication claims --json | head -n 1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
@@ -248,10 +143,3 @@ def test_version_and_help(coldspray: Command) -> None:
         said = coldspray(command, "--help")[1]
         assert "--json" in said
         assert "--quiet" in said
-
-
-def test_a_proof_names_its_cell_and_its_findings(coldspray: Callable[..., tuple]) -> None:
-    status, out, _ = coldspray("claims", "depth-beta-5")
-    assert status == 0
-    assert re.search(r"Sheet beta 5!\$?[A-Z]+\$?\d+", out)
-    assert "Two schemes fit what is printed" in out

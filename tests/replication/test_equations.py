@@ -8,7 +8,7 @@ from reference.derivations import DERIVATIONS, derive
 from reference.ledger import Ledger, load
 from replication.audit.edits import equation_edits
 from replication.audit.explain import Screen
-from replication.audit.verdict import Verdict, assess_equation, follows
+from replication.audit.verdict import assess_equation, follows
 
 LEDGER = load()
 ASSUMED = {f"inferred:{name}": entry.nominal for name, entry in LEDGER.inferred.items()}
@@ -131,23 +131,6 @@ def test_equation(name: str) -> None:
     assert assessed.verdict == expected
     assert assessed.factor == (F(1, 2) if name == "eq16" else None)
     assert set(assessed.constants) == set(LEDGER.constants_of(name))
-
-
-UNSETTLED = {"eq1-power", "eq8-multiple", "eq10-factor"}
-
-
-def test_constants_are_told_apart_from_others_unless_the_equation_is_taken_over() -> None:
-    constants = {
-        claim: constant
-        for name in LEDGER.equations
-        for claim, constant in assess_equation(LEDGER, name).constants.items()
-    }
-    unsettled = {claim for claim, c in constants.items() if c.verdict == Verdict.NOT_CHECKABLE}
-    assert unsettled == UNSETTLED
-    assert constants["eq16-denominator"].needed == ["1"]
-    for claim in constants.keys() - unsettled - {"eq16-denominator"}:
-        assert constants[claim].verdict == "reproduced"
-        assert constants[claim].needed == [str(LEDGER.value(claim))]
 
 
 def test_two_misprints_in_one_equation_leave_its_constants_undecided() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from replication.cases import BETA_3, BETA_5, CASES
+from replication.cases import BETA_3, BETA_5
 from replication.error import hard_cases, ladder
 from replication.error.ladder import Budget, exact_motion, split
 from replication.models.depth import final_depth
@@ -48,23 +48,6 @@ def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: st
     assert abs(math.fsum(parts) - budget.total) <= rounding
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("step", [2e-10, 5e-10])
-def test_the_reports_error_is_that_of_the_time_step(case: str, step: float) -> None:
-    budget = split(run(replace(CASES[case], step=step)))
-    assert budget.time_step == pytest.approx(budget.total, rel=0.05)
-    assert budget.total < 0, "the sheet is short of the exact depth"
-    assert abs(budget.rounding or 1) < 1e-18
-
-
-def test_where_parts_of_the_budget_are_nothing_or_undefined() -> None:
-    budget = split(run(replace(BETA_5, velocity=0.5)))  # without a row all the depth is missing
-    assert [getattr(budget, part) for part in PARTS] == [0, 0, 0, budget.total]
-    budget = split(run(replace(BETA_5, step=1e-7)))  # it ends with a velocity that no motion has
-    assert [getattr(budget, part) for part in PARTS] == [None] * 4
-    assert budget.total > 0
-
-
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
 def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
@@ -77,48 +60,6 @@ def test_without_drag_the_published_scheme_is_second_order() -> None:
     dragless = replace(BETA_5, target_density=1e-6)
     found = ladder.converge(dragless, ladder.ladder(1e-10, 6))
     assert found.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
-
-
-def test_limit_of_a_fine_ladder_is_the_depth_at_the_stop_velocity() -> None:
-    found = ladder.converge(BETA_5, ladder.ladder(2e-10, 9))
-    assert found.limit is not None
-    gci = found.levels[-1].gci
-    assert gci is not None
-    # The stop rule's jitter is of the size of one step's travel at the stop velocity.
-    jitter = 5 * found.levels[-1].step
-    assert abs(found.limit - found.exact_at_stop) <= gci * found.exact + jitter
-    assert found.exact_at_stop < found.exact
-
-
-def test_regimes_go_from_coarse_to_floor() -> None:
-    published = ladder.converge(BETA_5, ladder.ladder(2e-10, 7))
-    assert [level.regime for level in published.levels[:2]] == [
-        "order unknown",
-        "not yet asymptotic",
-    ]
-    assert published.levels[-1].regime == "asymptotic"
-    centered = ladder.converge(BETA_5, ladder.ladder(2e-10, 9), "centered")
-    assert centered.levels[-1].regime == "stop-rule floor"
-    meaningless = ladder.converge(BETA_5, [1e-7, 5e-8])
-    assert {level.regime for level in meaningless.levels} == {"meaningless"}
-
-
-@pytest.mark.parametrize(
-    ("steps", "scheme", "reason"),
-    [
-        ([4e-10, 2e-10], "published", "three levels"),
-        ([4e-10, 2e-10, 1.5e-10], "published", "constant ratio"),
-        # No row is ever made: equal depths.
-        ([4e-10, 2e-10, 1e-10], "published", "equal"),
-        (ladder.ladder(2e-10, 9), "centered", "the depths oscillate"),
-    ],
-)
-def test_the_limit_is_undefined_for_a_reason(steps: list[float], scheme: str, reason: str) -> None:
-    case = replace(BETA_5, velocity=0.5) if reason == "equal" else BETA_5
-    found = ladder.converge(case, steps, scheme)
-    undefined = [level.undefined for level in found.levels if level.limit is None]
-    assert any(reason in text for text in undefined)
-    assert scheme == "centered" or (found.limit is None and reason in undefined[-1])
 
 
 def level(step: float, depth: float) -> ladder.Level:
@@ -168,12 +109,6 @@ def test_the_refusal_counts_steps_down_to_the_stop_velocity() -> None:
         run(replace(BETA_5, step=BETA_5.step * 131 / 1.1e6))
 
 
-@pytest.mark.parametrize("steps", [[], [1e-10], [1e-10, 1e-10], [1e-10, 2e-10]])
-def test_a_ladder_must_descend(steps: list[float]) -> None:
-    with pytest.raises(ValueError, match="two steps or more, each shorter"):
-        ladder.converge(BETA_5, steps)
-
-
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
@@ -189,15 +124,6 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
         for k in range(4)
     ]
     assert any(failing)
-
-
-def test_digits_that_the_stop_rule_forbids_are_refused() -> None:
-    with pytest.raises(ValueError, match=r"stopping at 1\.0 m/s alone leaves out 2\.05e-11 m"):
-        ladder.step_for_digits(BETA_5, 6)
-    with pytest.raises(ValueError, match="ask for one or more"):
-        ladder.step_for_digits(BETA_5, 0)
-    with pytest.raises(ValueError, match="need more than 1,000,000 steps"):
-        ladder.step_for_digits(replace(BETA_5, stop_velocity=0.0), 9)
 
 
 SAID = {
@@ -254,20 +180,9 @@ def test_converge_prints_the_promised_keys(coldspray: Command) -> None:
     assert record["digits"]["digits"] == 3
 
 
-def test_texts_for_reading(coldspray: Command) -> None:
-    text = coldspray("converge", "--steps", "0.5 ns,0.2 ns")[1]
-    assert "first order" in text
-    assert "7.660299" in text
-    assert "second order" in coldspray("converge", "--scheme", "centered")[1]
+def test_hard_cases_are_printed(coldspray: Command) -> None:
     text = coldspray("stability", "--random", 500)[1]
     assert "no resistance: refused: target resistance is 0.0" in text
     record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
     assert len(record["cases"]) == len(hard_cases.HARD_CASES)
     assert record["random"]["cases"] == 500
-
-
-def test_a_sheet_that_reverses_says_so(coldspray: Command) -> None:
-    _, out, err = coldspray("sheet", "--csv")
-    assert "reverses the velocity to -3.316 m/s" in err
-    assert "warning" not in out
-    assert coldspray("sheet", "--csv", "--quiet")[2] == ""

@@ -1,6 +1,5 @@
 """Findings: each number in them is computed by the audit, and one that is changed is noticed."""
 
-from fractions import Fraction
 from functools import cache
 
 import pytest
@@ -8,7 +7,6 @@ import pytest
 from reference.findings import load as load_findings
 from reference.ledger import Ledger, load
 from replication.audit.audit import audit
-from replication.audit.edits import edits
 from replication.audit.findings import EVIDENCE
 from replication.audit.record import FindingRecord, Record
 
@@ -24,28 +22,6 @@ def test_every_finding_has_evidence_and_all_of_it_is_asserted(record: Record) ->
         assert finding.evidence, finding.id
         assert [part.name for part in finding.evidence if not part.holds] == []
         assert finding.holds
-
-
-@pytest.mark.parametrize("name", [name for name in FINDINGS if name != "headline"])
-def test_a_changed_number_in_a_finding_is_noticed(name: str, record: Record) -> None:
-    (finding,) = (own for own in record.findings if own.id == name)
-    for part in finding.evidence:
-        assertion, computed = FINDINGS[name].evidence[part.name], part.computed
-        assert computed is not None
-        if isinstance(computed, bool):
-            assert not assertion.holds(not computed)
-        elif assertion.relation in ("", "="):
-            value = Fraction(computed)
-            slips = [text for text, kind in edits(assertion.text) if "changed" in kind]
-            assert len(slips) >= 9
-            for text in slips:
-                relation = "= " if assertion.relation else ""
-                altered = type(assertion)(says=relation + text, means=assertion.means)
-                assert not altered.holds(value), (part.name, text)
-        else:
-            opposite = assertion.relation.translate(str.maketrans("<>", "><"))
-            altered = type(assertion)(says=f"{opposite} {assertion.text}", means=assertion.means)
-            assert not altered.holds(Fraction(computed)), part.name
 
 
 PLANTED = {

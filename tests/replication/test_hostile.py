@@ -8,6 +8,7 @@ import argparse
 import io
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -51,8 +52,8 @@ def state(folder: Path) -> dict[str, bytes | None]:
     }
 
 
-def check(folder: Path, *arguments: str) -> int:
-    """Run a command in a folder and hold what this file promises; its status."""
+def check(folder: Path, *arguments: str) -> tuple[int, str]:
+    """Run a command in a folder and hold what this file promises; its status, and what it says."""
     before = state(folder)
     with chdir(folder):
         status, out, err = run(*arguments)
@@ -68,12 +69,30 @@ def check(folder: Path, *arguments: str) -> int:
         assert state(folder) == before
     else:
         assert not re.search(r"\b(?:nan|inf(?:inity)?)\b", out.lower())
-    return status
+    return status, err + out
 
 
 def named(arguments: list[str]) -> str:
     """What a test of these arguments is called."""
     return re.sub(r"\W+", " ", " ".join(arguments))[:40]
+
+
+# What is said
+
+SAID = Path(__file__).with_name("said.txt").read_text("utf-8")
+EXAMPLES = [part.splitlines() for part in re.sub("\n+#.*", "", SAID).split("\n$ coldspray")[1:]]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda lines: lines[0])
+def test_what_the_commands_say(example: list[str], folder: Path) -> None:
+    command, *said = example
+    if refused := "".join(said[-1:]).startswith("coldspray"):
+        case, said = said[:-1], said[-1:]
+        (folder / "case.toml").write_text("\n".join(case), "utf-8")
+    status, text = check(folder, *shlex.split(command))
+    assert status == 2 * refused
+    printed = "\n".join(line.rstrip() for line in text.splitlines())
+    assert re.fullmatch(re.escape("\n".join(said)).replace(r"\.\.\.", ".*"), printed)
 
 
 # Files and texts that once broke it
@@ -107,6 +126,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name, text in FILES.items():
         (own / name).write_text(text, "utf-8")
     (own / "large.toml").write_bytes(b"#" * (2**20 + 1))
+    (own / "binary.toml").write_bytes(b"\xff\xfe\0")
     (own / "loop.xlsx").symlink_to("loop.xlsx")
     (own / "loop.toml").symlink_to("loop.toml")
     (own / "loop").symlink_to("loop")
@@ -117,53 +137,21 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("name", [*FILES, "large.toml", "loop.toml", ".", "pipe.csv/x"])
 def test_hostile_files(name: str, folder: Path) -> None:
     for command in (["depth", "--case-file", name], ["sweep", name, "-o", "out.csv"]):
-        assert check(folder, *command) == 2
+        assert check(folder, *command)[0] == 2
 
 
 DIGITS = "1" + 400 * "0"
 TABLE = [
-    # units
-    ["depth", "--radius", "-3 dBm"],
     ["depth", "--radius", "5 " + 100_000 * "a"],
     ["depth", "--radius", "1 m" + 3000 * "^2"],
-    ["depth", "--radius", "1e999999999 um"],
     ["depth", "--radius", DIGITS + " um"],
     ["depth", "--velocity", "１" * 10 + "e３０９"],
     ["depth", "--radius", "\ud800"],
-    # integers
     ["converge", "--digits", DIGITS],
     ["converge", "--steps", 5000 * "1,"],
-    ["converge", "--digits", "15", "--step", "1e-300"],
-    ["converge", "--levels", "40", "--step", "1e-18"],
-    ["bench", "--repeat", "-1"],
     ["workbook", "--rows", DIGITS],
-    ["stability", "--seed", "-1"],
-    ["power", "--seed", str(2**64)],
-    # devices and loops
-    ["depth", "--case-file", "/dev/zero"],
-    ["sweep", "/dev/zero"],
-    ["workbook", "-o", "loop.xlsx"],
-    ["workbook", "-o", "/dev/full"],
-    ["audit", "--out", "loop"],
-    ["audit", "--out", "/dev/full"],
     ["audit", "--out", "/proc/coldspray"],
-    ["sweep", "empty.toml", "-o", "loop.xlsx"],
-    # dashes, and no values
-    ["workbook", "--output=--"],
-    ["audit", "--out=--"],
-    ["depth", "--case-file=--"],
-    ["audit", "--out", ""],
     ["audit", "--out", "a\0b"],
-    ["depth", "--"],
-    ["--", "depth", "--"],
-    # nan and inf
-    ["history", "--times", "1e300"],
-    ["history", "--times", "1e999 s"],
-    ["sheet", "--step", "1.8e308"],
-    ["converge", "--step", "1e308"],
-    ["bench", "--quick", "--limit", "1e99999"],
-    ["bench", "--quick", "--limit", "nan"],
-    # control characters and length
     ["depth", "--\x1b[31m"],
     ["depth", "--radius", "\x1b[31m"],
     ["depth", "--case", "a\nb\r\x07"],
@@ -180,7 +168,7 @@ TABLE = [
 
 @pytest.mark.parametrize("arguments", TABLE, ids=named)
 def test_what_once_broke_it(arguments: list[str], folder: Path) -> None:
-    assert check(folder, *arguments) == 2
+    assert check(folder, *arguments)[0] == 2
 
 
 # Whatever comes
@@ -358,7 +346,7 @@ def workbooks(folder: Path) -> Path:
 
 @pytest.mark.parametrize("arguments", WORKBOOKS, ids=named)
 def test_a_workbook_that_is_none(arguments: list[str], workbooks: Path) -> None:
-    assert check(workbooks, *arguments) == 2
+    assert check(workbooks, *arguments)[0] == 2
 
 
 # A disk that is full, a run that is killed

@@ -4,14 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.cases import BETA_3, BETA_5, CASES, INPUTS, inputs_of, read_case
+from replication.cases import BETA_5, INPUTS, inputs_of, read_case
 from replication.models.impact import Impact
-
-
-def test_the_reports_cases_differ_only_in_beta() -> None:
-    assert replace(BETA_3, beta=5.0) == BETA_5
-    assert (BETA_3.target_resistance, BETA_5.target_resistance) == (2.1e9, 3.5e9)
-    assert CASES == {"beta-3": BETA_3, "beta-5": BETA_5}
 
 
 @pytest.mark.parametrize("name", [n for n in INPUTS if n != "resistance"])
@@ -24,37 +18,9 @@ def test_senseless_inputs_are_refused_by_name(name: str, value: float) -> None:
         replace(BETA_5, **{name: value})
 
 
-def test_zero_resistance_is_refused() -> None:
-    with pytest.raises(
-        ValueError, match=r"resistance is 0\.0: nothing would bring the particle to rest"
-    ):
-        replace(BETA_5, beta=None, flow_stress=None, resistance=0.0)
-
-
-def test_one_resistance_must_be_given_and_only_one() -> None:
-    with pytest.raises(ValueError, match="is beta times flow_stress"):
-        replace(BETA_5, resistance=1e9)
+def test_no_resistance_is_refused() -> None:
     with pytest.raises(ValueError, match="either resistance, or both"):
         replace(BETA_5, beta=None)
-
-
-def test_products_that_overflow_or_vanish_are_refused() -> None:
-    with pytest.raises(ValueError, match="target resistance is inf"):
-        replace(BETA_5, beta=1e300, flow_stress=1e300)
-    with pytest.raises(ValueError, match="particle mass is inf"):
-        replace(BETA_5, radius=1e150)
-    with pytest.raises(ValueError, match=r"particle mass is 0\.0"):
-        replace(BETA_5, radius=1e-150)
-    with pytest.raises(ValueError, match=r"work is 5e\+299"):
-        replace(
-            BETA_5,
-            velocity=1e100,
-            particle_density=1e100,
-            target_density=1.0,
-            beta=1.0,
-            flow_stress=1.0,
-            radius=1e-50,
-        )
 
 
 def test_inputs_are_doubles_whatever_was_given() -> None:
@@ -84,23 +50,6 @@ def test_plain_numbers_are_read_as_the_double_they_spell(value: float) -> None:
 )
 def test_units_are_understood_without_rounding_twice(name: str, text: str, value: float) -> None:
     assert getattr(read_case("beta-5", None, {name: text}), name) == value
-
-
-@pytest.mark.parametrize(
-    ("given_inputs", "message"),
-    [
-        ({"radius": "11 MPa"}, "radius: '11 MPa': MPa does not measure what m does"),
-        ({"radius": "11 bogus"}, "radius: unknown unit 'bogus'"),
-        ({"radius": "eleven"}, "radius: 'eleven' is no finite number"),
-        ({"velocity": "nan"}, "velocity: .nan. is no finite number"),
-        ({"resistance": "0 Pa"}, "resistance is 0.0"),
-        ({"radius": "-11 um"}, "radius is -1.1e-05"),
-        ({"resistance": "1e9", "beta": "3"}, "resistance is beta times"),
-    ],
-)
-def test_what_is_wrong_is_said(given_inputs: dict[str, str], message: str) -> None:
-    with pytest.raises(ValueError, match=message.replace("(", r"\(")):
-        read_case("beta-5", None, given_inputs)
 
 
 def test_resistance_takes_the_place_of_beta_and_flow_stress() -> None:

@@ -109,26 +109,6 @@ def test_no_table_drawn_at_random_leaves_what_is_called_possible(choices_exact: 
     assert max(kept) - min(kept) > 0.6 * float(found.ends[1] - found.ends[0])
 
 
-def test_public_densities() -> None:
-    own = inference()
-    said = {
-        source.id: own.admits(source.value, source.interval)
-        for source in LEDGER.sources.values()
-        if DENSITY in source.claims
-    }
-    assert said == {
-        "304-density-kinslow": "admitted only if the other inputs are rounded",
-        "304-density-en": "admitted only as a number that was rounded",
-        "304-density-793": "excluded",
-        "304-density-mill": "excluded",
-        "carbon-steel-density": "admitted",
-        "hy-100-density": "admitted",
-        "4340-density": "admitted only if the other inputs are rounded",
-        "armco-iron-density": "admitted only if the other inputs are rounded",
-        "s-7-density": "excluded",
-    }
-
-
 def test_evidence_is_checked_where_the_witness_stands() -> None:
     own = inference()
     usual, loose = Convention(), Convention(choices_exact=False)

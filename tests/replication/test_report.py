@@ -21,10 +21,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.ledger import load
 from replication import text as texts
 from replication.audit.record import Record
-from replication.audit.verdict import OPEN, Verdict
+from replication.audit.verdict import OPEN
 from replication.report import render
 from replication.report.facts import between
 from replication.report.figures import draw
@@ -178,6 +177,12 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 # The other files
 
 
+def test_the_page_in_the_documentation_is_what_the_audit_says(files: dict[str, bytes]) -> None:
+    """To keep a new one: run `coldspray audit`, and copy its audit.md up to the provenance."""
+    kept = (Path(__file__).parents[2] / "docs" / "audit.md").read_text("utf-8")
+    assert files["audit.md"].decode().partition("\n## Provenance")[0] == kept
+
+
 def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
     document = json.loads(files["audit.json"])
     digest = document["provenance"]["sha256"].pop("workbook.xlsx")
@@ -195,13 +200,6 @@ def test_every_claim_is_a_line_of_the_csv_with_all_digits(
         if claim.enclosure:
             ends = row["enclosure_lower"], row["enclosure_upper"]
             assert ends == tuple(map(repr, claim.enclosure))
-
-
-def test_markdown_names_every_claim_and_finding(files: dict[str, bytes], record: Record) -> None:
-    text = files["audit.md"].decode()
-    assert all(f"`{part.id}`" in text for part in (*record.claims, *record.findings))
-    assert all(f" **{verdict.value}**: " in text for verdict in Verdict)
-    assert len({line.count("|") for line in text.splitlines() if line.startswith("| L/D = 1")}) == 1
 
 
 def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -> None:
@@ -226,18 +224,6 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
-
-
-@pytest.mark.parametrize(
-    "name", ["frank-zook-rha", "coarse-step-remark", "eq2-power", "a1-depth-1"]
-)
-def test_a_proof_fits_the_terminal(record: Record, name: str) -> None:
-    text = render.proof(record.claim(name), load(), 80)
-    assert max(map(len, text.splitlines())) <= 80
-    claim = record.claim(name)
-    assert claim.verdict in text
-    assert all(texts.number(figure.value, 5).lstrip("-") in text for figure in claim.figures)
-    assert ("One input changed" in text) == bool(claim.back_solved)
 
 
 cells = st.text("ab c", max_size=12)

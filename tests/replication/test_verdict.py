@@ -2,7 +2,6 @@
 
 import random
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction as F
 from functools import cache
 
@@ -18,8 +17,6 @@ from replication.audit.verdict import Judge, Judgement, Reading, Verdict, assess
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
-DENSITY, DERIVED = "inferred:target-density", "derived from Eqs. 14 and 15"
-TABLE = [c.id for c in LEDGER.claims.values() if c.cell and c.by_scheme]
 
 
 @cache
@@ -27,59 +24,7 @@ def readings(name: str) -> dict[str, Reading]:
     return {r.name: r for r in JUDGE.assess(LEDGER.claims[name]).readings}
 
 
-def by_convention(reading: Reading) -> dict[Convention, Judgement]:
-    judged = {judgement.convention: judgement for judgement in reading.judgements}
-    assert len(judged) == len(reading.judgements)
-    return judged
-
-
-def test_a_value_that_meets_the_end_of_a_print_is_met_exactly(record: Record) -> None:
-    """In row 1 x = V dt/2 is 5.00E-08 m itself: cut off, it would be printed so in both schemes."""
-    assert record.claim("a1-depth-1").otherwise == []
-
-
-# Frank and Zook
-
-
-@pytest.mark.parametrize("reading", ["", DERIVED])
-def test_0_278_fails_under_every_convention(reading: str) -> None:
-    judged = by_convention(readings("frank-zook-rha")[reading])
-    assert {j.verdict for j in judged.values()} == {Verdict.NOT_REPRODUCED}
-    tried = {(c.rounding, c.choices_exact, c.header_exact) for c in judged}
-    assert tried == {(r, a, b) for r in Rounding for a in (True, False) for b in (True, False)}
-    for convention, judgement in judged.items():
-        assert (
-            LEDGER.claims["frank-zook-rha"]
-            .interval(convention.rounding)
-            .excludes(judgement.lower, judgement.upper)
-        )
-
-
-def test_0_297_derived_hangs_on_its_resistance_being_rounded(record: Record) -> None:
-    judged = by_convention(readings("frank-zook-stainless")[DERIVED])
-    flips = {c for c, j in judged.items() if j.verdict is Verdict.WITHIN_ROUNDING}
-    rounded = Convention(choices_exact=False)
-    assert flips == {
-        rounded,
-        replace(rounded, rounding=Rounding.EVEN),
-        replace(rounded, rounding=Rounding.CUT),
-        replace(rounded, rounding=Rounding.CUT, header_exact=True),
-    }
-    assert all(j.verdict is Verdict.NOT_REPRODUCED for c, j in judged.items() if c not in flips)
-    assert all(j.verdict is Verdict.NOT_REPRODUCED
-               for j in readings("frank-zook-stainless")[""].judgements)  # fmt: skip
-    (reading,) = record.claim("frank-zook-stainless").readings
-    assert len(reading.otherwise) == 4
-    assert "if what the author chose is rounded, too" in reading.holds
-
-
-def test_the_range_of_the_derived_forms_is_sharp(record: Record) -> None:
-    for name, ends in (
-        ("frank-zook-rha", (0.2532, 0.2557)),
-        ("frank-zook-stainless", (0.2987, 0.3013)),
-    ):
-        (reading,) = record.claim(name).readings
-        assert reading.enclosure == pytest.approx(ends, abs=1e-4)
+# Witnesses
 
 
 def witnesses() -> Iterator[tuple[str, str, Judgement]]:
@@ -134,68 +79,6 @@ def test_no_inputs_drawn_at_random_give_what_is_called_impossible() -> None:
                     value = F(REPLICA[computation.name](**inputs))
                     slack = value * F(1, 10**14)
                     assert judgement.lower - slack <= value <= judgement.upper + slack
-
-
-# The sheet
-
-
-@pytest.mark.parametrize("name", TABLE)
-def test_the_table_is_reproduced_by_both_schemes(name: str) -> None:
-    (reading,) = readings(name).values()
-    for convention, judgement in by_convention(reading).items():
-        if convention.rounding is not Rounding.CUT:
-            assert judgement.verdict is Verdict.REPRODUCED
-
-
-def test_what_a_truncated_table_would_say() -> None:
-    cut = {
-        name: {
-            j.convention.centered: j.verdict
-            for j in readings(name)[""].judgements
-            if j.convention.rounding is Rounding.CUT
-        }
-        for name in TABLE
-    }
-    assert all(verdicts[False] == verdicts[True] for verdicts in cut.values())
-    fails = {name for name, verdicts in cut.items() if verdicts[False] is Verdict.NOT_REPRODUCED}
-    # 499.94 cut off prints 4.99E+02, not 5.00E+02: the table was not cut off.
-    assert {
-        "a1-velocity-final-1",
-        "a1-velocity-final-2",
-        "a1-depth-2",
-        "a1-deceleration-4",
-    } <= fails
-    # V dt/2 does not depend on the density: 5.00E-08 exactly, whatever the rounding.
-    assert cut["a1-depth-1"] == {False: Verdict.REPRODUCED, True: Verdict.REPRODUCED}
-
-
-def test_the_final_depths_by_scheme() -> None:
-    assert {j.verdict for j in readings("depth-beta-3")[""].judgements} == {Verdict.REPRODUCED}
-    judged = by_convention(readings("depth-beta-5")[""])
-    for rounding in (Rounding.AWAY, Rounding.EVEN):
-        assert judged[Convention(rounding)].verdict is Verdict.REPRODUCED
-        # 7.6749 at 7850 kg/m3, but 7.675 at the least density that the table admits.
-        middle = judged[Convention(rounding, centered=True)]
-        assert middle.verdict is Verdict.WITHIN_ROUNDING
-        assert middle.witness is not None
-        assert middle.witness[DENSITY] == 7850
-        assert middle.lower < F("7.675") < middle.upper
-
-
-def test_holds_names_what_was_tried_and_no_more(record: Record) -> None:
-    names = ("particle-volume", "depth-beta-3", "a1-depth-2", "frank-zook-rha", "ratio-beta-5")
-    holds = {name: record.claim(name).holds for name in names}
-    rounding = "The same under every convention of rounding"
-    assert holds["particle-volume"] == f"{rounding}."
-    assert holds["depth-beta-3"] == f"{rounding}, in both schemes."
-    assert holds["frank-zook-rha"] == f"{rounding}, with choices and header exact or rounded."
-    assert holds["ratio-beta-5"] == f"{rounding}, except: not reproduced if digits are cut off."
-    assert holds["a1-depth-2"].startswith(f"{rounding}, in both schemes, except: not reproduced if")
-    for claim in record.claims:
-        for verdict in {judged.verdict for judged in claim.otherwise}:
-            assert verdict in claim.holds
-        if claim.verdict == "reproduced" and not claim.otherwise and claim.holds:
-            assert "except" not in claim.holds
 
 
 def test_a_number_of_unclear_digits_says_which_were_taken(record: Record) -> None:

@@ -103,39 +103,11 @@ def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.Monk
     assert said.endswith("200 rows are prepared, and no workbook takes more.")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("--rows", "20"), "20 rows will not do: give 26 to 20,000"),
-        (("--rows", "30000"), "to 20,000"),
-        (("--scheme", "best"), "no scheme 'best'"),
-        (("--resistance", "1"), "takes 100,000 to 1e+15 Pa for the target resistance, given"),
-    ],
-)
-def test_what_it_cannot_do_is_status_2(
-    run: Run, tmp_path: Path, arguments: tuple[str, ...], message: str
-) -> None:
-    status, out, err = run(*OWN, *arguments)
-    assert (status, out) == (2, "")
-    assert message in err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_json_without_verifying_has_the_warnings(run: Run) -> None:
     status, out, err = run("--step", "40 ns", "--json")
     record = json.loads(out)
     assert (status, err, record["passed"], record["engines"]) == (0, "", None, [])
     assert any("reverses the velocity" in warning for warning in record["warnings"])
-
-
-def test_warnings_of_the_sheet_go_to_stderr(run: Run, coldspray: Run) -> None:
-    err = run("--step", "40 ns")[2]
-    warnings = err.splitlines()
-    assert len(warnings) == 3
-    assert all(w.startswith("coldspray workbook: warning: Sheet beta 5: ") for w in warnings)
-    assert "reverses the velocity to -861.9 m/s" in err
-    assert run("--step", "40 ns", "--quiet") == (0, "", "")
-    assert "0.5 m/s is below the stop velocity 1.0 m/s: no steps" in run("--velocity", "0.5")[2]
 
 
 # Verification

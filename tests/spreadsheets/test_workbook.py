@@ -281,14 +281,3 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
 def reachable(step: float) -> list[float]:
     typed = step * 1e9
     return [t / 1e9 for t in (math.nextafter(typed, 0), typed, math.nextafter(typed, math.inf))]
-
-
-def test_a_workbook_too_short_for_the_case_is_refused() -> None:
-    with pytest.raises(ValueError, match="100 rows will not do: give 131 to 20,000"):
-        workbook.build(BETA_5, rows=100)
-    assert workbook.build(BETA_5, rows=1000).values["case.row[1000].index"] == ""
-
-
-def test_an_unknown_scheme_is_refused() -> None:
-    with pytest.raises(ValueError, match="no scheme 'best'"):
-        workbook.build(BETA_5, scheme="best")
