@@ -185,8 +185,8 @@ class _Builder:
         self.changed = {n for n, e in entries.items() if self.typed[n] != e.of_report(ledger)}
         self.si = {name: _si(self.typed[name], entry.unit) for name, entry in entries.items()}
         # The cases with the numbers that their cells hold.
-        held = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
-        sheets = [run(replace(impact, **held), scheme) for impact in self.cases.values()]
+        in_cells = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
+        sheets = [run(replace(impact, **in_cells), scheme) for impact in self.cases.values()]
         self.first, self.last = sheets[0].impact, sheets[-1].impact
         self.rows = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
         self.runs = list(zip(pages, sheets, strict=True))
@@ -467,22 +467,22 @@ def live_verdicts(
 
     Whether a live verdict is the proven one, a test asks.
     """
-    held: dict[str, Value] = {}
+    live: dict[str, Value] = {}
     for claim in audit.computed_claims(ledger):
         value = values[plan.cell(place_of(str(claim.workbook))).key]
-        held[f"audit.{claim.id}.computed"] = value
-        held[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
-    verdicts = [value for key, value in held.items() if key.endswith(".verdict")]
+        live[f"audit.{claim.id}.computed"] = value
+        live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
+    verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
     for text, what in audit.KINDS:
-        held[f"audit.{what}"] = held[f"overview.audit_{what}"] = float(verdicts.count(text))
+        live[f"audit.{what}"] = live[f"overview.audit_{what}"] = float(verdicts.count(text))
     for name in (*findings.failing, *findings.differing):
         if ledger.claims[name].workbook:
-            held[f"overview.{name}"] = held[f"audit.{name}.computed"]
+            live[f"overview.{name}"] = live[f"audit.{name}.computed"]
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
             value = values[plan.cell(("Table A-1", claim.place.cell)).key]
-            held |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
-    return held
+            live |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
+    return live
 
 
 def _flags(impact: Impact) -> str:
@@ -580,12 +580,12 @@ def _verdict(value: Value, interval: Interval) -> str:
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
     """The check of one number of Table A-1; blank where the table has fewer rows."""
-    held: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
+    checked: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
             difference = round(difference / float(printed.quantum), table_a1.DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
         verdict = table_a1.SAME_TEXT if same else table_a1.OTHER_TEXT
-        held |= {"difference": difference, "verdict": verdict}
-    return {f"table_check.{address}.{what}": number for what, number in held.items()}
+        checked |= {"difference": difference, "verdict": verdict}
+    return {f"table_check.{address}.{what}": number for what, number in checked.items()}

@@ -243,14 +243,14 @@ class _Reader:
             yield "it has links to other files: they are not followed"
 
     def tables(self, sheet_part: str, sheet: str) -> dict[str, "_Table"]:
-        found = {}
+        tables = {}
         for kind, part in self.relations(sheet_part).values():
             if kind == "table" and part in self.parts:
                 tree = self.tree(part)
                 heads = [c.attrib["name"] for c in tree.iterfind("{*}tableColumns/{*}tableColumn")]
                 column = range_boundaries(tree.attrib["ref"])[0] or 1
-                found[tree.attrib["displayName"].lower()] = _Table(sheet, column, heads)
-        return found
+                tables[tree.attrib["displayName"].lower()] = _Table(sheet, column, heads)
+        return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
         """Of a part: identity -> kind and target."""

@@ -306,12 +306,12 @@ class Calculation:
         """The cells that have a name, with it."""
         unnamed = Book(self.book.path, self.book.sheets, {})
         here = (next(iter(self.book.sheets)), 1, 1)
-        found = {}
+        names = {}
         for name, meaning in self.book.names.items():
             areas = parse(f"={meaning}", here, unnamed).areas
             if len(areas) == 1 and areas[0].cells == 1:
-                found[areas[0].corner] = name.rpartition("!")[2]
-        return found
+                names[areas[0].corner] = name.rpartition("!")[2]
+        return names
 
     @cached_property
     def order(self) -> dict[Position, int]:

@@ -72,19 +72,21 @@ class Case:
         "history", those at `times`, relative to the depth at rest; where there is a row for each of
         `columns`, the middle one is. Of several results, as of depth and velocity, the first is.
         """
-        found = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
+        computed = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
         if measure == "depth":
-            some = np.unique(np.linspace(0, len(found) - 1, 11, dtype=int))
-            velocities = self.columns(len(found))[0][some].tolist()
+            some = np.unique(np.linspace(0, len(computed) - 1, 11, dtype=int))
+            velocities = self.columns(len(computed))[0][some].tolist()
             motions = [exact_motion(replace(self.impact, velocity=v)) for v in velocities]
             exact = wholes = [motion.depth_at_velocity(stop) for motion in motions]
-            found = found[some]
+            computed = computed[some]
         else:
             end = self.motion.depth_at_velocity(stop)
             exact = [depth for depth in self.depths if stop == 0 or depth <= end]
             wholes = [self.motion.final_depth] * len(exact)
-            found = (found if found.ndim == 1 else found[len(found) // 2])[: len(exact)]
-        terms = zip(map(self.motion.context.mpf, found.tolist()), exact, wholes, strict=True)
+            computed = (computed if computed.ndim == 1 else computed[len(computed) // 2])[
+                : len(exact)
+            ]
+        terms = zip(map(self.motion.context.mpf, computed.tolist()), exact, wholes, strict=True)
         return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
 

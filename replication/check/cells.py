@@ -11,7 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-from replication.check.findings import NEAR, Findings, Input, joined
+from replication.check.examination import NEAR, Examination, Input, joined
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, orders
 from replication.check.table import Line, Table, address
 from replication.check.words import power_of_ten, title
@@ -19,7 +19,7 @@ from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
 
 
-def each_cell(f: Findings) -> None:
+def each_cell(f: Examination) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
     odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
     areas = (area for place in f.table.places for area in f.calculation.areas(place))
@@ -41,8 +41,8 @@ def each_cell(f: Findings) -> None:
                 kind, text = _lone(f, role, k, expected)
             else:
                 continue
-            shown, found = f.shown(role, expected), column.get(k)
-            if found and expected and math.isclose(found, expected, rel_tol=1e-9):
+            shown, value = f.shown(role, expected), column.get(k)
+            if value and expected and math.isclose(value, expected, rel_tol=1e-9):
                 text += "; it gives the right value here"
             f.add(kind, [place], shown, text)
     for place, (kind, text) in odd.items():
@@ -50,7 +50,7 @@ def each_cell(f: Findings) -> None:
     f.differences[before:] = joined(f.differences[before:], f.table.across)
 
 
-def _beside(f: Findings, wrong: set[Position]) -> set[Position]:
+def _beside(f: Examination, wrong: set[Position]) -> set[Position]:
     """Wrong cells beside the table, and those beside it that read them, through others or not."""
     order = f.calculation.order
     cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
@@ -155,29 +155,29 @@ def _plain(value: float) -> bool:
     return small or value in (0.5, 1.5, 12.0) or abs(power - round(power)) < 1e-12
 
 
-def _fails(f: Findings, role: str, k: int, expected: float | None, read: bool) -> bool:
+def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:
     """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
     column, place = f.rows.columns[role], f.table.place(role, k)
-    found = column.get(k)
-    if found is None:
+    value = column.get(k)
+    if value is None:
         needed = 0 < k < max(column, default=0) or (read and k > 0)
         wrong = needed or _text(f, place) or f.calculation.error(place)
         beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
         return bool(wrong) and not beyond and not _passed_on(f, place)
-    numbered = role == "time" and math.isclose(found, k * f.case.step, rel_tol=NEAR)
+    numbered = role == "time" and math.isclose(value, k * f.case.step, rel_tol=NEAR)
     if expected is None or numbered:  # by the number of the row, not from the time before
         return False
     size = abs(expected)
     if role.startswith("velocity"):
         size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    if abs(found - expected) <= NEAR * size:
+    if abs(value - expected) <= NEAR * size:
         return False
     # A first row that is the report's may be unlike the others, which follow another rule.
     part = FILLS.get(role, "advance")
     return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
 
 
-def _text(f: Findings, place: Position) -> bool:
+def _text(f: Examination, place: Position) -> bool:
     """Whether a text or a truth value is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
@@ -185,7 +185,7 @@ def _text(f: Findings, place: Position) -> bool:
     return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
 
 
-def _passed_on(f: Findings, place: Position) -> bool:
+def _passed_on(f: Examination, place: Position) -> bool:
     """Whether a formula gives no number because another cell of the table holds none.
 
     It may read that cell through others beside the table, which come before it.
@@ -200,25 +200,25 @@ def _passed_on(f: Findings, place: Position) -> bool:
     return any(_passed_on(f, p) for p in beside if order.get(p, math.inf) < order.get(place, 0))
 
 
-def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, str]:
+def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:
     """The kind of a cell that alone is not what the cells before it give."""
     place = f.table.place(role, k)
-    found = f.rows.columns[role].get(k)
+    value = f.rows.columns[role].get(k)
     typed = place not in f.calculation.formulas
     alone = "typed number" if typed else "odd formula"
     what = f"{title(role)} of row {k} is not what the cells before it give"
     if error := f.calculation.error(place):
         text = f"{title(role)} of row {k} gives {error}, as do all cells that read it"
         return "odd formula", text
-    if found is None and _text(f, place):
+    if value is None and _text(f, place):
         is_typed = _WHAT[type(f.calculation.values[place])]
         return alone, f"{title(role)} of row {k} is {is_typed}, not a number"
-    if found is None:
+    if value is None:
         blank = ": the cell is blank" if typed else ""
         return "odd formula", f"no number in {title(role)} of row {k}{blank}"
-    if role == "time" and k == 1 and found == 0:
+    if role == "time" and k == 1 and value == 0:
         return "other scheme", "the times are those at the beginning of the rows"
-    if power := power_of_ten(found / expected) if expected else None:
+    if power := power_of_ten(value / expected) if expected else None:
         return "unit", f"{what}: a factor of 1e{abs(power)}"
     if role == "depth" and k == 1 and not typed:
         return "other scheme", "the first depth is neither half a step nor a whole one"
@@ -228,7 +228,7 @@ def _lone(f: Findings, role: str, k: int, expected: float | None) -> tuple[str, 
     return alone, what
 
 
-def order(f: Findings) -> None:
+def order(f: Examination) -> None:
     """Columns whose last digits no order of the report's operations gives."""
     factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
     if any(f.powers.values()) or factors != {Fraction(1)} or f.rules != REPORT:
@@ -252,10 +252,10 @@ def order(f: Findings) -> None:
             for case in cases
         ]
         if differ := min(others, key=len):
-            found = column[differ[0]]
-            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - found))
+            value = column[differ[0]]
+            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - value))
             cells = [f.table.place(role, k) for k in differ]
-            ulps = round(abs(wanted - found) / math.ulp(wanted))
+            ulps = round(abs(wanted - value) / math.ulp(wanted))
             text = (
                 f"{len(differ)} of {len(rows)} cells of {title(role)} differ in the last digits, "
                 f"this one by {ulps} ulp: the formula calculates in another order, on which no "
@@ -264,7 +264,7 @@ def order(f: Findings) -> None:
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 
-def _ordered(f: Findings, role: str, k: int, case: Case) -> set[float]:
+def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
     """What a cell may hold, by the order of the operations."""
     rows = f.rows
     x, v = rows("depth", k), rows("velocity_initial", k)

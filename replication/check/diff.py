@@ -15,7 +15,7 @@ from pathlib import Path
 
 from openpyxl.utils.cell import get_column_letter
 
-from replication.check.findings import Difference
+from replication.check.examination import Difference
 from replication.check.table import area_of, runs
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
@@ -93,13 +93,13 @@ def diff(
 ) -> Comparison:
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
     before, after = calculate(read(a)), calculate(read(b))
-    found = _Diff(before, after, allowed or Tolerance())
-    found.layout()
-    pairs = sorted(found.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+    comparison = _Diff(before, after, allowed or Tolerance())
+    comparison.layout()
+    pairs = sorted(comparison.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
     if not values_only:
-        found.group(pairs, found.formulas, "formula")
-    found.group(pairs, found.values, "value")
-    return Comparison((before, after), sorted(found.differences, key=lambda d: d.rank))
+        comparison.group(pairs, comparison.formulas, "formula")
+    comparison.group(pairs, comparison.values, "value")
+    return Comparison((before, after), sorted(comparison.differences, key=lambda d: d.rank))
 
 
 class _Diff:
@@ -138,19 +138,19 @@ class _Diff:
         for name in self.after.book.sheets:
             if name not in sheets.values():
                 self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
-        for name, other in sheets.items():
-            self.align(name, other)
+        for name, now in sheets.items():
+            self.align(name, now)
 
-    def align(self, name: str, other: str) -> None:
+    def align(self, name: str, now: str) -> None:
         """Match the rows and columns of two sheets, then what was moved elsewhere."""
-        old, new = _skeletons(self.before, name), _skeletons(self.after, other)
+        old, new = _skeletons(self.before, name), _skeletons(self.after, now)
         columns = _matched(_profiles(old), _profiles(new))
         rows = _matched(_lines(old, 0, columns.keys()), _lines(new, 0, set(columns.values())))
         left, free = dict(old), dict(new)
 
         def put(cell: Cell, there: Cell) -> None:
-            self.where[name, *cell] = (other, *there)
-            self.there.add((other, *there))
+            self.where[name, *cell] = (now, *there)
+            self.there.add((now, *there))
             del left[cell], free[there]
 
         for row, column in old:
@@ -171,12 +171,12 @@ class _Diff:
                     put((r, c), (r - row + new_row, c - column + new_column))
                 was, now = _span(block), _span(new_block)
                 if was != now:  # else only its rows or columns were not known again
-                    cells = [(other, *cell) for cell in new_block]
+                    cells = [(now, *cell) for cell in new_block]
                     self.add("moved", cells, was, now, f"{was} now stands at {now}")
-        self.shifts(name, other, rows, "rows", str)
-        self.shifts(name, other, columns, "columns", get_column_letter)
+        self.shifts(name, now, rows, "rows", str)
+        self.shifts(name, now, columns, "columns", get_column_letter)
         self.left_over("removed", name, left, "gone")
-        self.left_over("added", other, free, "new")
+        self.left_over("added", now, free, "new")
 
     def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
         """Cells that only one of two sheets has, block by block."""
@@ -187,7 +187,7 @@ class _Diff:
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
 
     def shifts(
-        self, name: str, other: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
+        self, name: str, sheet: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
     ) -> None:
         """Rows or columns that stand further down or right, each run of them once."""
         for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1] - pair[0]):
@@ -195,7 +195,7 @@ class _Diff:
                 run = [old for old, _ in pairs]
                 was, now = (f"{show(run[0] + d)} to {show(run[-1] + d)}" for d in (0, by))
                 at = run[0] + by
-                place = (other, at, 1) if what == "rows" else (other, 1, at)
+                place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
                 self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
 
     # ---- what the cells hold
@@ -207,9 +207,9 @@ class _Diff:
         kind: str,
     ) -> None:
         """Differences of one kind, those of neighbouring cells in a column as one."""
-        found = {new: differs for old, new in pairs if (differs := compare(old, new))}
-        for run in runs({place: text for place, (*_, text) in found.items()}):
-            was, now, text = found[run[0]]
+        differing = {new: differs for old, new in pairs if (differs := compare(old, new))}
+        for run in runs({place: text for place, (*_, text) in differing.items()}):
+            was, now, text = differing[run[0]]
             after = count(len(run) - 1, "cell")
             more = f", also in {after} after it" if len(run) > 1 else ""
             self.add(kind, run, was, now, text + more)
@@ -263,7 +263,7 @@ def _same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
     same = {name: name for name in before.book.sheets if name in after.book.sheets}
     for name in [name for name in before.book.sheets if name not in same]:
         own = _skeletons(before, name)
-        free = (other for other in after.book.sheets if other not in same.values())
+        free = (left for left in after.book.sheets if left not in same.values())
         if own and (like := next((o for o in free if _skeletons(after, o) == own), None)):
             same[name] = like
     return same
@@ -271,31 +271,31 @@ def _same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
 
 def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
     """What each cell is: its text, its operations, or that it is a number."""
-    found = {}
+    skeletons = {}
     for (row, column), cell in calculation.book.sheets[sheet].items():
         formula = calculation.formulas.get((sheet, row, column))
         if formula is not None:
             pieces = (
                 "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
             )
-            found[row, column] = "=" + "".join(pieces)
+            skeletons[row, column] = "=" + "".join(pieces)
         elif isinstance(cell.value, str):
-            found[row, column] = f"'{cell.value}"
+            skeletons[row, column] = f"'{cell.value}"
         else:
-            found[row, column] = "n"
-    return found
+            skeletons[row, column] = "n"
+    return skeletons
 
 
 def _lines(
     cells: Mapping[Cell, str], axis: int, kept: Container[int]
 ) -> dict[int, tuple[str, ...]]:
     """Each row (axis 0) or column (axis 1) as what stands in some columns."""
-    found: dict[int, list[str]] = {}
+    lines: dict[int, list[str]] = {}
     for cell in sorted(cells):
-        line = found.setdefault(cell[axis], [])
+        line = lines.setdefault(cell[axis], [])
         if cell[1] in kept:
             line.append(cells[cell])
-    return {i: tuple(line) for i, line in sorted(found.items())}
+    return {i: tuple(line) for i, line in sorted(lines.items())}
 
 
 def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
@@ -343,7 +343,7 @@ def _similar(
 
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
     """Cells that touch each other, block by block."""
-    left, found = set(cells), []
+    left, blocks = set(cells), []
     while left:
         start = min(left)
         left.remove(start)
@@ -355,8 +355,8 @@ def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
                     left.remove(near)
                     block.append(near)
                     edge.append(near)
-        found.append(sorted(block))
-    return sorted(found)
+        blocks.append(sorted(block))
+    return sorted(blocks)
 
 
 def _form(block: Sequence[Cell], cells: Mapping[Cell, str]) -> frozenset[tuple[int, int, str]]:

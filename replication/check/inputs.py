@@ -15,7 +15,7 @@ from statistics import median
 
 from reference.ledger import claims_of_case, load
 from reference.units import to_si
-from replication.check.findings import Findings, Input
+from replication.check.examination import Examination, Input
 from replication.check.scheme import BRAKES, REPORT, Case, Rows, Rule, contact
 from replication.check.table import Table, address
 from replication.check.words import (
@@ -61,7 +61,7 @@ def report_inputs() -> dict[str, tuple[float, ...]]:
     return values
 
 
-def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Findings:
+def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Examination:
     """What is known of a table before it is judged.
 
     `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
@@ -104,25 +104,25 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
             if areas and {calculation.source(area.corner) for area in areas} == sources:
                 feeding.setdefault(role, replace(cell, role=role))
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
-    findings = _settled(table, choices, feeding, next(rounded, math.pi))
+    examination = _settled(table, choices, feeding, next(rounded, math.pi))
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
-    held = {role: own for role, own in findings.inputs.items() if own.place}
-    derived = {r: c for r, c in {**left, **held, **findings.derived}.items() if r in _FOLLOWS}
+    settled = {role: own for role, own in examination.inputs.items() if own.place}
+    derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in _FOLLOWS}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
-    return replace(findings, read=frozenset(read), derived=derived, unread=single)
+    return replace(examination, read=frozenset(read), derived=derived, unread=single)
 
 
 def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
     """Every cell that some cells' formulas read, and through how many others; 0 for themselves."""
     edge = list(cells)
-    found = dict.fromkeys(edge, 0)
+    distances = dict.fromkeys(edge, 0)
     distance = 0
     while edge:
         distance += 1
         areas = (area for place in edge for area in calculation.areas(place) if area.cells <= 64)
-        edge = list({p for area in areas for p in area.places() if p not in found})
-        found.update(dict.fromkeys(edge, distance))
-    return found
+        edge = list({p for area in areas for p in area.places() if p not in distances})
+        distances.update(dict.fromkeys(edge, distance))
+    return distances
 
 
 def _nearest(
@@ -190,22 +190,24 @@ def _by_role(
     cells: Sequence[Input], report: Report, all_read: bool = False
 ) -> dict[str, list[Input]]:
     """Cells by role: first those whose label has one meaning, then by value for roles left over."""
-    found: dict[str, list[Input]] = {}
+    by_role: dict[str, list[Input]] = {}
     for cell in cells:
         if len(cell.roles) == 1:
             (role,) = cell.roles
-            found.setdefault(role, []).append(_as_role(cell, role, report))
+            by_role.setdefault(role, []).append(_as_role(cell, role, report))
 
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
         alike = (role for role in report if by_value and _like_the_report(cell, role, report))
-        left = [role for role in cell.roles or alike if role not in found]
+        left = [role for role in cell.roles or alike if role not in by_role]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, role, report))
             how = cell.how if cell.roles else "value"
-            found.setdefault(nearest, []).append(replace(_as_role(cell, nearest, report), how=how))
-    return found
+            by_role.setdefault(nearest, []).append(
+                replace(_as_role(cell, nearest, report), how=how)
+            )
+    return by_role
 
 
 def _hinted(table: Table) -> Report:
@@ -259,7 +261,7 @@ def _mapped(
     return replace(_as_role(known or Input("", value, place, ""), role), how="--map")
 
 
-# ---- the findings that the rows agree with
+# ---- the examination that the rows agree with
 
 
 def _settled(
@@ -267,7 +269,7 @@ def _settled(
     choices: Mapping[str, list[Input]],
     feeding: Mapping[str, Input],
     pi: float,
-) -> Findings:
+) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
     for role, enough in _FOLLOWS.items():  # what follows from others can be done without
         if enough <= set(choices) and len(choices.get(role, ())) > 1:
@@ -278,11 +280,11 @@ def _settled(
         if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
     }
     chosen = {role: cells[0] for role, cells in choices.items()}
-    tried: list[tuple[float, Findings]] = []
+    tried: list[tuple[float, Examination]] = []
     for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        findings = _solved_back(_with_inputs(table, inputs, pi), feeding)
-        tried.append((findings.agreement(), findings))
+        examination = _solved_back(_with_inputs(table, inputs, pi), feeding)
+        tried.append((examination.agreement(), examination))
     tried.sort(key=lambda entry: -entry[0])
     if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
         role, cells = next(iter(several.items()))
@@ -291,7 +293,7 @@ def _settled(
     return tried[0][1]
 
 
-def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Findings:
+def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examination:
     """A table with these cells as inputs, and the report's where there are none."""
     powers, slips = _powers(table, chosen)
     columns = {
@@ -326,7 +328,7 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Findin
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     rows = Rows(columns, case, REPORT)
-    return Findings(table, inputs, rows, case, powers, slips, negative, _digits(table))
+    return Examination(table, inputs, rows, case, powers, slips, negative, _digits(table))
 
 
 def _digits(table: Table) -> int | None:
@@ -354,10 +356,10 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
 
     def usual(role: str, over: str | None = None, later: int = 0) -> float:
         """By how much a column changes from row to row, in units of another's number."""
-        line, other = table.lines.get(role), table.lines.get(over or role)
-        if line is None or other is None:
+        line, base = table.lines.get(role), table.lines.get(over or role)
+        if line is None or base is None:
             return 0.0
-        pairs = ((line.change(at + later), other.at(at) if over else 1.0) for at in rows)
+        pairs = ((line.change(at + later), base.at(at) if over else 1.0) for at in rows)
         ratios = [abs(a / b) for a, b in pairs if a and b and math.isfinite(a / b)]
         return median(ratios) if ratios else 0.0
 
@@ -395,8 +397,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
             against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
         # Numbers that are all in SI as they stand are, if the step is a hundred times another.
-        other = any(powers.values()) or slower > 0 or faster > 2
-        options.append(((against, untied, other, slower + faster), powers))
+        odd = any(powers.values()) or slower > 0 or faster > 2
+        options.append(((against, untied, odd, slower + faster), powers))
     powers = min(options, key=lambda option: option[0])[1]
     off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
     return powers, {role: power for role, power in off.items() if power}
@@ -475,32 +477,35 @@ def _shortest(value: float, near: float) -> float:
     return next((d for d in decimals if math.isclose(d, value, rel_tol=near)), value)
 
 
-def _solved_back(findings: Findings, feeding: Mapping[str, Input]) -> Findings:
+def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Examination:
     """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed."""
-    unknown = [role for role, own in findings.inputs.items() if own.how == "report"]
-    typed = _typed(findings.table.calculation) if unknown else set()
-    for tried, how, rules, fed in _hypotheses(findings, unknown, typed, feeding):
-        case, intended = findings.case, findings.intended
+    unknown = [role for role, own in examination.inputs.items() if own.how == "report"]
+    typed = _typed(examination.table.calculation) if unknown else set()
+    for tried, how, rules, fed in _hypotheses(examination, unknown, typed, feeding):
+        case, intended = examination.case, examination.intended
         for role, value in tried.items():
             if value == getattr(case, role):
                 continue  # and the mass stays that of its cell
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
-        agreed = findings.following(case, intended)
+        agreed = examination.following(case, intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
-            inputs = dict(findings.inputs)
+            inputs = dict(examination.inputs)
             for role, value in tried.items():
                 known = "assumed" if role in hidden else "formulas" if value in typed else how
                 inputs[role] = replace(inputs[role], si=value, how=known)
             return replace(agreed, inputs=inputs, derived={cell.role: cell for cell in fed})
-    assumed = {role: replace(findings.inputs[role], how="assumed") for role in unknown}
-    return replace(findings, inputs={**findings.inputs, **assumed})
+    assumed = {role: replace(examination.inputs[role], how="assumed") for role in unknown}
+    return replace(examination, inputs={**examination.inputs, **assumed})
 
 
 def _hypotheses(
-    findings: Findings, unknown: Sequence[str], typed: set[float], feeding: Mapping[str, Input]
+    examination: Examination,
+    unknown: Sequence[str],
+    typed: set[float],
+    feeding: Mapping[str, Input],
 ) -> Iterator[tuple[dict[str, float], str, Sequence[Rule], Sequence[Input]]]:
     """What the unknown inputs may be, how that is known, by which rules, and with which cells fed.
 
@@ -510,25 +515,27 @@ def _hypotheses(
     values = product(*(report_inputs()[role] for role in unknown))
     of_report = [dict(zip(unknown, each, strict=True)) for each in values]
     rules = (BRAKES[:2], BRAKES)
-    for fed, brakes, tried in product(((), *_fed(findings, feeding)), rules, of_report):
+    for fed, brakes, tried in product(((), *_fed(examination, feeding)), rules, of_report):
         yield tried, "report", brakes, fed
     solved = {}
-    for role, value in _solved(findings).items():  # with the report's particle, if no cell holds it
+    for role, value in _solved(
+        examination
+    ).items():  # with the report's particle, if no cell holds it
         if role in unknown:  # a number that some formula has, or the shortest decimal
             near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
             solved[role] = next(near, _shortest(value, 1e-8))
     yield solved, "rows", BRAKES[:2], ()
 
 
-def _fed(findings: Findings, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
+def _fed(examination: Examination, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
     """Mass, diameter and resistance as their cells hold them, where that is not what it should be.
 
     A formula that is wrong does not tell its unit by its value: every power of a thousand may be.
     """
     wrong = []
     for role, cell in feeding.items():
-        number = findings.table.calculation.number(cell.place)
-        wanted = getattr(findings.intended, role)
+        number = examination.table.calculation.number(cell.place)
+        wanted = getattr(examination.intended, role)
         if number is None or (number == 0 and role != "resistance"):
             continue
         if number > 0 and power_of_ten(wanted / number) is not None:
@@ -540,13 +547,13 @@ def _fed(findings: Findings, feeding: Mapping[str, Input]) -> Iterator[tuple[Inp
         yield from islice(product(*wrong), 2 * _MAX_CHOICES)
 
 
-def _solved(findings: Findings) -> dict[str, float]:
+def _solved(examination: Examination) -> dict[str, float]:
     """Target density and resistance for which the rows brake as they do, drag at the beginning.
 
     a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
     Each pair of rows gives both; the medians withstand some wrong rows. Nothing if there are none.
     """
-    case, rows, points = findings.case, findings.rows, []
+    case, rows, points = examination.case, examination.rows, []
     for k in range(1, max(rows.columns["depth"]) + 1):
         x, v, final = (rows(role, k) for role in ("depth", "velocity_initial", "velocity_final"))
         if x and v is not None and (area := contact(case, x)):

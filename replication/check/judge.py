@@ -12,7 +12,7 @@ from itertools import product
 from statistics import median
 
 from replication.check.cells import each_cell, order, types
-from replication.check.findings import NEAR, Difference, Findings, Input
+from replication.check.examination import NEAR, Difference, Examination, Input
 from replication.check.inputs import report_inputs
 from replication.check.scheme import (
     BEYOND,
@@ -42,7 +42,7 @@ OTHER_STOP: Mapping[str, Rule] = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
 
-def judge(f: Findings) -> None:
+def judge(f: Examination) -> None:
     """Find every difference between a table and the report's sheet, but for printed numbers."""
     _units(f)
     if f.digits is None:
@@ -63,7 +63,7 @@ def judge(f: Findings) -> None:
 # ---- units and inputs: what the workbook says of them, what its formulas make of them
 
 
-def _units(f: Findings) -> None:
+def _units(f: Examination) -> None:
     """Units in heads that contradict the rest."""
     for role, slip in f.slips.items():
         line, right = f.table.lines[role], unit_text(role, f.powers[role])
@@ -77,7 +77,7 @@ def _changed(role: str, value: float, by: float) -> Callable[[Case], Case]:
     return lambda case: case.with_input(role, value, by)
 
 
-def _other_inputs(f: Findings) -> None:
+def _other_inputs(f: Examination) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
     report, density = report_inputs(), f.inputs["particle_density"]
     lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
@@ -105,11 +105,11 @@ def _other_inputs(f: Findings) -> None:
             change = _changed(role, own.si, own.si / nearest)
             f.intended = f.intended.with_input(role, nearest, nearest / own.si)
         place = own.place or f.table.place("depth", 1)
-        found = own.si if own.place is None else None
-        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, found, change)
+        solved = own.si if own.place is None else None
+        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, solved, change)
 
 
-def _calibrate(f: Findings) -> None:
+def _calibrate(f: Examination) -> None:
     """An input that the rows take in another unit than its label says."""
     if f.agreement(BRAKES) >= 0.5:
         return
@@ -141,7 +141,7 @@ def _calibrate(f: Findings) -> None:
         return
 
 
-def _derived(f: Findings) -> None:
+def _derived(f: Examination) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
     known = {own.role: own for own in (*f.unread, *f.inputs.values())}
     spoilt = any(difference.change for difference in f.differences)
@@ -163,37 +163,37 @@ def _derived(f: Findings) -> None:
             _derived_cell(f, cell, wanted, sources)
 
 
-def _derived_cell(f: Findings, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
+def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
     role, place = cell.role, cell.place
     assert place is not None
     number = f.calculation.number(place) or 0.0
     power = power_of_ten(wanted / number) if number and cell.unit is None else None
     factor = cell.factor if power is None else Fraction(10) ** power
-    held = scaled(number, factor)
-    exact = math.isclose(held, wanted, rel_tol=NEAR)
+    in_si = scaled(number, factor)
+    exact = math.isclose(in_si, wanted, rel_tol=NEAR)
     # Whoever converts ksi types its factor with some ten digits.
     typed = any(power_of_ten(float(source.factor)) is None for source in sources)
-    right = exact or (typed and math.isclose(held, wanted, rel_tol=1e-8))
+    right = exact or (typed and math.isclose(in_si, wanted, rel_tol=1e-8))
     rests, kind = titles(source.role for source in sources), ""
     if place in f.calculation.formulas:
-        if power := power_of_ten(held / wanted):
+        if power := power_of_ten(in_si / wanted):
             kind = "unit"
             text = f"is {times_too(power)} for {rests}: a unit is not converted"
         elif not right:
             kind = "odd formula"
             text = f"is not what {rests} {'gives' if len(sources) == 1 else 'give'}"
-            if not held:
+            if not in_si:
                 text = "is 0; the report's is assumed"
     elif f.read and (not right or any(s in f.unread for s in sources)):
         kind = "typed constant"
         text = f"is typed as a number, though it rests on {rests}: a change there changes nothing"
     if kind:
-        change = None if exact else _holding(role, held)
+        change = None if exact else _holding(role, in_si)
         expected = scaled(wanted, 1 / factor)
         f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
     if not exact or (role == "mass" and factor == 1):
-        f.rows = replace(f.rows, case=f.case.holding(role, held))
-        f.intended = f.intended.holding(role, wanted if kind and not exact else held)
+        f.rows = replace(f.rows, case=f.case.holding(role, in_si))
+        f.intended = f.intended.holding(role, wanted if kind and not exact else in_si)
 
 
 def _holding(role: str, value: float) -> Callable[[Case], Case]:
@@ -201,7 +201,7 @@ def _holding(role: str, value: float) -> Callable[[Case], Case]:
     return lambda case: case.holding(role, value)
 
 
-def _typed_inputs(f: Findings) -> None:
+def _typed_inputs(f: Examination) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
     for own in f.unread:
         used = f.inputs.get(own.role)
@@ -236,7 +236,7 @@ def _typed_inputs(f: Findings) -> None:
             f.add("typed constant", cells, where, text, formula)
 
 
-def _typed_in(f: Findings, own: Input, role: str, k: int, place: Position) -> bool:
+def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, though a cell for it exists."""
     formula = f.calculation.formulas.get(place)
     if formula is not None:
@@ -255,7 +255,7 @@ _FACTORS = (
 )  # fmt: skip
 
 
-def _scheme(f: Findings) -> None:
+def _scheme(f: Examination) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
     chosen = {"start": REPORT.start}
     if f.follows("start", REPORT.start, 1) is False:  # None if there is no velocity
@@ -295,7 +295,7 @@ def _scheme(f: Findings) -> None:
     _named(f)
 
 
-def _named(f: Findings) -> None:
+def _named(f: Examination) -> None:
     """A difference for each rule that is not the report's."""
     rows = replace(f.rows, rules=REPORT)
     for part, rule in f.rules.others.items():
@@ -309,11 +309,11 @@ def _named(f: Findings) -> None:
         f.add("other scheme", cells, f.shown(role, wanted), text, change={part: rule})
 
 
-def _cause(f: Findings, part: str, role: str) -> tuple[str, str, Line]:
+def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     own = f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
-    ratios = [found / wanted for found, wanted in filter(None, pairs) if wanted]
+    ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
         return "other scheme", "these cells follow no scheme that this program knows", own
@@ -333,19 +333,19 @@ def _near(a: float, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
-def _increment(f: Findings, part: str, k: int) -> tuple[float, float] | None:
+def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
     """What a row adds to the one before, and what it would add by the report's rule."""
     rows = replace(f.rows, rules=REPORT)
     role, at = rows.shows(part, k)
     before = {"deceleration": 0.0, "depth": rows("depth", k - 1)}
     start = before.get(role, rows("velocity_initial", k))
-    found, wanted = rows(role, at), rows.wanted(role, at)
-    if start is None or found is None or wanted is None:
+    actual, wanted = rows(role, at), rows.wanted(role, at)
+    if start is None or actual is None or wanted is None:
         return None
-    return found - start, wanted - start
+    return actual - start, wanted - start
 
 
-def _as_rounded(f: Findings, digits: int) -> None:
+def _as_rounded(f: Examination, digits: int) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
     others = [replace(REPORT, **{part: rule}) for part in parts for rule in KNOWN[part][1:]]
@@ -364,19 +364,19 @@ def _as_rounded(f: Findings, digits: int) -> None:
 
 
 def _misprints(
-    f: Findings, run: Mapping[str, Mapping[int, float]], digits: int
+    f: Examination, run: Mapping[str, Mapping[int, float]], digits: int
 ) -> Iterator[tuple[Position, float | None, str]]:
     """Numbers that do not round as a scheme's do, and what they should be if that is finite."""
     for role in set(run) & set(f.table.lines):
-        for k, value in run[role].items():
-            found, wanted = f.table.number(role, k), f.shown(role, value)
-            if found is None or wanted is None or (k == 0 and role == "velocity_final"):
+        for k, right in run[role].items():
+            value, wanted = f.table.number(role, k), f.shown(role, right)
+            if value is None or wanted is None or (k == 0 and role == "velocity_final"):
                 continue
             expected = float(f"{wanted:.{digits}g}") if math.isfinite(wanted) else None
             last = 0.0
             if wanted and expected is not None:
                 last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
-            if not abs(found - wanted) <= last * (0.5 + 1e-9):
+            if not abs(value - wanted) <= last * (0.5 + 1e-9):
                 text = f"{title(role)} of row {k} is not what the scheme gives"
                 yield f.table.place(role, k), expected, text
 
@@ -384,7 +384,7 @@ def _misprints(
 # ---- the stop, and all of it together
 
 
-def _stop(f: Findings) -> None:
+def _stop(f: Examination) -> None:
     """Whether the rows end with the first velocity below the stop."""
     steps, rows, case = f.table.steps, f.rows, f.case
     stop, report = case.stop_velocity, report_inputs()["resistance"]
@@ -422,7 +422,7 @@ def _stop(f: Findings) -> None:
         )
 
 
-def _effects(f: Findings) -> None:
+def _effects(f: Examination) -> None:
     """What the final depth should be, and what each difference alone would make of it."""
     run = march(f.intended)
     steps = max(run["depth"])
@@ -441,7 +441,7 @@ def _effects(f: Findings) -> None:
     f.differences = sorted(with_effects, key=lambda d: d.rank)
 
 
-def _with_effect(f: Findings, difference: Difference, steps: int) -> Difference:
+def _with_effect(f: Examination, difference: Difference, steps: int) -> Difference:
     """The difference with the final depth that it alone would give, after so many steps."""
     change, fixed = difference.change, {}
     rules, case = REPORT, f.intended

@@ -5,10 +5,10 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.findings import Difference, Findings
+from replication.check.examination import Difference, Examination
 from replication.check.table import address, area_of
 from replication.check.words import INPUTS, count, unit_text
-from replication.check.workbook import Check, Held
+from replication.check.workbook import Check, HeldNumber
 from spreadsheets.foreign import Position
 
 
@@ -21,9 +21,9 @@ def check_record(check: Check) -> dict[str, Any]:
         "summary": check.summary,
         "first": check.first and _difference(check.first),
         "differences": [_difference(d) for d in check.differences],
-        "taken": [_taken(f) for f in check.findings],
-        "final_depths": [_depth(f) for f in check.findings],
-        "claims": [_claim(number) for number in check.held],
+        "taken": [_taken(f) for f in check.examinations],
+        "final_depths": [_depth(f) for f in check.examinations],
+        "claims": [_claim(number) for number in check.numbers],
         "notes": list(check.calculation.book.notes),
     }
     return {name: _finite(entry) for name, entry in record.items()}
@@ -31,18 +31,18 @@ def check_record(check: Check) -> dict[str, Any]:
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
     """The document of `coldspray diff --json`; `expected` is the first workbook's."""
-    found = comparison.differences
-    cells = sum(len(d.cells) for d in found if d.kind in ("formula", "value"))
-    verdict = f"{count(len(found), 'difference')}, in the contents of {count(cells, 'cell')}"
+    differences = comparison.differences
+    cells = sum(len(d.cells) for d in differences if d.kind in ("formula", "value"))
+    verdict = f"{count(len(differences), 'difference')}, in the contents of {count(cells, 'cell')}"
     if last := len(comparison.last_digits):
         verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     return {
         "file": " and ".join(str(c.book.path) for c in comparison.calculations),
-        "verdict": f"{verdict}." if found else "Equal: every cell holds the same.",
-        "clean": not found,
-        "summary": dict(Counter(d.kind for d in found)),
-        "first": _difference(found[0]) if found else None,
-        "differences": [_difference(d) for d in found],
+        "verdict": f"{verdict}." if differences else "Equal: every cell holds the same.",
+        "clean": not differences,
+        "summary": dict(Counter(d.kind for d in differences)),
+        "first": _difference(differences[0]) if differences else None,
+        "differences": [_difference(d) for d in differences],
         "taken": [],
         "final_depths": [],
         "claims": [],
@@ -88,7 +88,7 @@ def _verdict(check: Check) -> str:
     if not faults:
         others = check.summary.get("other input", 0)
         inputs = f", with {count(others, 'other input')}" if others else ""
-        if any(f.ends for f in check.findings):
+        if any(f.ends for f in check.examinations):
             return f"Clean: the report's sheet{inputs}, cell by cell."
         return f"Clean as far as it goes: its rows are the report's sheet{inputs}, cell by cell."
     if not causes:
@@ -97,16 +97,16 @@ def _verdict(check: Check) -> str:
     if all(d.kind == "operation order" for d in causes):
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
-    for f in check.findings:
+    for f in check.examinations:
         if (depths := _apart(f)) is not None:
             own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
             return f"{sentence}; the final depth is {own}, and should be {right}."
-    if all(v.right_depth and v.final_depth and v.ends for v in check.findings):
+    if all(v.right_depth and v.final_depth and v.ends for v in check.examinations):
         return f"{sentence}; the final depth is right all the same."
     return f"{sentence}."
 
 
-def _apart(f: Findings) -> tuple[float, float] | None:
+def _apart(f: Examination) -> tuple[float, float] | None:
     """The final depth and what it should be, where these differ."""
     own, right = f.final_depth, f.right_depth
     if own is None or right is None or not f.ends or abs(own - right) <= 1e-9 * abs(right):
@@ -114,7 +114,7 @@ def _apart(f: Findings) -> tuple[float, float] | None:
     return own, right
 
 
-def _depth(f: Findings) -> dict[str, Any]:
+def _depth(f: Examination) -> dict[str, Any]:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
     explains = None
     if (depths := _apart(f)) is not None:
@@ -131,7 +131,7 @@ def _depth(f: Findings) -> dict[str, Any]:
     }
 
 
-def _taken(f: Findings) -> dict[str, Any]:
+def _taken(f: Examination) -> dict[str, Any]:
     """What was taken for what."""
     table = f.table
     return {
@@ -162,7 +162,7 @@ def _taken(f: Findings) -> dict[str, Any]:
     }
 
 
-def _claim(number: Held) -> dict[str, Any]:
+def _claim(number: HeldNumber) -> dict[str, Any]:
     return {
         "id": number.claim.id,
         "title": number.claim.title,

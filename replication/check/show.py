@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
-from replication.check.findings import KINDS, NO_FAULT, Difference
+from replication.check.examination import KINDS, NO_FAULT, Difference
 from replication.check.table import address
 from replication.check.words import count
 from replication.text import aligned, with_unit
@@ -39,10 +39,10 @@ def safe(text: object, limit: int = 90) -> str:
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 
-def held(difference: Record) -> str:
+def contents(difference: Record) -> str:
     """What a cell holds and what it should hold; of `diff`, what it was and what it is.
 
-    >>> held({"kind": "value", "expected": 500.0, "found": None})
+    >>> contents({"kind": "value", "expected": 500.0, "found": None})
     'was 500.0, is blank'
     """
     values = difference["expected"], difference["found"]
@@ -88,10 +88,10 @@ def _lines(record: Record) -> Iterator[str]:
     rest = [d for d in differences if d != first and d["kind"] not in kinds]
     yield from _list("Then", [line for d in rest[:_MOST] for line in _difference(d)], len(rest))
     for kind, title in aside.items():
-        found = [d for d in differences if d["kind"] == kind]
-        where = ["" if d["count"] > 1 else f"{_where(d)}: " for d in found]
-        said = [at + safe(d["explanation"], 300) for at, d in zip(where, found, strict=True)]
-        yield from _list(title, [_wrapped(line, "  ") for line in said[:_MOST]], len(found))
+        of_kind = [d for d in differences if d["kind"] == kind]
+        where = ["" if d["count"] > 1 else f"{_where(d)}: " for d in of_kind]
+        said = [at + safe(d["explanation"], 300) for at, d in zip(where, of_kind, strict=True)]
+        yield from _list(title, [_wrapped(line, "  ") for line in said[:_MOST]], len(of_kind))
     yield from _claims(record["claims"])
 
 
@@ -137,7 +137,7 @@ def _by(entry: Record, said: str) -> str:
 
 def _difference(difference: Record) -> Iterator[str]:
     yield f"  {_where(difference)}, {difference['kind']}"
-    if line := held(difference):
+    if line := contents(difference):
         yield f"    {line}"
     yield _wrapped(safe(difference["explanation"], 400), "    ")
 
@@ -196,7 +196,7 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
         loader=PackageLoader("replication.check", "."), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters |= {"safe": safe, "held": held, "unit": written}
+    environment.filters |= {"safe": safe, "contents": contents, "unit": written}
     sheets = list(calculation.book.sheets)
     return environment.get_template("page.html.j2").render(
         record,

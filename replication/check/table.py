@@ -99,10 +99,10 @@ class Line:
         at = self.index(place)
         return at is not None and self.first <= at <= self.last
 
-    def overlaps(self, other: "Line") -> bool:
+    def overlaps(self, another: "Line") -> bool:
         """Whether a cell is in both."""
-        same = (self.sheet, self.number, self.across) == (other.sheet, other.number, other.across)
-        return same and self.first <= other.last and other.first <= self.last
+        own, its = ((line.sheet, line.number, line.across) for line in (self, another))
+        return own == its and self.first <= another.last and another.first <= self.last
 
     def at(self, at: int) -> float | None:
         """The number in a row, or column, of the sheet."""
@@ -117,15 +117,15 @@ class Line:
         """The formula in a row, or column, of the sheet."""
         return self.calculation.formulas.get(self.place(at))
 
-    def reads_cell(self, at: int, other: int, of: "Line | None" = None) -> bool:
+    def reads_cell(self, at: int, source: int, of: "Line | None" = None) -> bool:
         """Whether a formula of it reads another cell, of it or of another line."""
         formula = self.formula(at)
-        return formula is not None and formula.reads((of or self).place(other))
+        return formula is not None and formula.reads((of or self).place(source))
 
-    def reads(self, other: "Line", back: int) -> bool:
+    def reads(self, source: "Line", back: int) -> bool:
         """Whether most cells are formulas that read another line's cell, so many rows back."""
         rows = range(self.first + 1, self.last + 1)[:: 1 + len(self.values) // _SAMPLE]
-        return sum(self.reads_cell(at, at - back, other) for at in rows) >= 0.5 * len(rows)
+        return sum(self.reads_cell(at, at - back, source) for at in rows) >= 0.5 * len(rows)
 
     @cached_property
     def falls(self) -> bool:
@@ -215,12 +215,12 @@ def lines(calculation: Calculation) -> Iterator[Line]:
         blank = _left_out(Line(calculation, sheet, across), used, places)
         numbers: dict[int, dict[int, float | None]] = {}
         for (number, at), value in values.items():
-            held = value if isinstance(value, float) and math.isfinite(value) else None
+            usable = value if isinstance(value, float) and math.isfinite(value) else None
             # An error is part of a line that has gone wrong, and so is the text that it comes from.
             place = places[number, at]
-            if held is not None or calculation.error(place) or place in calculation.spoiling:
+            if usable is not None or calculation.error(place) or place in calculation.spoiling:
                 at -= sum(before < at for before in blank)
-                numbers.setdefault(number, {})[at] = held
+                numbers.setdefault(number, {})[at] = usable
         filled = Counter(at for line in numbers.values() for at in line)
         for number, own in sorted(numbers.items()):
             line = Line(calculation, sheet, across, blank, number)
@@ -326,9 +326,9 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
     ValueError where they belong to none.
     """
     known = [line for line in lines(calculation) if not any(map(line.overlaps, given))]
-    found: list[Table] = []
+    chosen: list[Table] = []
     for depth, speed in _pairs([*known, *given]):
-        used = [line for table in found for line in table.lines.values()]
+        used = [line for table in chosen for line in table.lines.values()]
         if not any(line.overlaps(depth) or line.overlaps(speed) for line in used):
             table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
             # Other quantities grow like this, too: it takes a third one, or names for both.
@@ -336,17 +336,17 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
                 len(table.lines) > 2
                 or all(role in line.roles for role, line in table.lines.items())
             ):
-                found.append(table)
+                chosen.append(table)
     if given:
-        found = [table for table in found if all(line in table.lines.values() for line in given)]
-        if not found:
+        chosen = [table for table in chosen if all(line in table.lines.values() for line in given)]
+        if not chosen:
             raise ValueError(
                 "what --map names belongs to no table of depth and velocity: name both, with as "
                 "many rows"
             )
-    taken = {line for table in found for line in table.lines.values()}
-    found = [replace(t, helpers=tuple(h for h in t.helpers if h not in taken)) for t in found]
-    own = [table for table in found if not _viewed(table, found)]
+    taken = {line for table in chosen for line in table.lines.values()}
+    chosen = [replace(t, helpers=tuple(h for h in t.helpers if h not in taken)) for t in chosen]
+    own = [table for table in chosen if not _viewed(table, chosen)]
     sheets = list(calculation.book.sheets)
     return sorted(own, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
 
@@ -397,7 +397,7 @@ def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float =
 
 def _viewed(table: Table, others: Sequence[Table]) -> bool:
     """Whether a table only shows what another one holds."""
-    shown = {place for other in others if other is not table for place in other.places}
+    shown = {place for another in others if another is not table for place in another.places}
     depths = (table.place("depth", k) for k in range(1, table.steps + 1))
     return all(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
 
@@ -479,8 +479,8 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
     """The last row, without those that only hold zero or repeat it once the motion has ended."""
     for at in range(last, zero + 2, -1):
         x, v = depth.at(at), speed.at(at)
-        held = x == depth.at(at - 1) and v == speed.at(at - 1)
-        if x is None or v is None or not (held or x == v == 0):
+        stays = x == depth.at(at - 1) and v == speed.at(at - 1)
+        if x is None or v is None or not (stays or x == v == 0):
             fastest = max(map(abs, speed.numbers))
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             return at if at < last - 1 and ended else last

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension
-from replication.check.findings import NO_FAULT, Difference, Findings
+from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.inputs import find, numbers_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
@@ -25,7 +25,7 @@ _STALE = 1e-14
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldNumber:
     """A number that the report prints and a cell holds. `found` is in the claim's unit."""
 
     claim: Claim
@@ -39,9 +39,9 @@ class Check:
     """What `coldspray check` has found out about a workbook."""
 
     calculation: Calculation
-    findings: tuple[Findings, ...]
+    examinations: tuple[Examination, ...]
     differences: tuple[Difference, ...]
-    held: tuple[Held, ...]
+    numbers: tuple[HeldNumber, ...]
 
     @property
     def faults(self) -> list[Difference]:
@@ -74,18 +74,18 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     calculation = calculate(read(path))
     given, cells = _mapped(mapping or {}, calculation)
     with named(str(path)):
-        found = tables(calculation, given)
-        if not found:
+        read_tables = tables(calculation, given)
+        if not read_tables:
             raise ValueError(_nothing(calculation))
-        beside = list(numbers_beside(calculation, found))
-        findings = [find(table, beside, cells) for table in found]
-    for f in findings:
+        beside = list(numbers_beside(calculation, read_tables))
+        examinations = [find(table, beside, cells) for table in read_tables]
+    for f in examinations:
         judge(f)
-    held = [number for f in findings for number in _held(f, len(findings) == 1)]
+    numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
-        *(d for v in findings for d in v.differences),
-        *_stale(calculation, findings),
-        *_unmet(held, findings[0]),
+        *(d for v in examinations for d in v.differences),
+        *_stale(calculation, examinations),
+        *_unmet(numbers, examinations[0]),
         *_uncalculated(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
@@ -94,7 +94,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         for d in reversed(differences)
     }.values()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(calculation, tuple(findings), ordered, tuple(held))
+    return Check(calculation, tuple(examinations), ordered, tuple(numbers))
 
 
 # ---- what the user says, and what is said where nothing is found
@@ -153,7 +153,7 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
         known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
         raise ValueError(f"--map {given[:40]!r} is not a known name; choose one of {known}")
     read = (parse(f"={where}", (sheet, 1, 1), book).areas for sheet in book.sheets)
-    areas = list(dict.fromkeys(found[0] for found in read if len(found) == 1))
+    areas = list(dict.fromkeys(areas_there[0] for areas_there in read if len(areas_there) == 1))
     if len(areas) > 1:  # no sheet is named: the one with numbers there is meant
         numbers = [place for place, value in calculation.values.items() if isinstance(value, float)]
         areas = [area for area in areas if any(map(area.covers, numbers))] or areas[:1]
@@ -217,7 +217,7 @@ _ROWS = 5
 """Rows that Table A-1 prints, the impact among them."""
 
 
-def _held(f: Findings, alone: bool) -> Iterator[Held]:
+def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
     """The printed numbers that a table of one of the report's cases holds, each judged.
 
     `alone`: it is the only table, so labelled results are its own.
@@ -243,7 +243,7 @@ def _held(f: Findings, alone: bool) -> Iterator[Held]:
     yield from _results(f, case, alone)
 
 
-def _results(f: Findings, case: str, alone: bool) -> Iterator[Held]:
+def _results(f: Examination, case: str, alone: bool) -> Iterator[HeldNumber]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
     cells = dict(_labelled(f.table)) if alone else {}
     depth = f.rows("depth", f.table.steps)
@@ -273,14 +273,14 @@ def _labelled(table: Table) -> Iterator[tuple[str, Position]]:
                     break
 
 
-def _judged(name: str, place: Position, value: Fraction) -> Held:
+def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
     claim = load().claims[name]
-    return Held(claim, place, float(value / claim.si), claim.target().contains(value))
+    return HeldNumber(claim, place, float(value / claim.si), claim.target().contains(value))
 
 
-def _unmet(held: Sequence[Held], f: Findings) -> Iterator[Difference]:
+def _unmet(numbers: Sequence[HeldNumber], f: Examination) -> Iterator[Difference]:
     """Printed numbers that the workbook holds, and holds otherwise."""
-    for number in held:
+    for number in numbers:
         if not number.met:
             claim = number.claim
             yield Difference(
@@ -294,13 +294,13 @@ def _unmet(held: Sequence[Held], f: Findings) -> Iterator[Difference]:
 # ---- stored values
 
 
-def _stale(calculation: Calculation, findings: Sequence[Findings]) -> Iterator[Difference]:
+def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Iterator[Difference]:
     """Stored values that their formulas do not give.
 
     In a column the largest number counts: what is left of 500 m/s at the end has its rounding, and
     so has a cell that reads it.
     """
-    tables = [f.table for f in findings]
+    tables = [f.table for f in examinations]
     lines = [line for table in tables for line in table.every_line]
 
     def is_stale(place: Position) -> bool:
@@ -325,7 +325,7 @@ def _stale(calculation: Calculation, findings: Sequence[Findings]) -> Iterator[D
     for run in runs(shapes, tables[0].across):
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
-        ranks = [f.rank(run[0]) for f in findings]
+        ranks = [f.rank(run[0]) for f in examinations]
         yield Difference(
             run[0], "stale value", str(value) if isinstance(value, bool) else value,
             str(stored) if isinstance(stored, bool) else stored,

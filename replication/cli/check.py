@@ -10,7 +10,7 @@ from replication.cli import options as shared
 from replication.reading import name_of
 
 if TYPE_CHECKING:
-    from replication.check.findings import Difference
+    from replication.check.examination import Difference
     from spreadsheets.recalculation import Calculation
 
 HELP = "check somebody's own workbook of the scheme"
@@ -31,7 +31,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     check_files(options, options.file)
-    from replication.check.findings import KINDS
+    from replication.check.examination import KINDS
     from replication.check.record import check_record
     from replication.check.workbook import check
 
@@ -41,8 +41,8 @@ def run(options: argparse.Namespace) -> int:
         if not where:
             raise ValueError(f"--map {text[:60]!r}: give NAME=RANGE, such as depth=D8:D139")
         mapping[name.strip().replace("-", "_")] = where.strip()
-    found = check(options.file, mapping)
-    return put(options, check_record(found), found.differences, found.calculation, KINDS)
+    checked = check(options.file, mapping)
+    return put(options, check_record(checked), checked.differences, checked.calculation, KINDS)
 
 
 # What `diff` does in the same way.

@@ -36,8 +36,10 @@ def run(options: argparse.Namespace) -> int:
     from replication.check.record import diff_record
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
-    found = diff(options.first, options.second, values_only=options.values_only, allowed=allowed)
-    return put(options, diff_record(found), found.differences, found.calculations[1], KINDS)
+    both = options.first, options.second
+    comparison = diff(*both, values_only=options.values_only, allowed=allowed)
+    record, after = diff_record(comparison), comparison.calculations[1]
+    return put(options, record, comparison.differences, after, KINDS)
 
 
 def _share(text: str) -> float:

@@ -40,17 +40,17 @@ def warnings(sheet: Sheet) -> list[Doubt]:
         slow, least = impact.velocity, impact.stop_velocity
         text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
         return [Doubt("no steps", text)]
-    found = []
+    doubts = []
     if last.velocity_final is not None and last.velocity_final < -impact.stop_velocity:
         share = 100 * -last.velocity_final / impact.velocity
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
-        found.append(Doubt("reversed", f"{text}, {share:.2g} % of the impact velocity"))
+        doubts.append(Doubt("reversed", f"{text}, {share:.2g} % of the impact velocity"))
     travel = impact.velocity * impact.step / impact.radius
     if travel > COARSE:
         text = f"a step at the impact velocity passes {travel:.3g} of the radius"
-        found.append(Doubt("coarse", f"{text}: at most {COARSE} is sound"))
+        doubts.append(Doubt("coarse", f"{text}: at most {COARSE} is sound"))
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DEEP):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
-        found.append(Doubt("deep", f"{text}, by {100 * (last.depth / rest - 1):.3g} %"))
-    return found
+        doubts.append(Doubt("deep", f"{text}, by {100 * (last.depth / rest - 1):.3g} %"))
+    return doubts

@@ -112,9 +112,9 @@ def _are_plain(values: Sequence[Any]) -> bool:
 
 def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
     """Depth and the other result of a model that fills them in; of a history, at the first."""
-    depth, other = [0.0], [0]
-    model([first] if model is motion.history else first, *values, depth, other)
-    return depth[0], other[0]
+    depth, second = [0.0], [0]
+    model([first] if model is motion.history else first, *values, depth, second)
+    return depth[0], second[0]
 
 
 def _histories(numbers: Numbers) -> Any:
@@ -363,8 +363,8 @@ def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type])
 @cache
 def _library(kinds: frozenset[type]) -> str:
     """The library of these types that is to be asked first: each may hold those after it."""
-    found = {base.__module__.partition(".")[0] for kind in kinds for base in kind.__mro__}
-    return next((library for library in ("pint", *_CONTAINED) if library in found), "")
+    libraries = {base.__module__.partition(".")[0] for kind in kinds for base in kind.__mro__}
+    return next((library for library in ("pint", *_CONTAINED) if library in libraries), "")
 
 
 def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:

@@ -189,12 +189,12 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
 
 def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
     """A row for each input, a column for each reading."""
-    found: dict[str, dict[str, r.BackSolvedRecord]] = {}
+    by_entry: dict[str, dict[str, r.BackSolvedRecord]] = {}
     for item in solved:
-        found.setdefault(item.entry, {})[item.reading] = item
-    readings = list(dict.fromkeys(reading for row in found.values() for reading in row))
+        by_entry.setdefault(item.entry, {})[item.reading] = item
+    readings = list(dict.fromkeys(reading for row in by_entry.values() for reading in row))
     rows = []
-    for entry, row in found.items():
+    for entry, row in by_entry.items():
         item = next(iter(row.values()))
         needed = (_needed(row[reading]) if reading in row else "" for reading in readings)
         search = f"{between(item.search, 4)}: {item.search_reason}"

@@ -115,8 +115,8 @@ class Prose:
         return f'<a href="#{anchor}">{inner}</a>' if anchor else str(inner)
 
 
-def _sign(found: re.Match[str]) -> str:
-    return _SIGNS.get(found[0]) or superscript(found[0][1:])
+def _sign(match: re.Match[str]) -> str:
+    return _SIGNS.get(match[0]) or superscript(match[0][1:])
 
 
 def _word(letter: str) -> str:

@@ -195,9 +195,9 @@ def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
         if claim.sources
     }
     inferred = {
-        f"inferred:{one.id}": [(each.source, f"is {each.verdict}") for each in one.sources]
-        for one in record.inferred
-        if one.sources
+        f"inferred:{unknown.id}": [(each.source, f"is {each.verdict}") for each in unknown.sources]
+        for unknown in record.inferred
+        if unknown.sources
     }
     return claims | inferred
 

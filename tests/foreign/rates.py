@@ -57,12 +57,12 @@ def workbooks(made_by: str) -> Iterator[Foreign]:
 def clean(f: Foreign, path: Path) -> bool:
     """Whether a right workbook is clean, its columns and inputs taken for what they are."""
     found = check(path)
-    findings = found.findings[0]
+    examination = found.examinations[0]
     columns = all(
-        role in findings.table.lines and findings.table.place(role, k) == place
+        role in examination.table.lines and examination.table.place(role, k) == place
         for (role, k), place in f.where.items()
     )
-    inputs = all(findings.inputs[name].place == place for name, place in f.inputs.items())
+    inputs = all(examination.inputs[name].place == place for name, place in f.inputs.items())
     return found.first is None and columns and inputs
 
 
@@ -104,7 +104,7 @@ def planted(
 
 def _found(spoiled: Planted, done: Check) -> bool:
     right = run(spoiled.workbook.impact).final_depth
-    depths = [findings.right_depth for findings in done.findings]
+    depths = [examination.right_depth for examination in done.examinations]
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
     if spoiled.status:

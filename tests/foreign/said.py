@@ -26,7 +26,7 @@ from foreign.layouts import BY_HAND, Content, Foreign, Place, changed, plain
 from replication.cases import BETA_3, BETA_5
 from replication.check import show
 from replication.check.diff import Comparison, Tolerance, diff
-from replication.check.findings import KINDS
+from replication.check.examination import KINDS
 from replication.check.record import check_record, diff_record
 from replication.check.workbook import check
 from replication.models.impact import Impact
@@ -925,7 +925,9 @@ def _taken_of(record: Mapping[str, Any]) -> Iterator[list[str]]:
 def _difference(d: Mapping[str, Any]) -> str:
     cells = f" ({d['cells']})" if d["count"] > 1 else ""
     effect = "" if d["final_depth"] is None else f" [alone {_um(d['final_depth'])}]"
-    holds = f"{_shown(line)}{_apart(d['found'], d['expected'])}; " if (line := show.held(d)) else ""
+    holds = (
+        f"{_shown(line)}{_apart(d['found'], d['expected'])}; " if (line := show.contents(d)) else ""
+    )
     return f"{d['cell']}{cells}, {d['kind']}: {holds}{_shown(d['explanation'])}{effect}"
 
 

@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from replication.cases import BETA_3, BETA_5
-from replication.check.findings import KINDS
+from replication.check.examination import KINDS
 from replication.check.inputs import report_inputs
 from replication.check.record import check_record
 from replication.check.scheme import BRAKES, REPORT, Case, march
@@ -128,7 +128,7 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
         (path,) = writers.with_libreoffice([path], tmp_path)
     found = check(path)
     assert found.first is None
-    sheets = {f.table.sheet: f for f in found.findings}
+    sheets = {f.table.sheet: f for f in found.examinations}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
         inputs = sheets[sheet].inputs
@@ -150,9 +150,9 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
         Column(BRAKE, "E", "a", None, f"={force % 'D{r}'}"),
     ], steps=130)  # fmt: skip
     found = check(written(f, tmp_path))
-    (findings,) = found.findings
-    assert END not in findings.table.lines
-    assert findings.rules.name == "centered"
+    (examination,) = found.examinations
+    assert END not in examination.table.lines
+    assert examination.rules.name == "centered"
     assert found.first.place == (s, 7, 5)
 
 
@@ -212,7 +212,7 @@ def test_a_sheet_gone_wrong_is_known_by_its_formulas(tmp_path: Path) -> None:
 def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -> None:
     rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
     found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
-    assert found.findings[0].inputs["step"].place == ("Sheet1", 2, 5)
+    assert found.examinations[0].inputs["step"].place == ("Sheet1", 2, 5)
 
 
 @given(
@@ -238,7 +238,7 @@ def test_a_right_sheet_of_other_inputs_is_clean(
     assume(rows > 5)
     found = check(written(layouts.plain(impact, rows), tmp_path_factory.mktemp("right")))
     assert found.first is None
-    assert {own.how for own in found.findings[0].inputs.values()} <= {"label", "follows"}
+    assert {own.how for own in found.examinations[0].inputs.values()} <= {"label", "follows"}
 
 
 # ---- where it cannot tell

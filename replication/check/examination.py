@@ -45,7 +45,7 @@ class Input:
 
 
 @dataclass
-class Findings:
+class Examination:
     """What is known of a table; more of it as it is judged.
 
     `rows` are those of the table with the case and the rules that they follow, `intended` is the
@@ -84,7 +84,7 @@ class Findings:
         """The case that the rows follow."""
         return self.rows.case
 
-    def following(self, case: Case, intended: Case | None = None) -> "Findings":
+    def following(self, case: Case, intended: Case | None = None) -> "Examination":
         """The same table whose rows follow, and should follow, another case."""
         rows = replace(self.rows, case=case)
         return replace(self, rows=rows, intended=intended or self.intended)
@@ -95,8 +95,8 @@ class Findings:
         near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
         for k in numbers:
             role, at = rows.shows(part, k)
-            wanted, found = rows.wanted(role, at), rows(role, at)
-            if wanted is None or found is None:
+            wanted, value = rows.wanted(role, at), rows(role, at)
+            if wanted is None or value is None:
                 yield None
                 continue
             size = abs(wanted)
@@ -104,7 +104,7 @@ class Findings:
                 speed = abs(rows("velocity_initial", k) or 0.0)
                 # Where no column holds the deceleration, the velocities' own rounding is in it.
                 size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
-            yield abs(found - wanted) <= near * size
+            yield abs(value - wanted) <= near * size
 
     def follows(self, part: str, rule: Rule, k: int) -> bool | None:
         """Whether a row follows a rule; None where cells are missing."""
@@ -154,9 +154,9 @@ class Findings:
 
         What is `found` is what that cell holds, unless something else is given.
         """
-        held = self.calculation.values.get(cells[0])
-        if found is None and held is not None:
-            found = str(held).upper() if isinstance(held, bool) else held
+        content = self.calculation.values.get(cells[0])
+        if found is None and content is not None:
+            found = str(content).upper() if isinstance(content, bool) else content
         if isinstance(expected, float) and not math.isfinite(expected):
             expected = None
         order = self.rank(cells[0])
@@ -213,9 +213,9 @@ class Difference:
     change: Callable[[Case], Case] | Mapping[str, Rule] | None = field(default=None, compare=False)
 
 
-def joined(found: Sequence[Difference], across: bool) -> Iterator[Difference]:
+def joined(differences: Sequence[Difference], across: bool) -> Iterator[Difference]:
     """Differences of single cells; those of neighbours with the same kind and cause as one."""
-    at = {d.place: d for d in found}
+    at = {d.place: d for d in differences}
     number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
     causes = {p: (d.kind, re.sub(number, "#", d.explanation)) for p, d in at.items()}
     for run in runs(causes, across):
