@@ -57,11 +57,11 @@ def test_the_two_commands_are_those_that_users_were_promised() -> None:
 def test_the_rates_are_those_measured() -> None:
     rates = measured()
     shares = (rates.detected, rates.repaired, rates.repaired_first, rates.accused_wrongly)
-    found, named, first, accused = (f"{100 * share / rates.visible:.1f} %" for share in shares)
+    result, named, first, accused = (f"{100 * share / rates.visible:.1f} %" for share in shares)
     text = " ".join(README.split())
     assert f"Of {rates.planted}, drawn with seed {rates.seed}, {rates.invisible} cannot" in text
     assert (
-        f"the other {rates.visible} it notices {found}; it names the true text in {named}," in text
+        f"the other {rates.visible} it notices {result}; it names the true text in {named}," in text
     )
     assert f"first of all in {first}, and another entry first in {accused}." in text
 

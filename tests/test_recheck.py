@@ -28,9 +28,9 @@ def audit(record: Record) -> Audit:
 
 def tampered(audit: Audit, change: Callable[[dict[str, Any]], object]) -> list[str]:
     """What is said of a copy whose claims, by id, were changed."""
-    other = copy.deepcopy(audit)
-    change({claim["id"]: claim for claim in other["claims"]})
-    return [line for line in differences(other) if not line.startswith("summary:")]
+    another = copy.deepcopy(audit)
+    change({claim["id"]: claim for claim in another["claims"]})
+    return [line for line in differences(another) if not line.startswith("summary:")]
 
 
 def test_our_audit_has_no_differences(audit: Audit) -> None:
@@ -72,11 +72,11 @@ def test_what_is_changed_is_noticed(what: str, audit: Audit) -> None:
 
 
 def test_a_constant_and_a_count(audit: Audit) -> None:
-    other = copy.deepcopy(audit)
-    equation = next(e for e in other["equations"] if e["id"] == "eq16")
+    another = copy.deepcopy(audit)
+    equation = next(e for e in another["equations"] if e["id"] == "eq16")
     equation["constants"][0]["needed"] = ["2"]
-    other["summary"]["reproduced"] += 1
-    first, second = sorted(differences(other))
+    another["summary"]["reproduced"] += 1
+    first, second = sorted(differences(another))
     assert first.startswith("eq16-denominator: is 'not reproduced', not reproduced")
     assert second.startswith("summary: 87 claims")
 

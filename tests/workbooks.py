@@ -45,9 +45,9 @@ FROM_PIP = ("ironcalc", "formualizer")
 
 def usable(name: str) -> Engine:
     """An engine; skips or fails the test when it is missing."""
-    found = BY_NAME[name]
-    if (reason := found.missing()) is None:
-        return found
+    result = BY_NAME[name]
+    if (reason := result.missing()) is None:
+        return result
     if name in FROM_PIP or os.environ.get("COLDSPRAY_REQUIRE_ENGINES") == "1":
         pytest.fail(reason)
     pytest.skip(reason)

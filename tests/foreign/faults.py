@@ -90,13 +90,13 @@ def odd_sign(f: Foreign, _: Values) -> Planted | None:
 
 def _constants(f: Foreign) -> list[tuple[str, str, str]]:
     """Inputs as a formula may name them: role, its reference, its value as typed."""
-    found = []
+    result = []
     for role, place in f.inputs.items():
         cell, value = f"${letters(place[2])}${place[1]}", f"{f.cells[place]!r}"
         names = [name for name, meaning in f.names.items() if meaning.rpartition("!")[2] == cell]
         references = [cell, f"{place[0]}!{cell}", f"'{place[0]}'!{cell}", *names]
-        found += [(role, reference, value) for reference in references]
-    return sorted(found, key=lambda entry: -len(entry[1]))
+        result += [(role, reference, value) for reference in references]
+    return sorted(result, key=lambda entry: -len(entry[1]))
 
 
 def _typed(f: Foreign, text: str) -> str | None:

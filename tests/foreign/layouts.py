@@ -317,8 +317,8 @@ def side_by_side(impact: Impact) -> Foreign:
         ("flow_stress", "Y (Pa)", 700e6),
         ("velocity", "V (m/s)"), ("step", "dt (s)"),
     )  # fmt: skip
-    other = 3.0 if impact.beta == 5 else 5.0
-    for (n, t, v, x, a, end), beta in (("HIJKLM", other), ("ABCDEF", impact.beta)):
+    another = 3.0 if impact.beta == 5 else 5.0
+    for (n, t, v, x, a, end), beta in (("HIJKLM", another), ("ABCDEF", impact.beta)):
         f.given(s, f"{n}11", ("beta", "beta", beta, "Rt", f"={t}11*B6"))
         vr, xr = f"{v}{{r}}", f"{x}{{r}}"
         force = f"=(0.5*$B$4*{vr}*{vr}+${x}$11)*PI()*($B$2*{xr}-{xr}*{xr})/$B$5"

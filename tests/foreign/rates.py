@@ -36,15 +36,15 @@ def right(made_by: str, folder: Path) -> list[tuple[str, bool]]:
         plain = [writers.with_openpyxl(f, folder / f"{f.name}.xlsx") for f in books]
         return [(f.name, clean(f, path)) for f, path in zip(
             books, writers.with_libreoffice(plain, folder, kind), strict=True)]  # fmt: skip
-    found = []
+    result = []
     for f in workbooks(made_by):
         path = folder / f"{f.name}.xlsx"
         if made_by == "like Excel":
             writers.with_xlsxwriter(f, path, writers.calculated(f, folder / "plain.xlsx"))
         else:
             writers.with_openpyxl(f, path)
-        found.append((f.name, clean(f, path)))
-    return found
+        result.append((f.name, clean(f, path)))
+    return result
 
 
 def workbooks(made_by: str) -> Iterator[Foreign]:
@@ -56,14 +56,14 @@ def workbooks(made_by: str) -> Iterator[Foreign]:
 
 def clean(f: Foreign, path: Path) -> bool:
     """Whether a right workbook is clean, its columns and inputs taken for what they are."""
-    found = check(path)
-    examination = found.examinations[0]
+    result = check(path)
+    examination = result.examinations[0]
     columns = all(
         role in examination.table.lines and examination.table.place(role, k) == place
         for (role, k), place in f.where.items()
     )
     inputs = all(examination.inputs[name].place == place for name, place in f.inputs.items())
-    return found.first is None and columns and inputs
+    return result.first is None and columns and inputs
 
 
 @cache
@@ -87,7 +87,7 @@ def planted(
     Found: named rightly, placed on the right cell, called the first, and the depth that should be
     is the right one; alone: nothing else accused.
     """
-    fault, found = "", []
+    fault, result = "", []
     for f, values in books or to_spoil():
         spoiled = plant(f, values)
         if spoiled is not None:
@@ -98,8 +98,8 @@ def planted(
                 writers.with_openpyxl(spoiled.workbook, path)
             fault = spoiled.fault
             done = check(path)
-            found.append((f.name, _found(spoiled, done), len(done.causes) <= 1))
-    return fault, found
+            result.append((f.name, _found(spoiled, done), len(done.causes) <= 1))
+    return fault, result
 
 
 def _found(spoiled: Planted, done: Check) -> bool:
@@ -119,17 +119,17 @@ WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "L
 
 def right_row(made_by: str, folder: Path) -> tuple[str, list[str]]:
     """A row of the first table, and the workbooks that are not clean."""
-    found = right(made_by, folder)
-    missed = [name for name, good in found if not good]
-    return f"| {made_by} | {len(found)} | {len(found) - len(missed)} |", missed
+    result = right(made_by, folder)
+    missed = [name for name, good in result if not good]
+    return f"| {made_by} | {len(result)} | {len(result) - len(missed)} |", missed
 
 
 def planted_row(plant: Callable[..., Planted | None], folder: Path) -> tuple[str, list[str]]:
     """A row of the second table, and the workbooks in which the fault is not found."""
-    fault, found = planted(plant, folder)
-    missed = [name for name, good, _ in found if not good]
-    alone = sum(lone for *_, lone in found)
-    return f"| {fault} | {len(found)} | {len(found) - len(missed)} | {alone} |", missed
+    fault, result = planted(plant, folder)
+    missed = [name for name, good, _ in result if not good]
+    alone = sum(lone for *_, lone in result)
+    return f"| {fault} | {len(result)} | {len(result) - len(missed)} | {alone} |", missed
 
 
 def main() -> None:
@@ -146,9 +146,9 @@ def main() -> None:
         books = [drawn(seed, CASES[seed % 2]) for seed in AFRESH]
         good = sum(clean(f, writers.with_openpyxl(f, folder / "drawn.xlsx")) for f in books)
         some = _with_values(books[:10])
-        found = [entry for plant in FAULTS for entry in planted(plant, folder, some)[1]]
+        result = [entry for plant in FAULTS for entry in planted(plant, folder, some)[1]]
         print(f"\nDrawn afresh: {good} of {len(books)} clean, "
-              f"{sum(entry[1] for entry in found)} of {len(found)} faults found")  # fmt: skip
+              f"{sum(entry[1] for entry in result)} of {len(result)} faults found")  # fmt: skip
 
 
 if __name__ == "__main__":

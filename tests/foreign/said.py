@@ -599,8 +599,8 @@ def at_random() -> Iterator[str]:
         outside = [place for place in f.cells if place not in f.where.values()]
         told = []
         for places in (outside, list(f.cells), list(f.where.values())):
-            here, other = r.choice(places), r.choice(places)
-            there = f"'{other[0]}'!{layouts.letters(other[2])}{other[1]}"
+            here, another = r.choice(places), r.choice(places)
+            there = f"'{another[0]}'!{layouts.letters(another[2])}{another[1]}"
             content = r.choice(CONTENTS)
             if isinstance(content, str):
                 content = content.format(c=there)
@@ -638,10 +638,10 @@ def page(f: Foreign, wrong: writers.Values | None = None) -> Iterator[str]:
             writers.with_xlsxwriter(f, path, values, wrong)
         else:
             writers.with_openpyxl(f, path)
-        found = check(path)
-    record = check_record(found) | {"file": "FILE"}
+        result = check(path)
+    record = check_record(result) | {"file": "FILE"}
     yield f"* {f.name}"
-    text = show.html(record, found.differences, found.calculation)
+    text = show.html(record, result.differences, result.calculation)
     sheets = text.partition('<h2 id="sheets">')[2].partition("<h2")[0]
     rows: list[str] = []
     for line in sheets.split("\n"):
@@ -785,8 +785,8 @@ def compared_otherwise() -> Iterator[str]:
         def file(name: str, f: Foreign) -> Path:
             return writers.with_openpyxl(f, Path(folder, f"{name}.xlsx"))
 
-        def told(title: str, found: Comparison) -> Iterator[str]:
-            record = diff_record(found)
+        def told(title: str, result: Comparison) -> Iterator[str]:
+            record = diff_record(result)
             yield f"* {title} -> {int(not record['clean'])}"
             yield from (f"  {_shown(line)}" for line in show.text(record).split("\n")[1:] if line)
 
@@ -894,9 +894,9 @@ def said(
     for taken, usual in zip(_taken_of(record), before * len(record["taken"]), strict=False):
         here = {entry.partition(" ")[0] for entry in taken}
         gone = [role for entry in usual[1:] if (role := entry.partition(" ")[0]) not in here]
-        other = [entry for entry in taken if entry not in usual] + [f"no {role}" for role in gone]
-        if other:
-            yield f"  taken: {', '.join(other)}"
+        another = [entry for entry in taken if entry not in usual] + [f"no {role}" for role in gone]
+        if another:
+            yield f"  taken: {', '.join(another)}"
 
 
 _RIGHT: dict[tuple[str, Impact], list[list[str]]] = {}
@@ -931,12 +931,12 @@ def _difference(d: Mapping[str, Any]) -> str:
     return f"{d['cell']}{cells}, {d['kind']}: {holds}{_shown(d['explanation'])}{effect}"
 
 
-def _apart(found: object, expected: object) -> str:
+def _apart(result: object, expected: object) -> str:
     """How far apart two numbers are that look the same here."""
-    if not isinstance(found, float) or not isinstance(expected, float) or found == expected:
+    if not isinstance(result, float) or not isinstance(expected, float) or result == expected:
         return ""
-    off = found / expected - 1 if expected else 1.0
-    return f" ({off:+.0e} of it)" if _number(found) == _number(expected) else ""
+    off = result / expected - 1 if expected else 1.0
+    return f" ({off:+.0e} of it)" if _number(result) == _number(expected) else ""
 
 
 def _um(depth: float | None) -> str:

@@ -33,11 +33,11 @@ def calculated(f: Foreign, path: Path) -> Values:
     """What each formula gives, by an engine that the program under test does not use."""
     from spreadsheets.engines import Formualizer, address
 
-    found = Formualizer().recalculate(with_openpyxl(f, path))
+    result = Formualizer().recalculate(with_openpyxl(f, path))
     return {
-        place: found[place[0]][address(place[1], place[2])]
+        place: result[place[0]][address(place[1], place[2])]
         for place in f.cells
-        if address(place[1], place[2]) in found[place[0]]
+        if address(place[1], place[2]) in result[place[0]]
     }
 
 

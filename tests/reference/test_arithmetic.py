@@ -259,10 +259,14 @@ def test_floats_agree_with_reals(x: F, y: F) -> None:
 
 @pytest.mark.parametrize("ar", [Reals(20), Rationals(), Floats()], ids=lambda ar: type(ar).__name__)
 def test_points_are_below_or_not(ar: Any) -> None:
-    one, two = ar.number(1), ar.number(2)
-    assert [ar.below(one, two), ar.below(two, one), ar.below(one, one)] == [True, False, False]
+    first, two = ar.number(1), ar.number(2)
+    assert [ar.below(first, two), ar.below(two, first), ar.below(first, first)] == [
+        True,
+        False,
+        False,
+    ]
     with pytest.raises(ValueError, match="too many"):
-        ar.hull([one, two])
+        ar.hull([first, two])
 
 
 def test_global_precision_is_left_alone() -> None:

@@ -88,6 +88,6 @@ def test_a_computation_uses_the_equations_that_it_names_and_no_others(claim: Cla
         for equation in LEDGER.equations:
             left, _, right = LEDGER.printed_text(equation).rpartition("=")
             changed = LEDGER.misprint(equation, f"{left}= 3 ({right})")
-            other = changed.function(claim, reading=reading)(Floats(), **point)
+            another = changed.function(claim, reading=reading)(Floats(), **point)
             if value:
-                assert (other != value) == (equation in computation.equations), equation
+                assert (another != value) == (equation in computation.equations), equation

@@ -69,20 +69,20 @@ def at(name: str, x: F) -> F:
 def test_a_range_holds_every_value_and_is_sharp_where_the_function_is_monotone(
     name: str, search: tuple[F, F]
 ) -> None:
-    found = enclose(FUNCTIONS[name], {"x": search})
+    result = enclose(FUNCTIONS[name], {"x": search})
     values = [at(name, x) for x in samples(*search)]
-    assert found.ends[0] <= min(values)
-    assert max(values) <= found.ends[1]
+    assert result.ends[0] <= min(values)
+    assert max(values) <= result.ends[1]
     if name in MONOTONE:
-        assert found.signs == {"x": MONOTONE[name]}
+        assert result.signs == {"x": MONOTONE[name]}
     if name != "stairs":
         increasing = all(a <= b for a, b in pairwise(values))
         falling = all(a >= b for a, b in pairwise(values))
-        assert found.signs["x"] != 1 or increasing
-        assert found.signs["x"] != -1 or falling
-        if found.signs["x"]:
-            assert max(values) - min(values) + F(1, 10**25) >= found.ends[1] - found.ends[0]
-    assert (found.idle == {"x"}) <= (len(set(values)) == 1)
+        assert result.signs["x"] != 1 or increasing
+        assert result.signs["x"] != -1 or falling
+        if result.signs["x"]:
+            assert max(values) - min(values) + F(1, 10**25) >= result.ends[1] - result.ends[0]
+    assert (result.idle == {"x"}) <= (len(set(values)) == 1)
 
 
 @settings(max_examples=150)
@@ -90,24 +90,24 @@ def test_a_range_holds_every_value_and_is_sharp_where_the_function_is_monotone(
 def test_exploring_finds_a_point_or_proves_that_there_is_none(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
-    found = explore(FUNCTIONS[name], {"x": search}, target)
+    result = explore(FUNCTIONS[name], {"x": search}, target)
     values = [at(name, x) for x in samples(*search)]
-    assert found.ends[0] <= min(values)
-    assert max(values) <= found.ends[1]
-    if found.inside is not None:
-        (x,) = found.inside.values()
+    assert result.ends[0] <= min(values)
+    assert max(values) <= result.ends[1]
+    if result.inside is not None:
+        (x,) = result.inside.values()
         assert search[0] < x < search[1], "an open end does not belong to the box"
         assert target.contains(at(name, x))
-        assert not found.never
-    if found.never:
+        assert not result.never
+    if result.never:
         assert not any(map(target.contains, values))
     if name == "stairs":
         return
     # Undecided are only coincidences: a target that is a point, or touched at its very end.
     deep = [x for x in values if target.encloses(x - F(1, 10**4), x + F(1, 10**4))]
     far = all(target.excludes(x - F(1, 10), x + F(1, 10)) for x in values)
-    assert found.inside is not None or not deep
-    assert found.never or not far
+    assert result.inside is not None or not deep
+    assert result.never or not far
 
 
 @settings(max_examples=150)
@@ -115,18 +115,18 @@ def test_exploring_finds_a_point_or_proves_that_there_is_none(
 def test_solutions_are_inside_and_nothing_else_is(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
-    found = solve(FUNCTIONS[name], "x", search, target)
-    for low, high in found.inner:
+    result = solve(FUNCTIONS[name], "x", search, target)
+    for low, high in result.inner:
         assert all(target.contains(at(name, x)) for x in samples(low, high, 20)), "inner"
     for x in samples(*search):
-        if not any(low <= x <= high for low, high in found.outer):
+        if not any(low <= x <= high for low, high in result.outer):
             assert not target.contains(at(name, x)), "outer"
-        assert found.admits(x) <= target.contains(at(name, x))
-    assert found.reaches_an_end == any(
-        part[0] == search[0] or part[1] == search[1] for part in found.outer
+        assert result.admits(x) <= target.contains(at(name, x))
+    assert result.reaches_an_end == any(
+        part[0] == search[0] or part[1] == search[1] for part in result.outer
     )
     if name not in ("stairs", "flat") and not target.is_point:
-        open_ = sum(b - a for a, b in found.outer) - sum(b - a for a, b in found.inner)
+        open_ = sum(b - a for a, b in result.outer) - sum(b - a for a, b in result.inner)
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
@@ -146,8 +146,8 @@ A, B, C = (2 * math.cos(math.radians(angle)) for angle in (80, 40, 20))
     ],
 )
 def test_known_solutions(name: str, target: Interval, inner: list[tuple[F, F]]) -> None:
-    found = solve(FUNCTIONS[name], "x", (F(-3), F(3)), target, 500)
-    for part in (found.inner, found.outer):
+    result = solve(FUNCTIONS[name], "x", (F(-3), F(3)), target, 500)
+    for part in (result.inner, result.outer):
         assert len(part) == len(inner)
         for ends, expected in zip(part, inner, strict=True):
             assert ends == pytest.approx(expected, abs=1e-9 if name != "stairs" else 0.05)
@@ -155,8 +155,8 @@ def test_known_solutions(name: str, target: Interval, inner: list[tuple[F, F]]) 
 
 def test_what_a_budget_leaves_open_is_neither_found_nor_excluded() -> None:
     search, target = (F(-3), F(3)), Interval(F(2), F(6))
-    found = solve(FUNCTIONS["parabola"], "x", search, target, budget=1)
-    assert (found.inner, found.outer, found.reaches_an_end) == ((), (search,), True)
+    result = solve(FUNCTIONS["parabola"], "x", search, target, budget=1)
+    assert (result.inner, result.outer, result.reaches_an_end) == ((), (search,), True)
     cut = explore(FUNCTIONS["cubic"], {"x": search}, Interval(F(-5, 2), F(-49, 20)), budget=2)
     assert (cut.inside, cut.never) == (None, False)
     assert satisfying([(FUNCTIONS["cubic"], target)], {"x": search}, budget=0) == (None, None)
@@ -166,8 +166,8 @@ def test_a_point_that_straddles_an_end_is_undecided_at_once() -> None:
     def itself(ar: Any, x: Any) -> Any:
         return ar.power(x, F(1, 3)) ** 3
 
-    found = explore(itself, {"x": (F(1, 3), F(1, 3))}, Interval(F(1, 3), None))
-    assert (found.inside, found.never) == (None, False)
+    result = explore(itself, {"x": (F(1, 3), F(1, 3))}, Interval(F(1, 3), None))
+    assert (result.inside, result.never) == (None, False)
     touched = solve(itself, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
     assert touched.inner == ()
     assert touched.outer[0][0] == F(1, 3)
@@ -184,8 +184,8 @@ def test_undefined_values_prove_nothing() -> None:
 
 
 def test_an_exact_result_is_its_own_range() -> None:
-    found = enclose(lambda ar, x: F(1, 3), {"x": (F(0), F(1))})
-    assert (found.ends, found.idle) == ((F(1, 3), F(1, 3)), {"x"})
+    result = enclose(lambda ar, x: F(1, 3), {"x": (F(0), F(1))})
+    assert (result.ends, result.idle) == ((F(1, 3), F(1, 3)), {"x"})
 
 
 # Several inputs
@@ -216,10 +216,10 @@ def test_boxes_of_two_inputs(
     assert whole.ends[0] <= min(values) <= max(values) <= whole.ends[1]
     if whole.is_monotone:  # the corners are on the grid
         assert whole.ends == pytest.approx((min(values), max(values)), abs=1e-20)
-    found = explore(function, box, target, budget=60)
-    if found.inside is not None:
-        assert target.contains(function(EXACT, **found.inside))
-    assert not (found.never and any(map(target.contains, values)))
+    result = explore(function, box, target, budget=60)
+    if result.inside is not None:
+        assert target.contains(function(EXACT, **result.inside))
+    assert not (result.never and any(map(target.contains, values)))
     outcome, point = satisfying([(function, target)], box, budget=60)
     assert outcome is not False or not any(map(target.contains, values))
     assert (point is not None) == (outcome is True)
@@ -229,8 +229,8 @@ def test_boxes_of_two_inputs(
 
 def test_a_wide_input_frees_the_sign_of_another() -> None:
     """y falls or rises with the sign of x - 1/2, which x's own end settles."""
-    found = enclose(saddle, {"x": (F(2), F(3)), "y": (F(2), F(4))})
-    assert (found.ends, found.signs) == ((1, 7), {"x": 1, "y": 1})
+    result = enclose(saddle, {"x": (F(2), F(3)), "y": (F(2), F(4))})
+    assert (result.ends, result.signs) == ((1, 7), {"x": 1, "y": 1})
 
 
 def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
@@ -256,11 +256,11 @@ def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
 )  # fmt: skip
 def test_how_far_one_input_can_range(given_: list[Constraint], attained: Any, bounds: Any) -> None:
     box = {"x": (F(1, 8), F(9)), "y": (F(1), F(2))}
-    found, outer = extent(given_, "x", box, start=F(2))
+    result, outer = extent(given_, "x", box, start=F(2))
     # Open ends are kept off by a millionth.
-    assert found == pytest.approx(attained, abs=1e-5)
+    assert result == pytest.approx(attained, abs=1e-5)
     assert outer == pytest.approx(bounds, abs=1e-9)
-    assert outer[0] <= found[0] <= found[1] <= outer[1]
+    assert outer[0] <= result[0] <= result[1] <= outer[1]
     for x, y in product([F(k, 16) for k in range(2, 145)], GRID):
         if all(target.contains(f(EXACT, x, 1 + y)) for f, target in given_):
             assert outer[0] <= x <= outer[1]

@@ -60,7 +60,7 @@ def test_a_claim_stands_where_its_quote_does_and_nowhere_else(claim: Claim) -> N
     assert LEDGER.text.count(before + text + after) == 1
     assert LEDGER.text.count("\n", 0, start) + 1 == claim.place.line
     # Without it, its words would be uncovered.
-    others = [other for other in CLAIMS if other is not claim]
+    others = [another for another in CLAIMS if another is not claim]
     left = [(line, word.lower()) for line, word in uncovered(LEDGER.text, others, FURNITURE)]
     words = re.findall(r"\d+", text) or re.split("[ -]", text.lower().removesuffix(" times"))
     if claim.kind in ("comparison", "remark"):

@@ -195,5 +195,5 @@ def test_more_digits_change_nothing(extreme: str) -> None:
     place, value = EXTREMES[extreme]
     case = [*SHALLOW[:place], value, *SHALLOW[place + 1 :]]
     few, many = Trajectory(*case, digits=30), Trajectory(*case, digits=60)
-    for one, two in ((few.final_depth, many.final_depth), (few.stop_time(), many.stop_time())):
-        assert abs(many.context.convert(one) / two - 1) < mpmath.mpf(10) ** -28
+    for first, two in ((few.final_depth, many.final_depth), (few.stop_time(), many.stop_time())):
+        assert abs(many.context.convert(first) / two - 1) < mpmath.mpf(10) ** -28

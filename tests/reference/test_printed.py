@@ -170,15 +170,15 @@ BETWEEN = [F(k, 8) for k in range(-20, 21)]
 
 
 @given(intervals(), intervals(), NUMBERS, NUMBERS)
-def test_intervals_against_their_members(one: Interval, two: Interval, a: F, b: F) -> None:
+def test_intervals_against_their_members(first: Interval, two: Interval, a: F, b: F) -> None:
     low, high = sorted([a, b])
     inside = [x for x in BETWEEN if low <= x <= high]
-    assert one.encloses(low, high) == all(one.contains(x) for x in inside)
-    assert one.excludes(low, high) == (not any(one.contains(x) for x in inside))
-    assert one.meets(two) == any(one.contains(x) and two.contains(x) for x in BETWEEN)
-    assert one.meets(two) == two.meets(one)
-    assert one.scaled(F(3)).contains(3 * a) == one.contains(a)
-    assert one.is_point == (sum(map(one.contains, BETWEEN)) == 1)
+    assert first.encloses(low, high) == all(first.contains(x) for x in inside)
+    assert first.excludes(low, high) == (not any(first.contains(x) for x in inside))
+    assert first.meets(two) == any(first.contains(x) and two.contains(x) for x in BETWEEN)
+    assert first.meets(two) == two.meets(first)
+    assert first.scaled(F(3)).contains(3 * a) == first.contains(a)
+    assert first.is_point == (sum(map(first.contains, BETWEEN)) == 1)
 
 
 def test_an_empty_interval_and_a_missing_end_are_refused() -> None:

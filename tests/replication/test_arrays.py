@@ -104,11 +104,11 @@ def test_compiled_is_plain_to_the_last_bit(model: Callable[..., Any]) -> None:
 def test_compiled_histories_are_plain_to_the_last_bit() -> None:
     columns = drawn(2000, *MOTION)
     times = arrays.stop_time(*columns)[:, None] * np.array([0.1, 0.5, 0.9, 1.1])
-    found = history(times, *(column[:, None] for column in columns))
+    result = history(times, *(column[:, None] for column in columns))
     for k, case in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
         depths, speeds = [0.0] * 4, [0.0] * 4
         motion.history(times[k].tolist(), *case, depths, speeds)
-        assert (found[0][k].tolist(), found[1][k].tolist()) == (depths, speeds)
+        assert (result[0][k].tolist(), result[1][k].tolist()) == (depths, speeds)
 
 
 @pytest.mark.parametrize("centered", [False, True])
@@ -117,9 +117,9 @@ def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -
     ranges = ((1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
     columns = drawn(count, *ranges)
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
-    found = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
+    result = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
     depth, steps = [0.0], [0]
-    for *row, x, k in zip(*(column.tolist() for column in (*columns, *found)), strict=True):
+    for *row, x, k in zip(*(column.tolist() for column in (*columns, *result)), strict=True):
         sheet.last_row(*row, 0.9, centered, depth, steps)
         assert (depth[0], steps[0]) == (x, k)
 
@@ -252,11 +252,11 @@ def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
         return False
 
     names = ("velocity", "radius", "particle_density", "target_density", "resistance")
-    one = refused(lambda: Impact(**dict(zip(names, case, strict=True)), step=1.0))
-    assert one == refused(lambda: arrays.final_depth(*case))
-    assert one == refused(lambda: arrays.final_depth([case[0]], *case[1:]))
+    first = refused(lambda: Impact(**dict(zip(names, case, strict=True)), step=1.0))
+    assert first == refused(lambda: arrays.final_depth(*case))
+    assert first == refused(lambda: arrays.final_depth([case[0]], *case[1:]))
     if all(1e-40 <= value <= 1e40 for value in case):
-        assert not one
+        assert not first
 
 
 @pytest.mark.parametrize(
@@ -309,8 +309,8 @@ def test_labels_units_and_names_of_the_inputs_are_not_the_results() -> None:
     velocity = xarray.DataArray([400.0, 500.0], {"case": ["a", "b"]}, name="velocity")
     velocity.attrs["units"] = "m/s"
     with xarray.set_options(keep_attrs=True):
-        found = (arrays.final_depth(velocity, *CASE[1:]), *history(1e-9, velocity, *CASE[1:]))
-    for result in found:
+        actual = (arrays.final_depth(velocity, *CASE[1:]), *history(1e-9, velocity, *CASE[1:]))
+    for result in actual:
         assert (result.name, result.attrs) == (None, {})
         assert result.case.values.tolist() == ["a", "b"]
     grid = history(xarray.DataArray([1e-9] * 3, dims="time"), velocity, *CASE[1:])
@@ -323,10 +323,10 @@ def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
     matched = arrays.final_depth(velocity, radius, *CASE[2:])
     assert matched["b"] == arrays.final_depth(500.0, 2e-5, *CASE[2:])
     minus = pd.Series([1.0, -1.0], ["a", "b"])
-    other = pd.Series([1.0, 1.0], ["a", "c"])
+    another = pd.Series([1.0, 1.0], ["a", "c"])
     refusals: list[tuple[Any, Any, type[Exception], str]] = [
         (minus, radius, ValueError, r"^velocity\[b\] is -1\.0: it must"),
-        (other, radius, ValueError, "^radius must have the labels of the first Series, so [bc] "),
+        (another, radius, ValueError, "^radius must have the labels of the first Series, so [bc] "),
         (velocity, radius.iloc[:1], ValueError, "^radius must have the labels .*, so a too"),
         (velocity, [1e-5], TypeError, r"^radius is a list of shape \(1,\): beside a Series give"),
         (velocity, radius.to_frame(), TypeError, r"^radius is a DataFrame of shape \(2, 1\): be"),
@@ -344,8 +344,8 @@ def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
     velocity, radius = np.linspace(300, 900, 30), np.linspace(1e-6, 1e-4, 30)
     expected = arrays.final_depth(velocity, radius, *CASE[2:])
     lazy = dask.array.from_array(velocity, 7)
-    for other in (radius, dask.array.from_array(radius, 11), radius.tolist()):
-        np.testing.assert_array_equal(arrays.final_depth(lazy, other, *CASE[2:]), expected)
+    for another in (radius, dask.array.from_array(radius, 11), radius.tolist()):
+        np.testing.assert_array_equal(arrays.final_depth(lazy, another, *CASE[2:]), expected)
     table = arrays.final_depth(lazy[:, None], dask.array.from_array(radius, 4), *CASE[2:])
     assert table.shape == (30, 30)
     np.testing.assert_array_equal(np.diag(table.compute()), expected)
@@ -360,16 +360,16 @@ def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
 def test_threads_and_dask_share_out_nothing_twice() -> None:
     velocities = np.linspace(300, 900, 200_000)
     expected = arrays.final_depth(velocities, *CASE[1:])
-    found: list[Any] = []
+    actual: list[Any] = []
     threads = [
-        threading.Thread(target=lambda: found.append(arrays.final_depth(velocities, *CASE[1:])))
+        threading.Thread(target=lambda: actual.append(arrays.final_depth(velocities, *CASE[1:])))
         for _ in range(8)
     ]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    for result in found:
+    for result in actual:
         np.testing.assert_array_equal(result, expected)
     lazy = arrays.final_depth(dask.array.from_array(velocities, 50_000), *CASE[1:])
     with dask.config.set(scheduler="threads", num_workers=8):
@@ -418,8 +418,8 @@ def test_without_a_place_to_keep_it_only_the_compilation_is_done_again(tmp_path:
     (tmp_path / "replication" / "models" / "__pycache__").touch()  # not even root can write there
     (tmp_path / "home").touch()
     nowhere = str(tmp_path / "home" / "cache")
-    found = in_a_copy(tmp_path, HOME=nowhere, XDG_CACHE_HOME=nowhere)
-    assert found == (f"{depth.final_depth(*CASE)}\n", "")
+    result = in_a_copy(tmp_path, HOME=nowhere, XDG_CACHE_HOME=nowhere)
+    assert result == (f"{depth.final_depth(*CASE)}\n", "")
 
 
 def test_what_is_kept_goes_by_the_source_of_all_models(tmp_path: Path) -> None:

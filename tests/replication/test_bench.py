@@ -290,9 +290,9 @@ def test_the_table_says_it_all(run_of_fakes: dict[str, Any]) -> None:
         "  history of many cases, 15 digits: none of these",
     ]
     (case,) = run_of_fakes["cases"]
-    other = case | {"name": "beta-3", "ratios": [dict(ratio) for ratio in case["ratios"]]}
-    other["ratios"][0] |= {"fastest": "RK4, 100 steps", "peer": 1e-6, "ratio": 0.1}
-    text = texts(run_of_fakes | {"repeat": 1, "cases": [case, other]})["bench.txt"]
+    another = case | {"name": "beta-3", "ratios": [dict(ratio) for ratio in case["ratios"]]}
+    another["ratios"][0] |= {"fastest": "RK4, 100 steps", "peer": 1e-6, "ratio": 0.1}
+    text = texts(run_of_fakes | {"repeat": 1, "cases": [case, another]})["bench.txt"]
     assert "best and median of 1 repeat that" in text
     assert (
         "  final depth, 1 digit: closed form (beta-5), RK4 (beta-3), 1 to 10 us; the others' best "

@@ -126,9 +126,9 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
     if saved_by == "LibreOffice":
         require_libreoffice()
         (path,) = writers.with_libreoffice([path], tmp_path)
-    found = check(path)
-    assert found.first is None
-    sheets = {f.table.sheet: f for f in found.examinations}
+    result = check(path)
+    assert result.first is None
+    sheets = {f.table.sheet: f for f in result.examinations}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
         inputs = sheets[sheet].inputs
@@ -149,11 +149,11 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
         Column("", "D", "v_half", None, f"=B{{r}}-{force % 'B{r}'}*F$2/2"),
         Column(BRAKE, "E", "a", None, f"={force % 'D{r}'}"),
     ], steps=130)  # fmt: skip
-    found = check(written(f, tmp_path))
-    (examination,) = found.examinations
+    result = check(written(f, tmp_path))
+    (examination,) = result.examinations
     assert END not in examination.table.lines
     assert examination.rules.name == "centered"
-    assert found.first.place == (s, 7, 5)
+    assert result.first.place == (s, 7, 5)
 
 
 def by_hand(rows: int = 131, **changes: str | float | None) -> Foreign:
@@ -211,8 +211,8 @@ def test_a_sheet_gone_wrong_is_known_by_its_formulas(tmp_path: Path) -> None:
 
 def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -> None:
     rows = midpoint.run(replace(BETA_5, step=3e-10)).steps
-    found = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
-    assert found.examinations[0].inputs["step"].place == ("Sheet1", 2, 5)
+    result = check(written(by_hand(rows, D2="tau", E2=3e-10), tmp_path))
+    assert result.examinations[0].inputs["step"].place == ("Sheet1", 2, 5)
 
 
 @given(
@@ -236,9 +236,9 @@ def test_a_right_sheet_of_other_inputs_is_clean(
     )  # fmt: skip
     rows = min(midpoint.run(impact).steps, 20)
     assume(rows > 5)
-    found = check(written(layouts.plain(impact, rows), tmp_path_factory.mktemp("right")))
-    assert found.first is None
-    assert {own.how for own in found.examinations[0].inputs.values()} <= {"label", "follows"}
+    result = check(written(layouts.plain(impact, rows), tmp_path_factory.mktemp("right")))
+    assert result.first is None
+    assert {own.how for own in result.examinations[0].inputs.values()} <= {"label", "follows"}
 
 
 # ---- where it cannot tell

@@ -51,15 +51,15 @@ def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: st
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
 def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
-    found = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
-    assert found.levels[-1].time_step_order == pytest.approx(ladder.ORDER[scheme], abs=0.02)
+    result = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
+    assert result.levels[-1].time_step_order == pytest.approx(ladder.ORDER[scheme], abs=0.02)
 
 
 def test_without_drag_the_published_scheme_is_second_order() -> None:
     """Why it is first order: only the drag depends on the velocity that it takes too early."""
     dragless = replace(BETA_5, target_density=1e-6)
-    found = ladder.converge(dragless, ladder.ladder(1e-10, 6))
-    assert found.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
+    result = ladder.converge(dragless, ladder.ladder(1e-10, 6))
+    assert result.levels[-1].time_step_order == pytest.approx(2, abs=0.05)
 
 
 def level(step: float, depth: float) -> ladder.Level:
@@ -78,10 +78,10 @@ def test_richardson_on_depths_of_known_order(
     order: int, ratio: float, assumed: int, gci: float
 ) -> None:
     levels = [level(h, 5.0 + 0.25 * h**order) for h in (ratio**2, ratio, 1.0)]
-    found = ladder._extrapolated(levels, assumed)
-    assert found.observed_order == pytest.approx(order, rel=1e-12)
-    assert order == 4 or found.limit == pytest.approx(5.0, rel=1e-14)
-    assert found.gci == pytest.approx(gci, rel=1e-12)
+    result = ladder._extrapolated(levels, assumed)
+    assert result.observed_order == pytest.approx(order, rel=1e-12)
+    assert order == 4 or result.limit == pytest.approx(5.0, rel=1e-14)
+    assert result.gci == pytest.approx(gci, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -112,15 +112,15 @@ def test_the_refusal_counts_steps_down_to_the_stop_velocity() -> None:
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
 @pytest.mark.parametrize("scheme", ladder.ORDER)
 def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
-    found = ladder.step_for_digits(BETA_5, digits, scheme)
+    result = ladder.step_for_digits(BETA_5, digits, scheme)
     rest = float(exact_motion(BETA_5).final_depth)
     allowed = 0.5 * 10.0 ** (-5 - digits)  # the depth is 7.67e-6 m
-    for step in (found.step, found.step / 2, found.step / 4):
+    for step in (result.step, result.step / 2, result.step / 4):
         depth = run(replace(BETA_5, step=step), scheme).final_depth
         assert abs(depth - rest) <= allowed
-    assert found.step < found.fails <= 1.0101 * found.step
+    assert result.step < result.fails <= 1.0101 * result.step
     failing = [
-        abs(run(replace(BETA_5, step=found.fails / 2**k), scheme).final_depth - rest) > allowed
+        abs(run(replace(BETA_5, step=result.fails / 2**k), scheme).final_depth - rest) > allowed
         for k in range(4)
     ]
     assert any(failing)

@@ -50,17 +50,17 @@ def test_solutions_give_the_number_and_what_is_excluded_does_not(claim: str) -> 
     assert set(solved(claim)) == {
         (reading, entry) for reading in ("", DERIVED) for entry in LEDGER.claims[claim].entries
     }
-    for (reading, entry), found in solved(claim).items():
-        for low, high in found.inner:
+    for (reading, entry), result in solved(claim).items():
+        for low, high in result.inner:
             for share in (F(1, 100), F(1, 2), F(99, 100)):
                 x = low + share * (high - low)
                 assert target.contains(value(claim, reading, entry, x)), entry
-        low, high = found.search
+        low, high = result.search
         for k in range(21):
             x = low * F(float(high / low) ** (k / 20))
-            if not any(a <= x <= b for a, b in found.outer):
+            if not any(a <= x <= b for a, b in result.outer):
                 assert not target.contains(value(claim, reading, entry, x)), entry
-        assert bool(found.inner) == bool(found.outer), "nothing is undecided"
+        assert bool(result.inner) == bool(result.outer), "nothing is undecided"
 
 
 def test_a_choice_whose_claims_disagree_is_shown_by_none() -> None:
@@ -79,41 +79,41 @@ NUMBERS = st.one_of(
 )
 
 
-def distance(one: str, two: str) -> int:
+def distance(first: str, two: str) -> int:
     """Damerau and Levenshtein's: changes, insertions, deletions, and swaps of neighbors."""
-    rows = {(i, -1): i + 1 for i in range(-1, len(one))} | {
+    rows = {(i, -1): i + 1 for i in range(-1, len(first))} | {
         (-1, j): j + 1 for j in range(-1, len(two))
     }
-    for i, a in enumerate(one):
+    for i, a in enumerate(first):
         for j, b in enumerate(two):
             ways = [rows[i - 1, j] + 1, rows[i, j - 1] + 1, rows[i - 1, j - 1] + (a != b)]
-            if i and j and a == two[j - 1] and b == one[i - 1]:
+            if i and j and a == two[j - 1] and b == first[i - 1]:
                 ways.append(rows[i - 2, j - 2] + 1)
             rows[i, j] = min(ways)
-    return rows[len(one) - 1, len(two) - 1]
+    return rows[len(first) - 1, len(two) - 1]
 
 
 @given(NUMBERS)
 def test_every_edit_of_a_number_is_one_slip_away_and_stands_once(text: str) -> None:
-    found = list(edits(text))
-    assert len({edited for edited, _ in found} | {text}) == len(found) + 1
-    for edited, kind in found:
+    result = list(edits(text))
+    assert len({edited for edited, _ in result} | {text}) == len(result) + 1
+    for edited, kind in result:
         mantissa, _, power = text.partition("E")
-        other, _, shifted = edited.partition("E")
+        another, _, shifted = edited.partition("E")
         if kind == "exponent changed":
-            assert other == mantissa
+            assert another == mantissa
             assert int(shifted) in (int(power) - 1, int(power) + 1, -int(power))
         else:
             assert shifted == power
-            assert distance(mantissa.replace(".", ""), other.replace(".", "")) <= 1
+            assert distance(mantissa.replace(".", ""), another.replace(".", "")) <= 1
             assert kind in NUMBER_EDITS
 
 
 def test_edits_of_words_and_of_the_reports_powers() -> None:
-    found = dict(edits(r"9.13 \times 10^9"))
-    assert found[r"9.13 \times 10^8"] == "exponent changed"
-    assert found[r"9.31 \times 10^9"] == "digits swapped"
-    assert not any(text.endswith("11^9") for text in found)
+    result = dict(edits(r"9.13 \times 10^9"))
+    assert result[r"9.13 \times 10^8"] == "exponent changed"
+    assert result[r"9.31 \times 10^9"] == "digits swapped"
+    assert not any(text.endswith("11^9") for text in result)
     assert dict(edits("Four"))["Five"] == "other word"
     shifted = {text for text, kind in edits("1E1") if kind == "exponent changed"}
     assert shifted == {"1E0", "1E2", "1E-1"}
@@ -122,15 +122,15 @@ def test_edits_of_words_and_of_the_reports_powers() -> None:
 
 
 def test_edits_of_an_equation() -> None:
-    found = dict(equation_edits(LEDGER.printed_text("eq16"), LEDGER.written, LEDGER.dimensions))
-    assert set(found.values()) == set(EQUATION_EDITS)
-    sides = {text: LEDGER.misprint("eq16", text).sides["eq16"] for text in found}
-    same = {text for text in found if sides[text] == LEDGER.sides["eq16"]}
+    result = dict(equation_edits(LEDGER.printed_text("eq16"), LEDGER.written, LEDGER.dimensions))
+    assert set(result.values()) == set(EQUATION_EDITS)
+    sides = {text: LEDGER.misprint("eq16", text).sides["eq16"] for text in result}
+    same = {text for text in result if sides[text] == LEDGER.sides["eq16"]}
     for text in same:  # only where the edit leaves no equation
         with pytest.raises(EquationError):
             LEDGER.read(text)
     assert len(same) == 2
-    assert r"X/R = ((L/D \rho_p/\rho_t + k_1)/kt)\ln(1+k_t\rho_t V^2/R_t)" in found
+    assert r"X/R = ((L/D \rho_p/\rho_t + k_1)/kt)\ln(1+k_t\rho_t V^2/R_t)" in result
 
 
 # Misprints
@@ -148,16 +148,16 @@ MENDED = {
 @pytest.mark.parametrize(("name", "text"), MENDED)
 def test_the_original_mends_what_a_misprint_spoils(name: str, text: str) -> None:
     ledger = LEDGER.misprint(name, text)
-    found = Explainer(Judge(ledger)).repairs(MENDED[name, text])
+    result = Explainer(Judge(ledger)).repairs(MENDED[name, text])
     printed = LEDGER.claims[name].text
-    mending = [r for r in found if r.entry == name and r.text == printed]
+    mending = [r for r in result if r.entry == name and r.text == printed]
     if name == "eq3-factor":  # two edits away
         assert mending == []
         return
     (repair,) = mending
     assert set(repair.failing) <= {"eq16", *PAIR, "eq16-denominator"}
-    assert [len(r.failing) for r in found if not r.reading] == sorted(
-        len(r.failing) for r in found if not r.reading
+    assert [len(r.failing) for r in result if not r.reading] == sorted(
+        len(r.failing) for r in result if not r.reading
     )
 
 
@@ -165,8 +165,8 @@ def test_the_original_mends_what_a_misprint_spoils(name: str, text: str) -> None
     ("name", "text"), [("elastic-modulus", "20"), ("yield-strength", "251"), ("flow-stress", "710")]
 )
 def test_a_number_that_nothing_computes_is_mended_in_its_own_place(name: str, text: str) -> None:
-    found = Explainer(Judge(LEDGER.misprint(name, text))).repairs(name)
-    assert [(r.entry, r.text) for r in found] == [(name, LEDGER.claims[name].text)]
+    result = Explainer(Judge(LEDGER.misprint(name, text))).repairs(name)
+    assert [(r.entry, r.text) for r in result] == [(name, LEDGER.claims[name].text)]
 
 
 def repaired() -> Ledger:

@@ -86,7 +86,7 @@ def test_what_more_is_known_narrows_it_and_rounding_widens_it() -> None:
 @pytest.mark.parametrize("choices_exact", [True, False])
 def test_no_table_drawn_at_random_leaves_what_is_called_possible(choices_exact: bool) -> None:
     convention = Convention(choices_exact=choices_exact)
-    found, possible = inference().admitted(convention)
+    result, possible = inference().admitted(convention)
     draw, kept = random.Random(304), []
     low, high = map(float, possible.ends)
 
@@ -106,7 +106,7 @@ def test_no_table_drawn_at_random_leaves_what_is_called_possible(choices_exact: 
             if all(LEDGER.claims[n].target().contains(F(v)) for n, v in shown.items()):
                 kept.append(density)
     assert low <= min(kept) < max(kept) <= high
-    assert max(kept) - min(kept) > 0.6 * float(found.ends[1] - found.ends[0])
+    assert max(kept) - min(kept) > 0.6 * float(result.ends[1] - result.ends[0])
 
 
 def test_evidence_is_checked_where_the_witness_stands() -> None:

@@ -39,9 +39,9 @@ def test_the_rates_on_the_page_are_measured_again() -> None:
 @pytest.mark.slow
 def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
     """On 50 plants: no claim or equation elsewhere fails because of one."""
-    for one in random.Random(3).sample(EVERYTHING, 50):
-        outcome = trial(TRUTH, one)
-        audit = Audit(LEDGER.misprint(one.entry, one.text), every_convention=False)
+    for first in random.Random(3).sample(EVERYTHING, 50):
+        outcome = trial(TRUTH, first)
+        audit = Audit(LEDGER.misprint(first.entry, first.text), every_convention=False)
         worse = {*OPEN, Verdict.DIFFERS}
         everything = {
             name
@@ -55,7 +55,7 @@ def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
             if audit.equation(name).verdict.is_failure
             and audit.equation(name).checks != TRUTH.equation(name).checks
         }
-        assert everything == outcome.failing, one
+        assert everything == outcome.failing, first
 
 
 def test_the_rates_of_a_small_sample_hold() -> None:

@@ -248,8 +248,8 @@ def ends_of(text: str) -> Sequence[float]:
 
 
 @given(doubles, doubles, st.integers(3, 12))
-def test_shortened_ranges_stay_true(one: float, other: float, digits: int) -> None:
-    low, high = sorted((one, other))
+def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
+    low, high = sorted((first, another))
     slack = 1e-14 * max(abs(low), abs(high))
     outer = ends_of(between((low, high), digits))
     if low < high:

@@ -37,9 +37,9 @@ def witnesses() -> Iterator[tuple[str, str, Judgement]]:
 
 
 def test_a_witness_prints_like_the_report_and_gives_the_number() -> None:
-    found = list(witnesses())
-    assert len(found) > 10
-    for name, reading, judgement in found:
+    result = list(witnesses())
+    assert len(result) > 10
+    for name, reading, judgement in result:
         claim, convention, witness = LEDGER.claims[name], judgement.convention, judgement.witness
         assert witness is not None
         for entry in claim.stated:
@@ -137,8 +137,8 @@ def test_a_wrong_depth_lies_outside_what_any_inputs_give() -> None:
     wrong = LEDGER.misprint("depth-beta-5", "7.76")
     claim = wrong.claims["depth-beta-5"]
     narrow, whole = Judge(wrong).box(claim, Convention())
-    found = enclose(wrong.function(claim), whole)
-    assert claim.target().excludes(*found.ends)
+    result = enclose(wrong.function(claim), whole)
+    assert claim.target().excludes(*result.ends)
     assert all(whole[key][0] <= low <= high <= whole[key][1] for key, (low, high) in narrow.items())
 
 

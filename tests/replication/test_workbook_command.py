@@ -139,14 +139,14 @@ def test_report_verifies_in_every_engine(run: Run, tmp_path: Path) -> None:
     record = json.loads(out)
     assert (status, record["file"], record["passed"]) == (0, "report.xlsx", True)
     assert 1e-14 < record["long_double_bound"] < 1e-12
-    outcomes = {found["engine"]: found["outcome"] for found in record["engines"]}
+    outcomes = {result["engine"]: result["outcome"] for result in record["engines"]}
     assert list(outcomes) == ["ironcalc", "formualizer", "libreoffice", "gnumeric"]
     assert outcomes["ironcalc"] == outcomes["formualizer"] == "verified"
-    for found in record["engines"]:
-        for sheet in found["sheets"]:
+    for result in record["engines"]:
+        for sheet in result["sheets"]:
             assert sheet["unexplained"] == []
             assert sheet["differ"] == sheet["explained"]
-            assert found["engine"] == "gnumeric" or sheet["differ"] == 0
+            assert result["engine"] == "gnumeric" or sheet["differ"] == 0
     cells = {sheet["sheet"]: sheet["cells"] for sheet in record["engines"][0]["sheets"]}
     assert cells["Sheet beta 5"] > 2500
 

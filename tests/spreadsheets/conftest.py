@@ -68,16 +68,16 @@ class Emitted:
 
 
 def _type(content: str, address: str, number: float | str | None) -> str:
-    found = re.search(rf'<c r="{address}"( s="\d+")?[^>]*>.*?</c>', content)
-    assert found is not None
-    start = f'<c r="{address}"{found[1]}'
+    result = re.search(rf'<c r="{address}"( s="\d+")?[^>]*>.*?</c>', content)
+    assert result is not None
+    start = f'<c r="{address}"{result[1]}'
     if number is None:
         cell = f"{start}/>"
     elif isinstance(number, str):
         cell = f'{start} t="inlineStr"><is><t>{number}</t></is></c>'
     else:
         cell = f"{start}><v>{number!r}</v></c>"
-    return content.replace(found[0], cell)
+    return content.replace(result[0], cell)
 
 
 @pytest.fixture(scope="session")

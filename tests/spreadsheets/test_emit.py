@@ -108,9 +108,9 @@ def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path)
         emit.write(path, OURS)
     assert path.read_bytes() == content
     emit.write(path, OURS, force=True)
-    other = emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": 2.5})
-    emit.write(path, other)
-    assert path.read_bytes() == other
+    another = emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": 2.5})
+    emit.write(path, another)
+    assert path.read_bytes() == another
 
 
 # The whole workbook's file

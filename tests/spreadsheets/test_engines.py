@@ -81,10 +81,10 @@ def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def recalculated(engine: Engine, workbook: Path) -> Recalculated:
     """Recalculate that workbook, once for each engine; it and its folder stay as they are."""
     before = workbook.read_bytes()
-    found = engine.recalculate(workbook)
+    result = engine.recalculate(workbook)
     assert workbook.read_bytes() == before
     assert list(workbook.parent.iterdir()) == [workbook]
-    return found
+    return result
 
 
 def test_engine_tells_its_version(engine: Engine) -> None:

@@ -46,14 +46,14 @@ def spoiled(
     extra: Mapping[str, bytes] | None = None,
 ) -> Path:
     """The same workbook with some of its parts changed or added."""
-    other = path.with_name("spoiled.xlsx")
-    with zipfile.ZipFile(path) as old, zipfile.ZipFile(other, "w", zipfile.ZIP_DEFLATED) as new:
+    another = path.with_name("spoiled.xlsx")
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(another, "w", zipfile.ZIP_DEFLATED) as new:
         for name in old.namelist():
             data = old.read(name)
             new.writestr(name, (change or {}).get(name, bytes)(data))
         for name, data in (extra or {}).items():
             new.writestr(name, data)
-    return other
+    return another
 
 
 def refusal(path: Path) -> str:

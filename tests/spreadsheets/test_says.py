@@ -104,7 +104,7 @@ class Page:
     """A recalculated workbook, read by key."""
 
     emitted: Any
-    found: Recalculated
+    result: Recalculated
 
     def __getitem__(self, key: str) -> Value:
         sheet, address = self.emitted.book.plan.where[key]
@@ -139,8 +139,8 @@ def pages(
         keys = {n: f"inputs.{n}" if n == "from" else f"inputs.{n}.typed" for n in typed}
         values = {keys[name]: value for name, value in typed.items()}
         paths.append(emitted.typed(values, folder / f"{number}.xlsx"))
-    found = usable(request.param).recalculate_many(paths)
-    return {name: Page(emitted, values) for name, values in zip(names, found, strict=True)}
+    result = usable(request.param).recalculate_many(paths)
+    return {name: Page(emitted, values) for name, values in zip(names, result, strict=True)}
 
 
 def no_cell_ever_shows_an_error(pages: dict[str, Page]) -> None:
@@ -190,9 +190,9 @@ def the_ladder_says_whose_it_is(pages: dict[str, Page]) -> None:
 
 def the_switch_brings_the_reports_inputs_back(pages: dict[str, Page]) -> None:
     page, report = pages["report"], pages["nothing"]
-    other = {*(f"inputs.{name}.typed" for name in TYPED["report"][0]), "inputs.from"}
+    another = {*(f"inputs.{name}.typed" for name in TYPED["report"][0]), "inputs.from"}
     for key in page.emitted.book.values:
-        assert key in other | {"inputs.message"} or page[key] == report[key], key
+        assert key in another | {"inputs.message"} or page[key] == report[key], key
 
 
 def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
@@ -224,8 +224,8 @@ def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path
     for first in range(6):
         blank = {f"inputs.{name}.typed": None for name in names[first::6]}
         paths.append(emitted.typed(blank, tmp_path / f"{first}.xlsx"))
-    for first, found in enumerate(usable("formualizer").recalculate_many(paths)):
-        page = Page(emitted, found)
+    for first, result in enumerate(usable("formualizer").recalculate_many(paths)):
+        page = Page(emitted, result)
         assert [*page.errors] == []
         assert page.verdicts(OTHERWISE) <= FAILING
         assert page["inputs.unusable"] == len(names[first::6])

@@ -64,20 +64,20 @@ def check(path: Path, engine: Engine) -> EngineCheck:
     return verify(path, PLAN, EXPECTED, engine, long_doubles=BOUND)
 
 
-def groups(found: EngineCheck) -> dict[str, int]:
+def groups(result: EngineCheck) -> dict[str, int]:
     """How many cells there are in each group of the first sheet."""
-    sheet = found.sheets[0]
+    sheet = result.sheets[0]
     counts = {"tolerated": sheet.tolerated, "explained": sheet.explained}
     counts |= {"unexplained": len(sheet.unexplained)}
     return {name: count for name, count in counts.items() if count}
 
 
 def test_an_engine_that_agrees_is_verified(path: Path) -> None:
-    found = check(path, fake())
-    assert (found.outcome, found.version, found.passed) == ("verified", "1.0", True)
-    assert found.seconds is not None
-    assert found.seconds > 0
-    assert found.sheets == (SheetCheck(sheet="S", cells=4), SheetCheck(sheet="Empty", cells=0))
+    result = check(path, fake())
+    assert (result.outcome, result.version, result.passed) == ("verified", "1.0", True)
+    assert result.seconds is not None
+    assert result.seconds > 0
+    assert result.sheets == (SheetCheck(sheet="S", cells=4), SheetCheck(sheet="Empty", cells=0))
 
 
 @pytest.mark.parametrize(
@@ -98,11 +98,11 @@ def test_an_engine_that_agrees_is_verified(path: Path) -> None:
 @pytest.mark.parametrize("long_doubles", [False, True])
 def test_one_wrong_cell_is_enough(path: Path, told: dict[str, Any], long_doubles: bool) -> None:
     """Just beyond the bound, of another kind, an input, or a cell that nobody planned."""
-    found = check(path, fake(told, long_doubles=long_doubles))
-    assert (found.outcome, found.passed) == ("differs", False)
-    assert groups(found) == {"unexplained": 1}
-    assert [left.cell for left in found.sheets[0].unexplained] == list(told)
-    assert found.sheets[0].differ == 1
+    result = check(path, fake(told, long_doubles=long_doubles))
+    assert (result.outcome, result.passed) == ("differs", False)
+    assert groups(result) == {"unexplained": 1}
+    assert [left.cell for left in result.sheets[0].unexplained] == list(told)
+    assert result.sheets[0].differ == 1
 
 
 @pytest.mark.parametrize(
@@ -124,10 +124,10 @@ def test_functions_are_tolerated_and_long_doubles_explained(
     differ: int,
 ) -> None:
     """What is small for its column, or for itself; one ulp of any other cell is a difference."""
-    found = check(path, fake(told, long_doubles=long_doubles))
-    assert (found.outcome, groups(found)) == (outcome, {group: len(told)})
+    result = check(path, fake(told, long_doubles=long_doubles))
+    assert (result.outcome, groups(result)) == (outcome, {group: len(told)})
     largest = max(ulps_apart(value, float(EXPECTED["S"][at])) for at, value in told.items())
-    assert (found.sheets[0].differ, found.sheets[0].largest_ulps) == (differ, largest)
+    assert (result.sheets[0].differ, result.sheets[0].largest_ulps) == (differ, largest)
 
 
 @pytest.mark.parametrize(
@@ -141,16 +141,16 @@ def test_functions_are_tolerated_and_long_doubles_explained(
 def test_an_engine_that_gives_no_values(
     path: Path, engine: Fake, outcome: str, passed: bool, reason: str
 ) -> None:
-    found = check(path, engine)
-    assert (found.outcome, found.passed, found.sheets) == (outcome, passed, ())
-    assert found.reason is not None
-    assert found.reason.startswith(reason)
+    result = check(path, engine)
+    assert (result.outcome, result.passed, result.sheets) == (outcome, passed, ())
+    assert result.reason is not None
+    assert result.reason.startswith(reason)
 
 
 def test_a_sheet_that_is_lost_or_new_is_seen(path: Path) -> None:
     def cells(expected: dict[str, Any], engine: Fake | None = None) -> dict[str, list[str]]:
-        found = verify(path, PLAN, expected, engine or fake(), long_doubles=BOUND)
-        return {s.sheet: [left.cell for left in s.unexplained] for s in found.sheets}
+        result = verify(path, PLAN, expected, engine or fake(), long_doubles=BOUND)
+        return {s.sheet: [left.cell for left in s.unexplained] for s in result.sheets}
 
     lost = {**EXPECTED, "Lost": {"A1": 1.0}}
     assert cells(lost) == {"S": [], "Empty": [], "Lost": ["A1"]}
@@ -165,16 +165,16 @@ def test_a_sheet_that_is_lost_or_new_is_seen(path: Path) -> None:
 def test_one_ulp_is_a_difference_and_empty_text_none() -> None:
     values: Values = {"S": {"A1": 1.0, "A2": "text", "A3": True}}
     assert compare(values, {"S": {**values["S"], "B1": ""}}) == []
-    found = compare(values, {"S": {**values["S"], "A1": math.nextafter(1.0, 2.0)}})
-    assert found == [Difference("S", "A1", 1.0, math.nextafter(1.0, 2.0))]
-    assert str(found[0]) == "S!A1: expected 1.0, found 1.0000000000000002 (1 ulp)"
+    result = compare(values, {"S": {**values["S"], "A1": math.nextafter(1.0, 2.0)}})
+    assert result == [Difference("S", "A1", 1.0, math.nextafter(1.0, 2.0))]
+    assert str(result[0]) == "S!A1: expected 1.0, found 1.0000000000000002 (1 ulp)"
 
 
 def test_only_named_cells_are_allowed_a_distance() -> None:
-    expected, found = {"S": {"A1": 10.0, "A2": 10.0}}, {"S": {"A1": 10.1, "A2": 10.1}}
-    (left,) = compare(expected, found, {("S", "A1"): 0.2})
+    expected, result = {"S": {"A1": 10.0, "A2": 10.0}}, {"S": {"A1": 10.1, "A2": 10.1}}
+    (left,) = compare(expected, result, {("S", "A1"): 0.2})
     assert left.cell == "A2"
-    assert len(compare(expected, found, {("S", "A1"): 0.05})) == 2  # it is not relative
+    assert len(compare(expected, result, {("S", "A1"): 0.05})) == 2  # it is not relative
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False, max_value=1e308))

@@ -58,8 +58,8 @@ def files(build: Callable[..., Workbook], emit_to: Any) -> dict[str, Any]:
 
 def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
     """In Gnumeric's long doubles they are within the bound."""
-    found = engine.recalculate_many([file.path for file in files.values()])
-    for (name, file), values in zip(files.items(), found, strict=True):
+    result = engine.recalculate_many([file.path for file in files.values()])
+    for (name, file), values in zip(files.items(), result, strict=True):
         bound = file.book.rounding if engine.long_doubles else 0.0
         allowed = tolerances(file.book.plan, file.book.cells, bound)
         assert compare(file.book.cells, values, allowed) == [], name
@@ -67,9 +67,9 @@ def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str
 
 def test_file_holds_the_plan_and_its_values(emitted: Any) -> None:
     assert compare(emitted.book.cells, stored(emitted.path)) == []
-    held = stored(emitted.path, formulas=True)
+    content = stored(emitted.path, formulas=True)
     formulas = {place: cell.formula for place, cell in emitted.book.plan.cells() if cell.formula}
-    assert {(s, a): f for s, cells in held.items() for a, f in cells.items()} == formulas
+    assert {(s, a): f for s, cells in content.items() for a, f in cells.items()} == formulas
 
 
 # Random inputs, typed into the emitted file
@@ -152,14 +152,14 @@ def check_typed(
     expected = [typed_inputs(build, seed) for seed in seeds]
     typed = [{k: v for k, v in of.items() if k.endswith(".typed")} for of, _ in expected]
     paths = [emitted.typed(cells, folder / f"{n}.xlsx") for n, cells in enumerate(typed)]
-    for (right, bound), found in zip(expected, engine.recalculate_many(paths), strict=True):
+    for (right, bound), result in zip(expected, engine.recalculate_many(paths), strict=True):
         assert right.keys() <= plan.where.keys()
         assert len(right) > 0.9 * len(plan.where)
-        values = {key: found[s].get(at, "") for key, (s, at) in plan.where.items()} | right
+        values = {key: result[s].get(at, "") for key, (s, at) in plan.where.items()} | right
         values |= live_verdicts(LEDGER, plan, values, findings)
         cells = emit.cell_values(plan, values)
         allowed = tolerances(plan, cells, bound if engine.long_doubles else 0.0)
-        assert compare(cells, found, allowed) == []
+        assert compare(cells, result, allowed) == []
 
 
 def test_typed_inputs_recalculate_to_pythons_doubles(
@@ -197,8 +197,8 @@ def slow_files(emit_to: Any) -> list[Any]:
 
 def test_slow_impacts_keep_their_digits(engine: Engine, slow_files: list[Any]) -> None:
     """Down to 1e-4 m/s; and where the series takes over from the logarithm, near 1e-8."""
-    found = engine.recalculate_many([file.path for file in slow_files])
-    for impact, file, values in zip(SLOW, slow_files, found, strict=True):
+    result = engine.recalculate_many([file.path for file in slow_files])
+    for impact, file, values in zip(SLOW, slow_files, result, strict=True):
         motion = exact_motion(impact)
         y = motion.final_depth / motion.context.mpf(impact.radius)
         for key, exact in (("c", y**2 - y**3 / 3), ("exact_normalized_depth", y)):
@@ -213,14 +213,14 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(
     emitted: Any,
 ) -> None:
     gnumeric, book = usable("gnumeric"), emitted.book
-    found = gnumeric.recalculate(emitted.path)
-    assert compare(book.cells, found, tolerances(book.plan, book.cells)) != []
+    result = gnumeric.recalculate(emitted.path)
+    assert compare(book.cells, result, tolerances(book.plan, book.cells)) != []
     allowed = tolerances(book.plan, book.cells, book.rounding)
-    assert compare(book.cells, found, allowed) == []
-    assert compare(book.cells, found, tolerances(book.plan, book.cells, book.rounding / 20)) == []
+    assert compare(book.cells, result, allowed) == []
+    assert compare(book.cells, result, tolerances(book.plan, book.cells, book.rounding / 20)) == []
     for key, size in planted(book):
         sheet, address = book.plan.where[key]
-        wrong = {**found, sheet: {**found[sheet], address: found[sheet][address] + size}}
+        wrong = {**result, sheet: {**result[sheet], address: result[sheet][address] + size}}
         (left,) = compare(book.cells, wrong, allowed)
         assert (left.sheet, left.cell) == (sheet, address)
 
@@ -272,10 +272,10 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
     """A step in ns, divided by 1e9, is not always the double that was asked for."""
     step = next(s for s in (n * 1e-13 for n in range(1000, 9000)) if s not in reachable(s))
     values = workbook.build(replace(BETA_5, step=step)).values
-    held = float(values["inputs.dt_s"])
-    assert abs(held - step) <= math.ulp(step)
-    assert values["inputs.dt_s.typed"] / 1e9 == held
-    assert values["case.final_depth"] == run(replace(BETA_5, step=held)).final_depth
+    content = float(values["inputs.dt_s"])
+    assert abs(content - step) <= math.ulp(step)
+    assert values["inputs.dt_s.typed"] / 1e9 == content
+    assert values["case.final_depth"] == run(replace(BETA_5, step=content)).final_depth
 
 
 def reachable(step: float) -> list[float]:
