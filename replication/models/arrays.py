@@ -267,19 +267,23 @@ def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     views += [np.broadcast_to(value, shape) for value in values[1:]]
     results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
 
-    def work(piece: int) -> None:
-        ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
-        cut = (slice(None),) * axis + (slice(*ends),)
-        parts = [view[cut] for view in views]
-        _check(numbers, parts)
-        function(*parts, out=tuple(result[cut] for result in results))
+    waiting = iter(range(pieces))  # shared: whoever is free takes the next
 
-    cores = numba.config.NUMBA_NUM_THREADS
-    if cores == 1 or threading.current_thread() is not threading.main_thread():
-        list(map(work, range(pieces)))
-    else:
-        with ThreadPoolExecutor(cores) as pool:
-            list(pool.map(work, range(pieces)))
+    def work() -> None:
+        for piece in waiting:
+            ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
+            cut = (slice(None),) * axis + (slice(*ends),)
+            parts = [view[cut] for view in views]
+            _check(numbers, parts)
+            function(*parts, out=tuple(result[cut] for result in results))
+
+    is_main = threading.current_thread() is threading.main_thread()
+    helpers = numba.config.NUMBA_NUM_THREADS - 1 if is_main else 0
+    with ThreadPoolExecutor(max(helpers, 1)) as pool:
+        helping = [pool.submit(work) for _ in range(helpers)]
+        work()
+    for helper in helping:
+        helper.result()
     return tuple(results) if len(results) > 1 else results[0]
 
 
