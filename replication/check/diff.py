@@ -138,19 +138,19 @@ class _Diff:
         for name in self.after.book.sheets:
             if name not in sheets.values():
                 self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
-        for name, now in sheets.items():
-            self.align(name, now)
+        for name, partner in sheets.items():
+            self.align(name, partner)
 
-    def align(self, name: str, now: str) -> None:
+    def align(self, name: str, partner: str) -> None:
         """Match the rows and columns of two sheets, then what was moved elsewhere."""
-        old, new = _skeletons(self.before, name), _skeletons(self.after, now)
+        old, new = _skeletons(self.before, name), _skeletons(self.after, partner)
         columns = _matched(_profiles(old), _profiles(new))
         rows = _matched(_lines(old, 0, columns.keys()), _lines(new, 0, set(columns.values())))
         left, free = dict(old), dict(new)
 
         def put(cell: Cell, there: Cell) -> None:
-            self.where[name, *cell] = (now, *there)
-            self.there.add((now, *there))
+            self.where[name, *cell] = (partner, *there)
+            self.there.add((partner, *there))
             del left[cell], free[there]
 
         for row, column in old:
@@ -171,12 +171,12 @@ class _Diff:
                     put((r, c), (r - row + new_row, c - column + new_column))
                 was, now = _span(block), _span(new_block)
                 if was != now:  # else only its rows or columns were not known again
-                    cells = [(now, *cell) for cell in new_block]
+                    cells = [(partner, *cell) for cell in new_block]
                     self.add("moved", cells, was, now, f"{was} now stands at {now}")
-        self.shifts(name, now, rows, "rows", str)
-        self.shifts(name, now, columns, "columns", get_column_letter)
+        self.shifts(name, partner, rows, "rows", str)
+        self.shifts(name, partner, columns, "columns", get_column_letter)
         self.left_over("removed", name, left, "gone")
-        self.left_over("added", now, free, "new")
+        self.left_over("added", partner, free, "new")
 
     def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
         """Cells that only one of two sheets has, block by block."""
