@@ -233,7 +233,7 @@ def _left_out(
     line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
 ) -> tuple[int, ...]:
     """Blank rows (or columns) of a sheet in the midst of formulas that step over them."""
-    gaps = {here: before for before, here in pairwise(used) if 1 < here - before <= _GAP + 1}
+    gaps = {here: before for before, here in pairwise(used) if here - before > 1}
     stepped: set[int] = set()
     for number, here in places:
         if (before := gaps.get(here)) is not None:

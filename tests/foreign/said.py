@@ -7,6 +7,7 @@ program says reads what that changes there, line by line, before keeping it. Num
 seven digits at most, so that no machine's last digits are in it.
 """
 
+import math
 import random
 import re
 import sys
@@ -28,6 +29,7 @@ from replication.check import show
 from replication.check.diff import Comparison, Tolerance, diff
 from replication.check.examination import KINDS
 from replication.check.record import check_record, diff_record
+from replication.check.scheme import KNOWN, REPORT, Case, march
 from replication.check.workbook import check
 from replication.models.impact import Impact
 from spreadsheets.foreign import WorkbookError
@@ -103,6 +105,8 @@ INPUTS: dict[str, Cells] = {
     "label of the target density in g/cm3, its formulas converting": {
         "D1": "target density [g/cm³]", "E1": 7.85,
         "E9:": "=(0.5*$E$1*1000*C{r}^2+$B$6)*PI()*($B$4*D{r}-D{r}^2)/$B$3"},
+    "target density in g/cm3, labelled so, not converted": {
+        "D1": "target density [g/cm³]", "E1": 7.85},
     "resistance typed": {"B6": 3.5e9},
     "resistance typed, of other digits": {"B6": 3.6e9},
     "resistance without beta and flow stress": {"B6": 3.5e9, "G1": None, "G2": None,
@@ -501,6 +505,19 @@ def digits() -> Iterator[str]:
                 f"{impact.radius:g} m, {impact.step:g} s"
             )
             yield from said(f"{f.name} of other inputs: {inputs}", f, layout(BETA_5))
+    report = march(Case(**BETA_5.motion, step=BETA_5.step))
+    for part, rules in KNOWN.items():
+        f = layouts.six_digits(BETA_5)
+        rows = march(
+            Case(**BETA_5.motion, step=BETA_5.step),
+            replace(REPORT, **{part: rules[1]}),
+            steps=f.steps,
+        )
+        for (role, k), place in f.where.items():
+            if isinstance(content := f.cells[place], float) and report.get(role, {}).get(k):
+                unit = 10.0 ** round(math.log10(content / report[role][k]))
+                f.cells[place] = float(f"{rows[role][k] * unit:.6g}")
+        yield from said(f"six digits of {rules[1].name}", f, layouts.six_digits(BETA_5))
     f = layouts.six_digits(BETA_5)
     for role, k in ((layouts.DEPTH, 60), (layouts.START, 61), (layouts.BRAKE, 131)):
         f.cells.pop(f.where[role, k])
@@ -549,6 +566,13 @@ def several() -> Iterator[str]:
     f = layouts.table_a1(BETA_5)
     layouts.moved(f, lambda r: r + (r >= 50) + 2 * (r >= 90), lambda c: c)
     yield from said("blank rows that the formulas step over", f)
+    f = layouts.table_a1(BETA_5)
+    layouts.moved(f, lambda r: r + 4 * (r >= 50), lambda c: c)
+    yield from said("four blank rows that the formulas step over", f)
+    for above in (6, 7):
+        f = plain(COARSE)
+        layouts.moved(f, lambda r, below=above - 1: r + below * (r >= 8), lambda c: c)  # type: ignore[misc]
+        yield from said(f"heads {above} rows above the numbers", f)
     f = layouts.pasted(COARSE)
     for row, value in ((1, 11e-6), (2, 12e-6)):
         f.line("Sheet1", f"H{row}", "particle radius (m)", value)
@@ -579,6 +603,7 @@ def given() -> Iterator[str]:
         ("depth", "B1:B6"), ("depth", "E8:E61"), ("depth", "D:D"), ("depth", "D8:D900"),
         ("depth", "D10:D40"), ("radius", "B4:B5"), ("velocity", "B5"), ("step", "H1"),
         ("stop_velocity", "H1"), ("beta", "H2"), ("mass", "B1"), ("depth", "A9:F9"),
+        ("depth", 61 * "D"),
     ):  # fmt: skip
         yield from said(f"--map {name}={where}", plain(COARSE), plain(COARSE), given={name: where})
 
