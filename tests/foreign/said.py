@@ -522,6 +522,11 @@ def digits() -> Iterator[str]:
     for role, k in ((layouts.DEPTH, 60), (layouts.START, 61), (layouts.BRAKE, 131)):
         f.cells.pop(f.where[role, k])
     yield from said("blank cells among six digits", f, layouts.six_digits(BETA_5))
+    f = layouts.pasted(COARSE)
+    for place in [place for (role, _), place in f.where.items() if role == layouts.TIME]:
+        del f.cells[place]
+    del f.cells[f.where[layouts.DEPTH, 30]]
+    yield from said("a blank depth where no times stand", f, layouts.pasted(COARSE))
     f = layouts.pasted(BETA_5)
     texts = {p: f"{v:.6g}".replace(".", ",") for p, v in f.cells.items() if isinstance(v, float)}
     f.cells |= texts
