@@ -40,7 +40,6 @@ RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
 EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
 """What is computed only if asked for."""
 
-
 # Where the values of an input come from
 
 LEAST_SHARE = 2.0**-53

@@ -26,7 +26,6 @@ PIECE = 25_000
 """Of two pieces of so many elements and more, each core takes some in turn. A piece takes a
 millisecond, ten times what it takes to hand out, and what it needs stays in the core's cache."""
 
-
 _DOC = """
 
 Inputs are in SI units: velocity V [m/s], radius R [m], densities rho_p and rho_t [kg/m^3], target
@@ -242,10 +241,9 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     """What a ufunc gives for values that broadcast, checked; an axis of its own is that of times.
 
-    Many cases are shared out to all cores. Python's threads do it, as compiled code lets go of its
-    lock: Numba's may not be started from two threads at once, and do not outlive a fork. Only the
-    main thread starts any, so that work is not shared out twice where a caller, such as dask, has
-    threads.
+    Many cases are shared out to all cores by Python's threads, as compiled code lets go of its
+    lock: Numba's may not be started from two threads at once, nor outlive a fork. Only the main
+    thread starts any: a caller with threads, such as dask, has shared out its work already.
     """
     import numpy as np
 
