@@ -169,7 +169,10 @@ def written(unit: str) -> str:
     return raised(text)
 
 
-_QUANTITY = re.compile(r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*(?P<unit>.*)")
+_QUANTITY = re.compile(
+    r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*"
+    r"(?P<unit>(?![\s.]|[eE]?[-+]?\d).*)"
+)
 _DIGITS = 400
 
 
