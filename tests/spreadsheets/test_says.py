@@ -108,7 +108,7 @@ class Page:
 
     def __getitem__(self, key: str) -> Value:
         sheet, address = self.emitted.book.plan.where[key]
-        return self.found[sheet].get(address, "")
+        return self.result[sheet].get(address, "")
 
     def verdicts(self, verdict: str) -> set[str]:
         return {name for name in self.computed if self[f"audit.{name}.verdict"] == verdict}
@@ -119,7 +119,7 @@ class Page:
 
     @property
     def errors(self) -> Iterator[tuple[str, str, Value]]:
-        for sheet, cells in self.found.items():
+        for sheet, cells in self.result.items():
             for address, value in cells.items():
                 if isinstance(value, str) and value.startswith(("#", "Err:")):
                     yield sheet, address, value
