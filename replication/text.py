@@ -3,9 +3,6 @@
 A proven range never becomes narrower by being shortened.
 """
 
-import csv
-import io
-import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
@@ -13,8 +10,6 @@ from fractions import Fraction
 from itertools import zip_longest
 from textwrap import wrap
 from typing import Any, NamedTuple, TypeVar
-
-import msgspec
 
 from reference.units import superscript
 
@@ -29,6 +24,10 @@ def json_text(record: Any) -> str:
     >>> json_text({"depth": 1e-06})
     '{\n  "depth": 1e-06\n}\n'
     """
+    import json
+
+    import msgspec
+
     compact = json.dumps(msgspec.to_builtins(record), ensure_ascii=False, allow_nan=False)
     # A file's name may hold what no encoding has; escaped, it is JSON again.
     return msgspec.json.format(compact.encode(errors="backslashreplace"), indent=2).decode() + "\n"
@@ -40,6 +39,9 @@ def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
     >>> rows_csv([{"depth": 1e-06, "beyond_radius": False, "gap": None}])
     'depth,beyond_radius,gap\n1e-06,false,\n'
     """
+    import csv
+    import io
+
     buffer = io.StringIO()
     writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
     writer.writeheader()

@@ -518,9 +518,8 @@ def _hypotheses(
     for fed, brakes, tried in product(((), *_fed(examination, feeding)), rules, of_report):
         yield tried, "report", brakes, fed
     solved = {}
-    for role, value in _solved(
-        examination
-    ).items():  # with the report's particle, if no cell holds it
+    # With the report's particle, if no cell holds it.
+    for role, value in _solved(examination).items():
         if role in unknown:  # a number that some formula has, or the shortest decimal
             near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
             solved[role] = next(near, _shortest(value, 1e-8))
@@ -557,9 +556,10 @@ def _solved(examination: Examination) -> dict[str, float]:
     for k in range(1, max(rows.columns["depth"]) + 1):
         x, v, final = (rows(role, k) for role in ("depth", "velocity_initial", "velocity_final"))
         if x and v is not None and (area := contact(case, x)):
-            a = rows("deceleration", k) if "deceleration" in rows.columns else None
-            if "deceleration" not in rows.columns and final is not None:
-                a = (v - final) / case.step
+            if "deceleration" in rows.columns:
+                a = rows("deceleration", k)
+            else:
+                a = None if final is None else (v - final) / case.step
             if a is not None:
                 points.append((v * v, a * case.mass / (math.pi * area)))
     pairs = zip(points, points[len(points) // 2 :], strict=False)

@@ -505,14 +505,11 @@ def digits() -> Iterator[str]:
                 f"{impact.radius:g} m, {impact.step:g} s"
             )
             yield from said(f"{f.name} of other inputs: {inputs}", f, layout(BETA_5))
-    report = march(Case(**BETA_5.motion, step=BETA_5.step))
+    case = Case(**BETA_5.motion, step=BETA_5.step)
+    report = march(case)
     for part, rules in KNOWN.items():
         f = layouts.six_digits(BETA_5)
-        rows = march(
-            Case(**BETA_5.motion, step=BETA_5.step),
-            replace(REPORT, **{part: rules[1]}),
-            steps=f.steps,
-        )
+        rows = march(case, replace(REPORT, **{part: rules[1]}), steps=f.steps)
         for (role, k), place in f.where.items():
             if isinstance(content := f.cells[place], float) and report.get(role, {}).get(k):
                 unit = 10.0 ** round(math.log10(content / report[role][k]))
