@@ -18,7 +18,7 @@ import msgspec
 
 from reference.arithmetic import Reals
 from reference.entries import Entry, LedgerError, converted, naming
-from reference.equations import evaluate, read_expression
+from reference.equations import Node, evaluate, read_expression
 from reference.ledger import Ledger
 from reference.ledger import load as load_ledger
 from reference.printed import decimal_text, parse
@@ -34,12 +34,16 @@ class Assertion(Entry, frozen=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
     `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
-    before one. Where it is "yes" or "no", a proof must have had that outcome.
+    before one. Where it is "yes" or "no", a proof must have had that outcome. It is computed by a
+    `formula`, as the `exact` X/R with some inputs changed, or is how often the report has `words`.
     """
 
     says: str
     means: str
     unit: str = "1"
+    formula: str = ""
+    exact: Mapping[str, str] = {}
+    words: str = ""
 
     @property
     def relation(self) -> str:
@@ -124,6 +128,8 @@ def _finding(entry: Finding, ledger: Ledger) -> Finding:
             raise ValueError(f"evidence {name!r}: {assertion.relation!r} is no relation")
         if assertion.text not in ("yes", "no"):
             parse(assertion.text)
+        for formula in filter(None, (assertion.formula, *assertion.exact.values())):
+            expression(formula)
 
     texts, steps = dict[str, str](), dict[str, bool]()
     for key in ("title", "statement", "by_hand", "settle"):
@@ -153,7 +159,18 @@ def _number(name: str, unit: str | None, entry: Finding, ledger: Ledger) -> str:
 def _holds(text: str) -> bool:
     """Whether a line of arithmetic such as "2/3 * 3 = 2.0" holds, calculated again."""
     left, _, right = text.rpartition("=")
-    expression = re.sub(r"\bln\b", r"\\ln", left).replace("*", " ")
-    value = evaluate(read_expression(expression.strip(), {}), _REALS, {})
+    value = evaluate(expression(left)[0], _REALS, {})
     computed = Fraction(str(_REALS.context.nstr(value, 25)))
     return parse(right.strip()).interval().contains(computed)
+
+
+@cache
+def expression(text: str) -> tuple[Node, set[str]]:
+    """A line of arithmetic, and the names of the values in it. Raises EquationError.
+
+    >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
+    ['a1-radius', 'cth.diameter']
+    """
+    names = {*re.findall(r"(?<![\w.-])[a-z][\w:.-]*", text)} - {"ln", "pi"}
+    written = re.sub(r"\bln\b", r"\\ln", text).replace("*", " ").strip()
+    return read_expression(written, {name: name for name in (*names, "pi")}), names

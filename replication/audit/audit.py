@@ -20,7 +20,7 @@ from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import EVIDENCE, Known, case
+from replication.audit.findings import Evidence, Known, case
 from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten
@@ -48,7 +48,7 @@ class Audit(Known):
         """Everything, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        findings = [self._finding(finding) for finding in asserted.load().values()]
+        findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
         verdicts = {
             part.id: Verdict(part.verdict) for parts in (claims, equations) for part in parts
@@ -206,7 +206,7 @@ class Audit(Known):
             figures.append(r.Figure(means=f"change, {with_what}", value=change, unit="percent"))
         return figures
 
-    # Equations and findings
+    # Equations and inferred inputs
 
     def _equation(self, name: str) -> r.EquationRecord:
         assessed = self.equation(name)
@@ -226,34 +226,6 @@ class Audit(Known):
             constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=repairs,
-        )
-
-    def _finding(self, finding: asserted.Finding) -> r.FindingRecord:
-        try:
-            computed = EVIDENCE[finding.id](self)
-        except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
-            computed = {}
-        evidence = []
-        for name, assertion in finding.evidence.items():
-            value = computed.get(name)
-            if value is not None and not isinstance(value, bool):
-                value = Fraction(value) / to_si(assertion.unit)
-            evidence.append(
-                r.filled(
-                    r.EvidenceRecord,
-                    assertion,
-                    name=name,
-                    asserted=assertion.says,
-                    computed=float(value) if isinstance(value, Fraction) else value,
-                    holds=value is not None and assertion.holds(value),
-                )
-            )
-        return r.filled(
-            r.FindingRecord,
-            finding,
-            claims=list(finding.claims),
-            holds=all(e.holds for e in evidence) and all(finding.steps.values()),
-            evidence=evidence,
         )
 
     def _inferred(self, name: str, centered: bool) -> r.InferredRecord:

@@ -93,10 +93,15 @@ def _stated(known: Known, impact: Impact) -> list[r.Effect]:
     possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
     velocity, spread = impact.velocity, known["velocity-deviation"]
     radius, size = impact.radius, known["diameter-deviation"] / 2
+    density = known.ledger.claims["a1-density"].target().ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
-        ("particle_density", *known.target("a1-density").ends, "rounding of the print"),
+        (
+            "particle_density",
+            *density,
+            "rounding of the print",
+        ),
         ("target_density", *possible, "all that Table A-1 allows"),
         ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
         ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
