@@ -23,7 +23,7 @@ from replication.audit import record as r
 from replication.audit.findings import Evidence, Known, case
 from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
-from replication.text import number, powers_of_ten
+from replication.text import number, powers_of_ten, quantity
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
@@ -199,7 +199,7 @@ class Audit(Known):
             for name in ("a-step", "coarse-step"):
                 impact = case(self, beta, step=self[name])
                 depths.append(sheet.run(impact, scheme).final_depth)
-                step = wording.quantity(self.ledger.claims[name].shown, "ns")
+                step = quantity(self.ledger.claims[name].shown, "ns")
                 means = f"final depth at {step}, {with_what}"
                 figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
             change = 100 * (depths[1] / depths[0] - 1)

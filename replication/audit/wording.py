@@ -1,12 +1,11 @@
 """The sentences of the record: why a verdict is what it is, and what it takes for granted."""
 
 from collections.abc import Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 
 from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
-from reference.units import to_si, written
+from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord
 from replication.audit.verdict import (
     Assessment,
@@ -16,17 +15,7 @@ from replication.audit.verdict import (
     Reading,
     Verdict,
 )
-from replication.text import inward, number, outward, rounded
-
-
-def quantity(text: str, unit: str) -> str:
-    """Text with its unit, as a page shows it.
-
-    >>> quantity("7.67", "um"), quantity("0.70", "1")
-    ('7.67 µm', '0.70')
-    """
-    return f"{text} {written(unit)}".strip()
-
+from replication.text import between, number, quantity
 
 REMARK = "A remark, no number: the figures below are what it can be judged by."
 
@@ -56,9 +45,7 @@ def chosen(shown: Shown | None) -> str:
     """What is known of a number that the author chose."""
     if shown is None:
         return "The author's choice; what is computed from it does not come out as printed."
-    low, high = map(Fraction, shown.interval)
-    ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
-    text = quantity(ends, shown.unit)
+    text = quantity(between(shown.interval, 4, inward=True), shown.unit)
     return f"The author's choice; what is computed from it comes out as printed for {text}."
 
 
@@ -75,10 +62,11 @@ def _value(claim: Claim, reading: Reading) -> str:
 def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
     judgement = reading.judgements[0]
     low, high = judgement.lower, judgement.upper
+    proven = between((low, high), 6)
     match judgement.verdict:
         case Verdict.REPRODUCED:
             if claim.inferred:
-                return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
+                return [f"So for every target density that Table A-1 admits: {proven}."]
             return []
         case Verdict.WITHIN_ROUNDING:
             inputs = _inputs(judge, judgement)
@@ -88,15 +76,14 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:
             titles = " and ".join(judge.ledger.title(name) for name in claim.inferred)
             return [
-                f"Proven for inputs that print like the report's: it lies in {outward(low, high)}, "
+                f"Proven for inputs that print like the report's: its range is {proven}, "
                 "part of which rounds to the print, but no inputs that give this number also give "
                 f"the numbers from which the {titles} is inferred."
             ]
         case Verdict.NOT_REPRODUCED:
             side = _side(claim.interval(), low, high)
-            proven = f"it lies in {outward(low, high)}, {side}"
-            return [f"Proven for all inputs that print like the report's: {proven}."]
-    return [f"The proven range {outward(low, high)} is too wide to tell."]
+            return [f"Proven for all inputs that print like the report's: {proven}, {side}."]
+    return [f"The proven range {proven} is too wide to tell."]
 
 
 def _inputs(judge: Judge, judgement: Judgement) -> str:
@@ -121,7 +108,7 @@ def _other(claim: Claim, reading: Reading) -> str:
     value = quantity(number(reading.computed), claim.unit)
     text = f"Read as {reading.name}: {value}, {reading.verdict}"
     if judgement.lower != judgement.upper:
-        text += f"; proven range {outward(judgement.lower, judgement.upper)}"
+        text += f"; proven range {between((judgement.lower, judgement.upper), 6)}"
     return text + "."
 
 
@@ -178,7 +165,7 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
     assumed = [] if claim.assumes is None else [claim.assumes]
     for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
-        admitted = inward(*judge.inference(name).inner.ends)
+        admitted = between(judge.inference(name).inner.ends, 6, inward=True)
         assumed.append(
             f"{judge.ledger.title(name)} {value}, inferred: Table A-1 as printed admits {admitted}"
         )

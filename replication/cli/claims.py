@@ -5,7 +5,7 @@ from typing import Any
 
 from replication.cli import options as shared
 from replication.reading import quoted
-from replication.text import columns
+from replication.text import columns, quantity
 
 HELP = "list the claims, or prove one"
 
@@ -20,8 +20,6 @@ def run(options: argparse.Namespace) -> int:
 
     ledger = load()
     if options.id is None:
-        from replication.audit.wording import quantity
-
         claims = ledger.claims.values()
         rows = [(c.id, quantity(c.shown, c.unit), c.kind, str(c.place)) for c in claims]
         record = [_listed(claim) for claim in claims]

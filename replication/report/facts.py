@@ -4,18 +4,16 @@ Texts are sentences for `Prose`: ids stand between backticks.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
-from math import isclose
 
 from reference.ledger import shown
 from replication.audit import record as r
 from replication.audit.verdict import OPEN
-from replication.audit.wording import quantity
 from replication.cases import INPUTS
 from replication.report.prose import Named, quoted
-from replication.text import Table, number, rounded, table
+from replication.text import Table, between, number, quantity, rounded, table
 
 
 def printed(claim: r.ClaimRecord) -> str:
@@ -30,31 +28,6 @@ def measured(value: float | None, unit: str, digits: int = 6) -> str:
     ('7.66956 µm', '')
     """
     return "" if value is None else quantity(number(value, digits), unit)
-
-
-def between(ends: Sequence[float | None], digits: int = 10, inward: bool = False) -> str:
-    """An interval as words, its ends shortened outward, or inward where all inside is meant.
-
-    An end that is short but for the rounding of a double is taken as it is.
-
-    >>> between((0.12374472967338257, 0.13081477249718315))
-    '0.1237447296 to 0.1308147725'
-    >>> between((7839.582511570033, 7863.3048443432035), 8, inward=True)
-    '7839.5826 to 7863.3048'
-    >>> between((0.057999999999999996, 0.058))
-    '0.058'
-    """
-    low, high = (float(end) + 0.0 for end in ends if end is not None)  # no sign on a zero
-    directions = (ROUND_CEILING, ROUND_FLOOR) if inward else (ROUND_FLOOR, ROUND_CEILING)
-    first, last = (_end(end, digits, way) for end, way in zip((low, high), directions, strict=True))
-    return first if low == high or first == last else f"{first} to {last}"
-
-
-def _end(end: float, digits: int, direction: str) -> str:
-    nearest = number(end, digits)
-    if isclose(float(nearest), end, rel_tol=1e-14):
-        return nearest
-    return rounded(Fraction(end), digits, direction)
 
 
 _SCALES = {"radius": (1e6, "um"), "flow_stress": (1e-6, "MPa")}

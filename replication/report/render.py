@@ -17,12 +17,11 @@ from reference import findings as asserted
 from reference.ledger import INFERRED, Ledger
 from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
 from replication.audit.verdict import Verdict
-from replication.audit.wording import quantity
 from replication.power import measured
 from replication.report import facts as told
 from replication.report.figures import draw
 from replication.report.prose import Named, Prose, quoted
-from replication.text import columns, json_text, number, rows_csv, table
+from replication.text import columns, json_text, number, quantity, rows_csv, table
 from spreadsheets.safely import check_folder, write_folder
 
 

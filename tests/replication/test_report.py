@@ -25,7 +25,6 @@ from replication import text as texts
 from replication.audit.record import Record
 from replication.audit.verdict import OPEN
 from replication.report import render
-from replication.report.facts import between
 from replication.report.figures import draw
 from replication.report.prose import Named, Prose
 from replication.report.render import check, contents, page, write
@@ -251,14 +250,14 @@ def ends_of(text: str) -> Sequence[float]:
 def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
     low, high = sorted((first, another))
     slack = 1e-14 * max(abs(low), abs(high))
-    outer = ends_of(between((low, high), digits))
+    outer = ends_of(texts.between((low, high), digits))
     if low < high:
         assert outer[0] <= low + slack
         assert outer[1] >= high - slack
-        inner = ends_of(between((low, high), digits, inward=True))
+        inner = ends_of(texts.between((low, high), digits, inward=True))
         assert inner[0] >= low - slack
         assert inner[1] <= high + slack
-    assert between((low, nextafter(low, inf)), 12).count(" to ") <= 1
+    assert texts.between((low, nextafter(low, inf)), 12).count(" to ") <= 1
 
 
 @given(st.text())
