@@ -27,7 +27,7 @@ _SIGNS = {
     "<=": "≤", ">=": "≥", " * ": " · ", " - ": " − ", "-": "−", "inf": "∞", "um": "µm",
 }  # fmt: skip
 _SIGN = re.compile(r"<=|>=| [*-] |(?<![\w)\]])-(?=\d|\(|inf\b)|\binf\b|\bum\b|\^(?:-?\d+|n\b)")
-_POWER = re.compile(r"\^(\([^()]*\))")
+_POWER = re.compile(r"\^(\(([^()]*)\))")
 
 
 class Prose:
@@ -61,72 +61,44 @@ class Prose:
 
     def text(self, sentence: str) -> str:
         """For a terminal: subscripts and powers in Unicode."""
-        return self._set(sentence, str, _lowered, lambda text: f"^{text}", self._name)
+        return self._set(sentence, _TERMINAL)
 
     def markdown(self, sentence: str) -> str:
         """For Markdown, where a bar would end a table's cell."""
-
-        def reference(name: str) -> str:
-            known = name in self.names
-            return f"{self.markdown(self.names[name].title)} (`{name}`)" if known else f"`{name}`"
-
-        return self._set(sentence, _escaped, _lowered, lambda text: f"^{text}", reference)
+        return self._set(sentence, _MARKDOWN)
 
     def html(self, sentence: str) -> "Markup":
         """For a page: subscripts, powers and links as elements."""
         from markupsafe import Markup
 
-        return Markup(  # noqa: S704  (every part is escaped)
-            self._set(
-                sentence, _typographic, "{}<sub>{}</sub>".format,
-                lambda text: f"<sup>{text.strip('()')}</sup>", self._link,
-            )
-        )  # fmt: skip
+        return Markup(self._set(sentence, _HTML))  # noqa: S704  (every part is escaped)
 
-    def _set(
-        self,
-        sentence: str,
-        escaped: Callable[[str], str],
-        lower: Callable[[str, str], str],
-        raised: Callable[[str], str],
-        reference: Callable[[str], str],
-    ) -> str:
+    def _set(self, sentence: str, form: "_Form") -> str:
         def symbol(match: re.Match[str]) -> str:
             base, below = self._spelled[match[1]]
-            return lower(base, below) if below else base
+            return form.lowered(base, below) if below else base
 
         def part(k: int, text: str) -> str:
             if k % 2:
-                return reference(text)
-            text = _SIGN.sub(_sign, text)
-            text = self._pattern.sub(symbol, escaped(powers_of_ten(text)))
-            return _POWER.sub(lambda power: raised(power[1]), text)
+                return self._reference(text, form)
+            text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
+            text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
+            return _POWER.sub(form.power, text)
 
         return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
 
-    def _name(self, name: str) -> str:
-        return f"{self.text(self.names[name].title)} ({name})" if name in self.names else name
-
-    def _link(self, name: str) -> str:
+    def _reference(self, name: str, form: "_Form") -> str:
+        code = form.code.format(escape(name))
         if name not in self.names:
-            return f"<code>{escape(name)}</code>"
+            return code
         title, anchor, _ = self.names[name]
-        inner = self.html(title)
-        return f'<a href="#{anchor}">{inner}</a>' if anchor else str(inner)
-
-
-def _sign(match: re.Match[str]) -> str:
-    return _SIGNS.get(match[0]) or superscript(match[0][1:])
+        return form.known.format(title=self._set(title, form), code=code, anchor=anchor)
 
 
 def _word(letter: str) -> str:
     """The name of a Greek letter, as a sentence spells it."""
     word = unicodedata.name(letter).rpartition(" ")[2]
     return word.capitalize() if letter.isupper() else word.lower()
-
-
-def _lowered(base: str, below: str) -> str:
-    return base + below.translate(_LOWERED)
 
 
 def _typographic(text: str) -> str:
@@ -141,8 +113,26 @@ _TOGETHER = re.compile(
 )
 
 
-def _escaped(text: str) -> str:
-    return text.replace("|", "\\|").replace("<", "&lt;")
+class _Form(NamedTuple):
+    """How a text is escaped, a subscript and a power in brackets set, an id and what it names."""
+
+    escaped: Callable[[str], str]
+    lowered: Callable[[str, str], str]
+    power: str
+    code: str
+    known: str
+
+
+_TERMINAL = _Form(
+    str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
+)
+_MARKDOWN = _TERMINAL._replace(
+    escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
+)
+_HTML = _Form(
+    _typographic, "{}<sub>{}</sub>".format, r"<sup>\2</sup>", "<code>{}</code>",
+    '<a href="#{anchor}">{title}</a>',
+)  # fmt: skip
 
 
 def quoted(text: str) -> str:
