@@ -148,11 +148,10 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
     """
     names = [INFERRED + name for name in truth.ledger.inferred]
     ends = {name: truth.judge.inference(name).inner.ends for name in names}
-    values = [{name: truth.ledger.value(name) for name in names}]
-    for k in range(_VALUES + 1):
-        values.append(
-            {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
-        )
+    values = [{name: truth.ledger.value(name) for name in names}] + [
+        {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
+        for k in range(_VALUES + 1)
+    ]
     return all(
         Screen(ledger, inferred).failing(claims) - Screen(truth.ledger, inferred).failing(claims)
         for inferred in values

@@ -1,26 +1,27 @@
 """The audit: every verdict, explanation and finding, computed once, as one record."""
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cached_property
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
 from math import inf, isclose, nextafter
 from types import SimpleNamespace
+from typing import Any
 
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.computations import SYMBOLS
-from reference.equations import MATHML, PLAIN, EquationError, Node, Notation, evaluate, rendered
+from reference.equations import MATHML, PLAIN, EquationError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
-from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Known, case
+from replication.audit.findings import Evidence, Known, case, source_record
 from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, quantity
@@ -58,7 +59,7 @@ class Audit(Known):
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else f"{counts.failing} numbers fail.",
-            report=r.filled(r.ReportRecord, self.ledger.report),
+            report=self.ledger.report,
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,
             culprit=self.explainer.culprit(wrong),
@@ -107,6 +108,7 @@ class Audit(Known):
         )
         own = self._reading(claim, first) if first else _UNREAD
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
+        ends = interval and (interval.lower, interval.upper)
         formula, mathml, by_hand = self._formula(claim, first)
         restates = claim.computation is not None and claim.computation.restates
         return r.filled(
@@ -115,8 +117,8 @@ class Audit(Known):
             where=str(claim.place),
             quote=" ".join(claim.quote.split()),
             printed=claim.text,
-            interval=_ends(interval) if interval else None,
-            interval_exact=_exact(interval.lower, interval.upper) if interval else None,
+            interval=ends and tuple(end if end is None else float(end) for end in ends),
+            interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
             interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
@@ -143,15 +145,14 @@ class Audit(Known):
         return r.filled(
             r.ReadingRecord,
             reading,
-            enclosure=_outward(judgement.lower, judgement.upper),
-            enclosure_exact=_exact(judgement.lower, judgement.upper),
+            **_proven(judgement),
             witness={k: float(value) for k, value in witness.items()} if witness else None,
             holds=wording.holds(claim, reading),
             otherwise=[_judged(j) for j in reading.otherwise],
         )
 
     def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, ...]:
-        """Of a failing claim: its formula with the numbers in it, as MathML too, and by hand.
+        """Of a failing claim: its formula with the numbers in it, its equation, and by hand.
 
         None where it takes more than one equation of the report.
         """
@@ -160,32 +161,41 @@ class Audit(Known):
             return nothing
         if computation is None or not computation.equations:
             return nothing
-        (left, right) = self.ledger.sides[computation.equations[-1]]
+        equation = computation.equations[-1]
+        (left, right) = self.ledger.sides[equation]
         values = {
             SYMBOLS[key]: self.judge.value(*names)
             for key, names in claim.inputs.items()
             if key in SYMBOLS and len(names) == 1
         } | {"D": Fraction(1)}  # L is given in diameters
+        at = {key: float(value) for key, value in values.items()}
         try:
-            value = evaluate(right, Floats(), {key: float(x) for key, x in values.items()})
+            value = evaluate(right, Floats(), at)
         except EquationError:
             return nothing
         if not isclose(value, reading.computed, rel_tol=1e-9):
             return nothing
-        names = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
-        put = names | {key: _short(value) for key, value in values.items()}
+        put = self._shown | {key: _short(value) for key, value in values.items()}
         result = f"{reading.computed:#.3g}"
-        texts = (
-            rendered(left, names), rendered(right, names), rendered(right, put, _NUMBERS), result,
-        )  # fmt: skip
-        cells = (
-            rendered(left, names, MATHML), rendered(right, names, MATHML),
-            "", rendered(right, put, _MATHML_NUMBERS),
-            "", f"<mn>{result}</mn>",
-        )  # fmt: skip
-        row = "<mtr><mtd>{}</mtd><mtd><mo>=</mo></mtd><mtd>{}</mtd></mtr>"
-        table = _math(f"<mtable>{(3 * row).format(*cells)}</mtable>")
-        return " = ".join(texts), table, _by_hand(right, put, values, result)
+        symbols = (rendered(side, self._shown) for side in (left, right))
+        factors = right.parts if right.kind == "product" else (right,)
+        texts = [f"{evaluate(factor, Floats(), at):#.5g}" for factor in factors]
+        steps = [
+            f"{rendered(factor, put, _NUMBERS)} = {text}"
+            for factor, text in zip(factors, texts, strict=True)
+        ]
+        if len(steps) > 1:
+            steps.append(f"{' · '.join(texts)} = {result}")
+        formula = " = ".join((*symbols, rendered(right, put, _NUMBERS), result))
+        return formula, self._mathml(equation), f"{'; '.join(steps)}."
+
+    @cached_property
+    def _shown(self) -> dict[str, str]:
+        return {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
+
+    def _mathml(self, equation: str) -> str:
+        sides = (rendered(side, self._shown, MATHML) for side in self.ledger.sides[equation])
+        return f'<math display="block">{"<mo>=</mo>".join(sides)}</math>'
 
     def _figures(self, claim: Claim) -> list[r.Figure]:
         """For a remark: the final depths at both steps, in both schemes."""
@@ -194,16 +204,15 @@ class Audit(Known):
         figures = []
         for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
             where = "initial" if scheme == "published" else "middle"
-            with_what = f"beta = {beta}, drag at the {where} velocity"
-            depths = []
+            what = f"beta = {beta}, drag at the {where} velocity"
+            depths = {}
             for name in ("a-step", "coarse-step"):
-                impact = case(self, beta, step=self[name])
-                depths.append(sheet.run(impact, scheme).final_depth)
-                step = quantity(self.ledger.claims[name].shown, "ns")
-                means = f"final depth at {step}, {with_what}"
-                figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
-            change = 100 * (depths[1] / depths[0] - 1)
-            figures.append(r.Figure(means=f"change, {with_what}", value=change, unit="percent"))
+                means = f"final depth at {quantity(self.ledger.claims[name].shown, 'ns')}, {what}"
+                depths[means] = sheet.run(case(self, beta, step=self[name]), scheme).final_depth
+            fine, coarse = depths.values()
+            figures += [r.Figure(means=m, value=x * 1e6, unit="um") for m, x in depths.items()]
+            change = 100 * (coarse / fine - 1)
+            figures.append(r.Figure(means=f"change, {what}", value=change, unit="percent"))
         return figures
 
     # Equations and inferred inputs
@@ -211,21 +220,17 @@ class Audit(Known):
     def _equation(self, name: str) -> r.EquationRecord:
         assessed = self.equation(name)
         place = assessed.equation.place
-        shown = {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
-        sides = [rendered(side, shown, MATHML) for side in self.ledger.sides[name]]
-        repairs = self.explainer.repairs(name) if assessed.verdict.is_failure else []
         return r.filled(
             r.EquationRecord,
             *(assessed.equation, assessed),
             number=place.equation,
             where=str(place),
             text=self.ledger.printed_text(name),
-            mathml=_math("<mo>=</mo>".join(sides)),
+            mathml=self._mathml(name),
             factor=None if assessed.factor is None else str(assessed.factor),
-            checks=[r.filled(r.CheckRecord, check) for check in assessed.checks],
             constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
-            repairs=repairs,
+            repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
     def _inferred(self, name: str, centered: bool) -> r.InferredRecord:
@@ -239,20 +244,17 @@ class Audit(Known):
             id=name,
             scheme="centered" if centered else "published",
             assumed=float(self.judge.value(INFERRED + name) * si),
-            interval=_inward(*inner),
+            interval=_doubles(*inner, inward=True),
             interval_exact=(str(inner[0]), str(inner[1])),
-            with_printed_mass=_inward(*inference.with_mass.scaled(si).ends),
-            attained_with_rounded_inputs=rounded and _inward(*rounded[0].scaled(si).ends),
-            possible_with_rounded_inputs=rounded and _outward(*rounded[1].scaled(si).ends),
+            with_printed_mass=_doubles(*inference.with_mass.scaled(si).ends, inward=True),
+            possible_with_rounded_inputs=rounded and _doubles(*rounded[1].scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[
-                r.HandbookRecord(
-                    source=r.filled(r.SourceRecord, source, agrees=None),
-                    verdict=inference.admits(source.value, source.interval),
-                )
+                source_record(source, said == "admitted", f"is {said}")
                 for source in self.ledger.sources.values()
                 if INFERRED + name in source.claims and not centered
+                for said in [inference.admits(source.value, source.interval)]
             ],
         )
 
@@ -273,38 +275,12 @@ def _short(value: Fraction) -> str:
     return str(value) if 1 < value.denominator < 10 else powers_of_ten(number(value))
 
 
-def _with_numbers(notation: Notation) -> Notation:
-    """The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
-    unit = notation.number("1")
-
-    def fraction(over: str, under: str) -> str:
-        return over if under == unit else notation.fraction(over, under)
-
-    return replace(notation, fraction=fraction, times=_TIMES[notation.times])
-
-
-_TIMES = {PLAIN.times: " · ", MATHML.times: "<mo>·</mo>"}
-_NUMBERS, _MATHML_NUMBERS = _with_numbers(PLAIN), _with_numbers(MATHML)
-
-
-def _by_hand(
-    right: Node, put: Mapping[str, str], values: Mapping[str, Fraction], result: str
-) -> str:
-    """The factors of a product, each calculated from the numbers put in, and the product."""
-    at = {name: float(value) for name, value in values.items()}
-    factors = right.parts if right.kind == "product" else (right,)
-    texts = [f"{evaluate(factor, Floats(), at):#.5g}" for factor in factors]
-    steps = [
-        f"{rendered(factor, put, _NUMBERS)} = {text}"
-        for factor, text in zip(factors, texts, strict=True)
-    ]
-    if len(steps) > 1:
-        steps.append(f"{' · '.join(texts)} = {result}")
-    return "; ".join(steps) + "."
-
-
-def _math(inner: str) -> str:
-    return f'<math display="block">{inner}</math>'
+_NUMBERS = replace(
+    PLAIN,
+    times=" · ",
+    fraction=lambda over, under: over if under == "1" else f"{over}/{under}",
+)
+"""The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
 
 
 def _judged(judgement: Judgement) -> r.Judged:
@@ -315,8 +291,7 @@ def _judged(judgement: Judgement) -> r.Judged:
         header="exact" if convention.header_exact else "rounded",
         scheme="centered" if convention.centered else "published",
         verdict=judgement.verdict,
-        enclosure=_outward(judgement.lower, judgement.upper),
-        enclosure_exact=_exact(judgement.lower, judgement.upper),
+        **_proven(judgement),
     )
 
 
@@ -329,22 +304,17 @@ def _error(claim: Claim, reading: Reading | None) -> float | None:
     return float((Fraction(reading.computed) - printed.value) / quantum)
 
 
-def _ends(interval: Interval) -> r.Ends:
-    lower, upper = (None if end is None else float(end) for end in (interval.lower, interval.upper))
-    return lower, upper
+def _proven(judgement: Judgement) -> dict[str, Any]:
+    """The range proven for a value: as doubles, never narrower, and exactly."""
+    ends = judgement.lower, judgement.upper
+    return {"enclosure": _doubles(*ends), "enclosure_exact": tuple(map(str, ends))}
 
 
-def _exact(lower: Fraction | None, upper: Fraction | None) -> r.ExactEnds:
-    return None if lower is None else str(lower), None if upper is None else str(upper)
-
-
-def _outward(lower: Fraction, upper: Fraction) -> tuple[float, float]:
-    """Ends as doubles, rounded so that the interval is never narrower."""
+def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:
+    """Ends as doubles, so rounded that the interval is never narrower, or `inward` never wider."""
+    if inward:
+        return -_down(-lower), _down(upper)
     return _down(lower), -_down(-upper)
-
-
-def _inward(lower: Fraction, upper: Fraction) -> tuple[float, float]:
-    return -_down(-lower), _down(upper)
 
 
 def _down(value: Fraction) -> float:

@@ -15,6 +15,7 @@ from typing import Any
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
+from reference.entries import Source
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.units import to_si
@@ -72,7 +73,7 @@ class Known:
     def sources(self, claim: Claim) -> list[r.SourceRecord]:
         """The public sources for a claim, and whether each agrees with it."""
         return [
-            r.filled(r.SourceRecord, source, agrees=claim.target().meets(source.interval))
+            source_record(source, claim.target().meets(source.interval))
             for source in self.ledger.sources.values()
             if claim.id in source.claims
         ]
@@ -96,6 +97,12 @@ class Known:
     def computed(self, claim: str, reading: str = "") -> float:
         """What a reading makes of a claim, in SI."""
         return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
+
+
+def source_record(source: Source, agrees: bool, outcome: str = "") -> r.SourceRecord:
+    """A public source beside a number; `outcome` is what comes of it in other words."""
+    outcome = outcome or ("agrees" if agrees else "differs")
+    return r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome)
 
 
 def case(known: Known, beta: int, /, **changed: float) -> Impact:

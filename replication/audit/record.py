@@ -9,6 +9,8 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from reference.entries import Report
+
 SCHEMA = "coldspray-audit-2"
 """Name and version of the record's keys."""
 
@@ -92,7 +94,7 @@ class SlipRecord(_Part, frozen=True):
 
 
 class SourceRecord(_Part, frozen=True):
-    """A public source beside a claim."""
+    """A public source beside a claim, or an inferred input, and what comes of comparing."""
 
     id: str
     title: str
@@ -101,7 +103,8 @@ class SourceRecord(_Part, frozen=True):
     says: str
     unit: str
     applies: str
-    agrees: bool | None
+    agrees: bool
+    outcome: str
 
 
 class Figure(_Part, frozen=True):
@@ -164,13 +167,6 @@ class ClaimRecord(_Part, frozen=True):
     workbook: str | None
 
 
-class CheckRecord(_Part, frozen=True):
-    """One check of an equation."""
-
-    says: str
-    holds: bool
-
-
 class ConstantRecord(_Part, frozen=True):
     """A constant of an equation: the verdict, and the values that would pass every check."""
 
@@ -192,7 +188,6 @@ class EquationRecord(_Part, frozen=True):
     follows_from: str
     verdict: str
     factor: str | None
-    checks: list[CheckRecord]
     constants: list[ConstantRecord]
     explanation: str
     repairs: list[RepairRecord]
@@ -227,13 +222,6 @@ class FindingRecord(_Part, frozen=True):
     evidence: list[EvidenceRecord]
 
 
-class HandbookRecord(_Part, frozen=True):
-    """What the evidence says of a public value of an inferred input."""
-
-    source: SourceRecord
-    verdict: str
-
-
 class InferredRecord(_Part, frozen=True):
     """An input that the report never prints, and what its evidence admits; in `unit`."""
 
@@ -246,11 +234,10 @@ class InferredRecord(_Part, frozen=True):
     interval: tuple[float, float]
     interval_exact: tuple[str, str]
     with_printed_mass: tuple[float, float]
-    attained_with_rounded_inputs: tuple[float, float] | None
     possible_with_rounded_inputs: tuple[float, float] | None
     evidence: list[str]
     odd: list[str]
-    sources: list[HandbookRecord]
+    sources: list[SourceRecord]
 
 
 class CulpritRecord(_Part, frozen=True):
@@ -355,20 +342,12 @@ class Counts(_Part, frozen=True):
     blank_cells: int
 
 
-class ReportRecord(_Part, frozen=True):
-    """The report that was audited."""
-
-    title: str
-    author: str
-    year: int
-
-
 class Record(_Part, frozen=True):
     """The finished audit."""
 
     schema: str
     headline: str
-    report: ReportRecord
+    report: Report
     summary: dict[str, int]
     counts: Counts
     culprit: CulpritRecord | None

@@ -398,40 +398,33 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     >>> assess_equation(load(), "eq16").factor
     Fraction(1, 2)
     """
-    equation = ledger.equations[name]
-    try:
-        ledger.read(ledger.printed_text(name))
-    except EquationError as error:
-        check = Check(str(error), holds=False)
-        return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
-    sides = ledger.sides
-    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
+    equation, checks = ledger.equations[name], tuple(_checks(ledger, name, ledger.sides))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.kind]
-    judged = _constants(ledger, name, sides, holds) if constants else {}
+    judged = _constants(ledger, name, holds) if constants else {}
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def follows(ledger: Ledger, name: str) -> bool:
-    """Whether an equation passes every check: no more of its verdict, in less time."""
+def follows(ledger: Ledger, name: str, sides: Sides | None = None) -> bool:
+    """Whether an equation, or these sides in its place, pass every check."""
+    return all(check.holds for check in _checks(ledger, name, sides or ledger.sides))
+
+
+def _checks(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
-    except EquationError:
-        return False
-    return _follows(ledger, name, ledger.sides)
-
-
-def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
-    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
-    derived = all(check.holds for check in _derivation(ledger, name, sides))
-    return derived and _dimensions(ledger, name, sides).holds
-
-
-def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
+    except EquationError as error:
+        yield Check(str(error), holds=False)
+        return
+    try:
+        yield from derive(name, sides, ledger.symbols)
+    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
+        yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
         key: ledger.value(symbol.value)
         for key, symbol in ledger.symbols.items()
@@ -440,19 +433,12 @@ def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
     says = "both sides have the same dimensions"
     try:
         own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+        yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
-        return Check(f"{says}: {error}", holds=False)
-    return Check(says, all(unit == own[0] for unit in own))
+        yield Check(f"{says}: {error}", holds=False)
 
 
-def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
-    try:
-        yield from derive(name, sides, ledger.symbols)
-    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
-        yield Check(f"it can be derived: {error}", holds=False)
-
-
-def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, ConstantRecord]:
+def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
     claims = ledger.constants_of(name)
 
     def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
@@ -466,7 +452,7 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
 
     def follows_with(constants: Mapping[str, Fraction]) -> bool:
         read = ledger.read(ledger.printed_text(name, constants))
-        return _follows(ledger, name, {**sides, name: read})
+        return follows(ledger, name, {**ledger.sides, name: read})
 
     needed = {claim: passing(claim, {}) for claim in claims}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
@@ -477,14 +463,10 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
         needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
     constants = {}
     for claim, values in needed.items():
-        if values == (ledger.value(claim),):
-            verdict = Verdict.REPRODUCED
-        elif values and ledger.value(claim) not in values:
-            verdict = Verdict.NOT_REPRODUCED
-        elif not values:
-            verdict = Verdict.UNDECIDED
-        else:
-            verdict = Verdict.NOT_CHECKABLE
+        fits, alone = ledger.value(claim) in values, len(values) == 1
+        verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
+        if fits:
+            verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
         texts = [str(value) for value in values]
         constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
     return constants

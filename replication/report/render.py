@@ -185,20 +185,10 @@ def _touching(record: Record) -> dict[str, list[FindingRecord]]:
     return touching
 
 
-def _sources(record: Record) -> dict[str, list[tuple[SourceRecord, str]]]:
-    """What public sources print for a claim or an inferred input, and what comes of comparing."""
-    outcomes = {True: "agrees", False: "differs", None: ""}
-    claims = {
-        claim.id: [(source, outcomes[source.agrees]) for source in claim.sources]
-        for claim in record.claims
-        if claim.sources
-    }
-    inferred = {
-        f"inferred:{unknown.id}": [(each.source, f"is {each.verdict}") for each in unknown.sources]
-        for unknown in record.inferred
-        if unknown.sources
-    }
-    return claims | inferred
+def _sources(record: Record) -> dict[str, list[SourceRecord]]:
+    """What public sources print for a claim or an inferred input."""
+    claims = {claim.id: claim.sources for claim in record.claims if claim.sources}
+    return claims | {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
 
 
 # For a terminal
