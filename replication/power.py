@@ -15,7 +15,7 @@ import msgspec
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
 from replication.audit.edits import edits_of
-from replication.audit.explain import Screen, dependents
+from replication.audit.explain import Screen, dependents, equation_of
 from replication.audit.verdict import OPEN, Verdict
 from replication.text import Table
 
@@ -113,7 +113,7 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit = Audit(ledger, every_convention=False)
     claims, wrong = dependents(truth.ledger, plant.entry), set()
-    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
+    inside = equation_of(ledger, plant.entry)
     for name in ledger.equations if inside else ():  # its own, and those derived from it
         assessed = audit.equation(name, constants=False)
         # One that fails in the report, too, must fail in another way.

@@ -63,6 +63,7 @@ class Audit(Known):
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,
             culprit=self.explainer.culprit(wrong),
+            failing=wrong,
             claims=claims,
             equations=equations,
             findings=[finding for finding in findings if finding is not headline],

@@ -69,7 +69,6 @@ class BackSolvedRecord(_Part, frozen=True):
     search: tuple[float, float]
     search_reason: str
     proof: str
-    prints_alike: bool
 
 
 class RepairRecord(_Part, frozen=True):
@@ -240,13 +239,6 @@ class InferredRecord(_Part, frozen=True):
     sources: list[SourceRecord]
 
 
-class CulpritRecord(_Part, frozen=True):
-    """One misprint that would explain everything that fails."""
-
-    repair: RepairRecord
-    explains: list[str]
-
-
 class Approach(_Part, frozen=True):
     """One normalized depth X/R: ours, and the report's."""
 
@@ -343,14 +335,19 @@ class Counts(_Part, frozen=True):
 
 
 class Record(_Part, frozen=True):
-    """The finished audit."""
+    """The finished audit.
+
+    `failing`: the claims and equations that contradict what the report prints; `culprit`: the one
+    misprint that would explain all of them, if there is one.
+    """
 
     schema: str
     headline: str
     report: Report
     summary: dict[str, int]
     counts: Counts
-    culprit: CulpritRecord | None
+    culprit: RepairRecord | None
+    failing: list[str]
     claims: list[ClaimRecord]
     equations: list[EquationRecord]
     findings: list[FindingRecord]

@@ -182,7 +182,7 @@ def _needed(solved: r.BackSolvedRecord) -> str:
         return "undecided" if solved.proof == "undecided" else "none"
     ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
     beyond = " or beyond" if "end of the range" in solved.proof else ""
-    return quantity(ends, solved.unit) + beyond + ", prints alike" * solved.prints_alike
+    return quantity(ends, solved.unit) + beyond
 
 
 def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
