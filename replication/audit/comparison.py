@@ -58,13 +58,10 @@ def approaches(known: Known) -> list[r.Approach]:
 def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     """How the exact depth of one of the report's cases depends on each input."""
     impact = case(known, beta)
-    own = {name: getattr(impact, name) for name in _INPUTS}
-    ten = [_effect(impact, name, 0.9 * x, 1.1 * x, "10 % less and more") for name, x in own.items()]
     return r.Sensitivity(
         beta=float(beta),
         depth=depth.final_depth(**impact.motion),
         elasticities=_elasticities(impact),
-        ten_percent=ten,
         stated=_stated(known, impact),
     )
 

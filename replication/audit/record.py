@@ -266,7 +266,6 @@ class Sensitivity(_Part, frozen=True):
     beta: float
     depth: float
     elasticities: dict[str, float]
-    ten_percent: list[Effect]
     stated: list[Effect]
 
 

@@ -60,9 +60,11 @@ def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str)
 def test_depth_is_proportional_to_size_and_the_ratio_does_not_depend_on_it(record: Record) -> None:
     for sensitivity in record.sensitivity:
         assert sensitivity.elasticities["radius"] == 1.0
-        (effect,) = (e for e in sensitivity.ten_percent if e.input == "radius")
+        (effect,) = (e for e in sensitivity.stated if e.input == "radius")
         assert effect.ratios[0] == pytest.approx(effect.ratios[1], rel=1e-14)
-        assert effect.depths[1] / effect.depths[0] == pytest.approx(1.1 / 0.9, rel=1e-14)
+        assert effect.depths[1] / effect.depths[0] == pytest.approx(
+            effect.high / effect.low, rel=1e-14
+        )
 
 
 def test_no_stated_range_alone_brings_the_depth_down_to_the_observed(record: Record) -> None:
