@@ -14,8 +14,7 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.edits import edits_of
-from replication.audit.explain import Screen, dependents, equation_of
+from replication.audit.explain import Screen, dependents, edits_of, equation_of
 from replication.audit.verdict import OPEN, Verdict
 from replication.text import Table
 

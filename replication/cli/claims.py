@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
         hint = f"near it: {near}" if near else "`coldspray claims` lists them"
         raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
     from replication.audit.audit import audit_claim
-    from replication.report.render import proof
+    from replication.report import proof
 
     claim, strong = audit_claim(options.id), shared.may_emphasize()
     return shared.put(options, claim, lambda: proof(claim, ledger, shared.width(), strong))

@@ -10,7 +10,7 @@ from itertools import count
 from math import log10
 
 from replication.audit.record import Record
-from replication.report.facts import shown_range
+from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
 """The color of the text around, and two of Okabe and Ito's, which stand out from white and from

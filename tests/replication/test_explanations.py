@@ -11,8 +11,13 @@ from reference.enclosure import Solutions
 from reference.equations import EquationError
 from reference.ledger import Ledger, load
 from replication.audit.audit import audit
-from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
-from replication.audit.explain import Explainer
+from replication.audit.explain import (
+    EQUATION_EDITS,
+    NUMBER_EDITS,
+    Explainer,
+    edits,
+    equation_edits,
+)
 from replication.audit.replica import replica
 from replication.audit.verdict import Judge
 
