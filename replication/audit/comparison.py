@@ -103,17 +103,22 @@ def _stated(known: Known, impact: Impact) -> list[r.Effect]:
         ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
         ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
     )
-    return [_effect(impact, name, float(low), float(high), why) for name, low, high, why in ranges]
-
-
-def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> r.Effect:
-    ends = [replace(impact, **{name: end}) for end in (low, high)]
-    depths = [depth.final_depth(**end.motion) for end in ends]
-    ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
-    return r.Effect(input=name, low=low, high=high, ratios=ratios, depths=depths, why=why)
+    effects = []
+    for name, low, high, why in ranges:
+        ends = [replace(impact, **{name: float(end)}) for end in (low, high)]
+        depths = [depth.final_depth(**end.motion) for end in ends]
+        effects.append(
+            r.Effect(input=name, low=float(low), high=float(high), depths=depths, why=why,
+                     ratios=[x / end.radius for x, end in zip(depths, ends, strict=True)])
+        )  # fmt: skip
+    return effects
 
 
 # What scatter does
+
+
+SHARES = 0.05, 0.5, 0.95
+"""Of the particles of the stream."""
 
 
 def scatter(known: Known) -> list[r.Scatter]:
@@ -141,21 +146,15 @@ def scatter(known: Known) -> list[r.Scatter]:
         ("drag on a sphere: mass and area", by_drag, 0.5 * relative * impact.velocity),
         ("as stated: normal", stated.inv_cdf, stated.stdev),
     )
-    return [
-        r.Scatter(
-            law=name,
-            standard_deviation=deviation,
-            mean_deviation=deviation * mean,
-            points=[
-                r.ScatterPoint(
-                    share=share, velocity=v, ratio=exact_ratio(replace(impact, velocity=v))
-                )
-                for share in (0.05, 0.5, 0.95)
-                for v in [law(share)]
-            ],
-        )
-        for name, law, deviation in laws
-    ]
+    result = []
+    for name, law, deviation in laws:
+        velocities = [law(share) for share in SHARES]
+        ratios = [exact_ratio(replace(impact, velocity=v)) for v in velocities]
+        result.append(
+            r.Scatter(law=name, standard_deviation=deviation, mean_deviation=deviation * mean,
+                      shares=list(SHARES), velocities=velocities, ratios=ratios)
+        )  # fmt: skip
+    return result
 
 
 # The sheet and the exact motion

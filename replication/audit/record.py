@@ -269,21 +269,18 @@ class Sensitivity(_Part, frozen=True):
     stated: list[Effect]
 
 
-class ScatterPoint(_Part, frozen=True):
-    """Velocity and X/R that so many of the particles do not exceed."""
-
-    share: float
-    velocity: float
-    ratio: float
-
-
 class Scatter(_Part, frozen=True):
-    """The stream by one law; deviations of the velocity to first order."""
+    """The stream by one law; deviations of the velocity to first order.
+
+    Velocity and X/R are those that so large shares of the particles do not exceed.
+    """
 
     law: str
     standard_deviation: float
     mean_deviation: float
-    points: list[ScatterPoint]
+    shares: list[float]
+    velocities: list[float]
+    ratios: list[float]
 
 
 class Curve(_Part, frozen=True):

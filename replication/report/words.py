@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
+from replication.audit.comparison import SHARES
 from replication.audit.verdict import OPEN
 from replication.cases import INPUTS
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded, table
@@ -290,19 +291,15 @@ def sensitivity(case: r.Sensitivity) -> Table:
 
 def scatter(record: r.Record) -> Table:
     """The stream of particles by three laws."""
-
-    def at(k: int) -> Callable[[r.Scatter], str]:
-        return lambda law: f"{law.points[k].velocity:.0f} m/s, {law.points[k].ratio:.3f}"
-
-    return table("Velocity and X/R over the particles of the stream", record.scatter, {
-        "law": lambda law: law.law,
-        "standard deviation": lambda law: f"{law.standard_deviation:.1f} m/s",
-        "mean deviation": lambda law: f"{law.mean_deviation:.1f} m/s",
-        **{
-            f"V and X/R that {number(100 * point.share)} % do not exceed": at(k)
-            for k, point in enumerate(record.scatter[0].points)
-        },
-    })  # fmt: skip
+    shares = [f"V and X/R that {number(100 * share)} % do not exceed" for share in SHARES]
+    rows = []
+    for law in record.scatter:
+        pairs = zip(law.velocities, law.ratios, strict=True)
+        quantiles = (f"{v:.0f} m/s, {ratio:.3f}" for v, ratio in pairs)
+        deviations = (f"{x:.1f} m/s" for x in (law.standard_deviation, law.mean_deviation))
+        rows.append((law.law, *deviations, *quantiles))
+    caption = "Velocity and X/R over the particles of the stream"
+    return Table(caption, ("law", "standard deviation", "mean deviation", *shares), rows)
 
 
 # How a sentence is set
