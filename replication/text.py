@@ -4,13 +4,13 @@ A proven range never becomes narrower by being shortened.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import zip_longest
 from math import isclose
 from textwrap import wrap
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from reference.units import superscript, written
 
@@ -124,25 +124,12 @@ def rounded(value: Fraction, digits: int, rounding: str) -> str:
     return f"{float(shortened):.{digits}g}"
 
 
-_T = TypeVar("_T")
-
-
 class Table(NamedTuple):
     """A table; the first cell of a row is its head."""
 
     caption: str
     heads: tuple[str, ...]
     rows: Sequence[tuple[str, ...]]
-
-
-def table(caption: str, things: Iterable[_T], columns: Mapping[str, Callable[[_T], str]]) -> Table:
-    """A table with a row for each thing; `columns` names what stands in it, and writes it.
-
-    >>> table("Powers", [2, 3], {"n": str, "square": lambda n: str(n * n)}).rows
-    [('2', '4'), ('3', '9')]
-    """
-    rows = [tuple(write(thing) for write in columns.values()) for thing in things]
-    return Table(caption, tuple(columns), rows)
 
 
 def aligned(

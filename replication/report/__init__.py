@@ -24,7 +24,7 @@ from replication.power import measured
 from replication.report import words as told
 from replication.report.figures import draw
 from replication.report.words import Named, Prose, quoted
-from replication.text import columns, json_text, number, quantity, rows_csv, table
+from replication.text import Table, columns, json_text, number, quantity, rows_csv
 from spreadsheets.safely import check_folder, write_folder
 
 
@@ -88,16 +88,14 @@ def page(record: Record, drawings: Mapping[str, str]) -> str:
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
     digest = b64encode(sha256(style.encode()).digest()).decode()
     more = {"drawings": drawings, "style": style, "style_hash": digest}
-    return _filled("page.html.j2", _prose(record).html, _parts(record) | more).lstrip()
+    prose = Prose(record.symbols, told.names_of(record))
+    return _filled("page.html.j2", prose.html, _parts(record) | more).lstrip()
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    return _filled("page.md.j2", _prose(record).markdown, _parts(record)).lstrip()
-
-
-def _prose(record: Record) -> Prose:
-    return Prose(record.symbols, told.names_of(record))
+    prose = Prose(record.symbols, told.names_of(record))
+    return _filled("page.md.j2", prose.markdown, _parts(record)).lstrip()
 
 
 def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
@@ -208,20 +206,19 @@ FINDINGS = 3
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
     """The audit on one screen: what it found, the counts, all that fails, the main results."""
-    main = (claim for claim in record.claims if claim.id in MAIN and claim.computed is not None)
+    main = [
+        (c.title, told.printed(c), told.measured(c.computed, c.unit), c.verdict)
+        for c in record.claims
+        if c.id in MAIN and c.computed is not None
+    ]
     failing = told.failing(record)
     titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in failing.rows]
     context = {
         "record": record,
         "failing": failing._replace(rows=titles),
-        "main": table("Main results", main, {
-            "number": lambda claim: claim.title,
-            "printed": told.printed,
-            "computed": lambda claim: told.measured(claim.computed, claim.unit),
-            "verdict": lambda claim: claim.verdict,
-        }),
+        "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
         "shown": FINDINGS,
-    }  # fmt: skip
+    }
     return _terminal(Prose(record.symbols, {}), context, width, strong)
 
 

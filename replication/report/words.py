@@ -6,7 +6,7 @@ stand between backticks.
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
 from html import escape
@@ -18,7 +18,7 @@ from replication.audit import record as r
 from replication.audit.comparison import SHARES
 from replication.audit.verdict import OPEN
 from replication.cases import INPUTS
-from replication.text import Table, between, number, powers_of_ten, quantity, rounded, table
+from replication.text import Table, between, number, powers_of_ten, quantity, rounded
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -123,28 +123,17 @@ def failing(record: r.Record) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
     claims = [claim for claim in record.claims if claim.verdict in OPEN]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
-
-    def shortened(claim: r.ClaimRecord, value: float | None) -> str:
-        return "" if value is None else f"{value:#.{significant(claim.printed)}g}"
-
-    def computed(claim: r.ClaimRecord) -> str:
+    names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
+    rows = []
+    for claim in claims:
+        values = {"": claim.computed} | {own.name: own.computed for own in claim.readings}
+        texts = {name: f"{value:#.{significant(claim.printed)}g}"
+                 for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
-            return f"derived: {' or '.join(needed[claim.id])}"
-        return shortened(claim, claim.computed)
-
-    def read(name: str) -> Callable[[r.ClaimRecord], str]:
-        return lambda claim: "".join(
-            shortened(claim, reading.computed) for reading in claim.readings if reading.name == name
-        )
-
-    names = dict.fromkeys(reading.name for claim in claims for reading in claim.readings)
-    columns = {
-        "number": lambda claim: f"`{claim.id}`",
-        "printed": printed,
-        "computed as printed": computed,
-        **{name: read(name) for name in names},
-    }
-    return table("What does not come out as printed", claims, columns)
+            texts[""] = f"derived: {' or '.join(needed[claim.id])}"
+        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(name, "") for name in names)))
+    heads = ("number", "printed", "computed as printed", *list(names)[1:])
+    return Table("What does not come out as printed", heads, rows)
 
 
 def significant(text: str) -> int:
@@ -159,35 +148,26 @@ def significant(text: str) -> int:
 
 def tried(claim: r.ClaimRecord) -> list[Table]:
     """What was tried to explain a claim that fails, and the figures that a remark is judged by."""
+    figures = [(f.means, measured(f.value, f.unit, 5)) for f in claim.figures]
+    slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
     tables = (
-        table("The figures", claim.figures, {
-            "what": lambda f: f.means,
-            "computed": lambda f: measured(f.value, f.unit, 5),
-        }),
+        Table("The figures", ("what", "computed"), figures),
         _back_solved(claim.back_solved),
         repairs(claim.repairs, claim.id),
-        table("Slips the author may have made", claim.slips, {
-            "slip": lambda s: s.name,
-            "what it is": lambda s: s.reason,
-            "gives": lambda s: number(s.value, 3),
-            "fits": lambda s: s.fits or "no",
-        }),
-    )  # fmt: skip
+        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
+    )
     return [shown for shown in tables if shown.rows]
 
 
-def _back_solved(solved: Iterable[r.BackSolvedRecord]) -> Table:
+def _back_solved(solved: Sequence[r.BackSolvedRecord]) -> Table:
     """A row for each input, a column for each reading."""
-    by_entry: dict[str, dict[str, r.BackSolvedRecord]] = {}
-    for item in solved:
-        by_entry.setdefault(item.entry, {})[item.reading] = item
-    readings = list(dict.fromkeys(reading for row in by_entry.values() for reading in row))
     rows = []
-    for entry, row in by_entry.items():
-        item = next(iter(row.values()))
-        needed = (_needed(row[reading]) if reading in row else "" for reading in readings)
-        search = f"{between(item.search, 4)}: {item.search_reason}"
-        rows.append((f"`{entry}`", measured(item.printed, item.unit), *needed, search))
+    for entry in dict.fromkeys(item.entry for item in solved):
+        own = [item for item in solved if item.entry == entry]
+        value = measured(own[0].printed, own[0].unit)
+        search = f"{between(own[0].search, 4)}: {own[0].search_reason}"
+        rows.append((f"`{entry}`", value, *map(_needed, own), search))
+    readings = dict.fromkeys(item.reading for item in solved)
     heads = (f"needed, {reading or 'as printed'}" for reading in readings)
     caption = "One input changed, all others as printed: proven values that would give the number"
     return Table(caption, ("input", "printed", *heads, "searched"), rows)
@@ -206,25 +186,22 @@ def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
 
     Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
     """
-    return table("Misprints, one edit of the text, that would explain it", records, {
-        "text of": lambda repair: f"`{repair.entry}`",
-        "printed": lambda repair: quoted(repair.printed),
-        "instead": lambda repair: quoted(repair.text),
-        "edit": lambda repair: repair.kind,
-        "read": lambda repair: repair.reading or "as printed",
-        "what else still fails": lambda repair: (
-            ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing"
-        ),
-    })  # fmt: skip
+    rows = []
+    for repair in records:
+        failing = ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing"
+        texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
+        rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
+    heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
+    return Table("Misprints, one edit of the text, that would explain it", heads, rows)
 
 
 def evidence(finding: r.FindingRecord) -> Table:
     """The numbers of a finding, as asserted and as computed."""
-    return table("The finding's numbers, computed anew", finding.evidence, {
-        "what": lambda x: x.means,
-        "stated": lambda x: quantity(x.asserted, x.unit),
-        "computed": lambda x: computed(x) + ": NOT AS STATED" * (not x.holds),
-    })  # fmt: skip
+    rows = [
+        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
+        for x in finding.evidence
+    ]
+    return Table("The finding's numbers, computed anew", ("what", "stated", "computed"), rows)
 
 
 def computed(piece: r.EvidenceRecord) -> str:
@@ -247,21 +224,23 @@ def computed(piece: r.EvidenceRecord) -> str:
 
 def proven(claims: Iterable[r.ClaimRecord]) -> Table:
     """The cells of Table A-1 that are computed, with all digits that matter."""
-    return table("Cells of Table A-1", (c for c in claims if c.computed is not None), {
-        "what": lambda c: c.title,
-        "cell": lambda c: c.cell or "",
-        "computed": lambda c: measured(c.computed, c.unit, 10),
-        "proven range": lambda c: between(c.enclosure or ()),
-    })  # fmt: skip
+    rows = [
+        (c.title, c.cell or "", measured(c.computed, c.unit, 10), between(c.enclosure))
+        for c in claims
+        if c.enclosure is not None
+    ]
+    return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
 
 
 def approaches(record: r.Record) -> Table:
     """Every approach to X/R."""
-    return table("Normalized depth X/R", record.approaches, {
-        "approach": lambda a: f"{a.kind}: {a.name}",
-        "computed": lambda a: "not recomputable" if a.computed is None else number(a.computed, 5),
-        "printed": lambda a: f"{a.printed} `{a.claim}`" if a.claim else "",
-    })  # fmt: skip
+    rows = [
+        (f"{a.kind}: {a.name}",
+         "not recomputable" if a.computed is None else number(a.computed, 5),
+         f"{a.printed} `{a.claim}`" if a.claim else "")
+        for a in record.approaches
+    ]  # fmt: skip
+    return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
 
 
 def ladders(record: r.Record) -> Table:
@@ -279,14 +258,14 @@ def ladders(record: r.Record) -> Table:
 
 def sensitivity(case: r.Sensitivity) -> Table:
     """What the inputs' own ranges do to the depth of a case."""
-    return table(f"Derivatives and stated ranges, beta = {case.beta:g}", case.stated, {
-        "input": lambda e: e.input.replace("_", " "),
-        "d ln X / d ln input": lambda e: f"{case.elasticities[e.input]:+.3f}",
-        "range": shown_range,
-        "X [um]": lambda e: " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
-        "X/R": lambda e: " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)),
-        "the range is": lambda e: e.why,
-    })  # fmt: skip
+    rows = [
+        (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
+         " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
+         " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)), e.why)
+        for e in case.stated
+    ]  # fmt: skip
+    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
+    return Table(f"Derivatives and stated ranges, beta = {case.beta:g}", heads, rows)
 
 
 def scatter(record: r.Record) -> Table:
