@@ -39,15 +39,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _listed(claim: Any) -> dict[str, Any]:
     """What the ledger says of a claim, without a verdict."""
-    return {
-        "id": claim.id,
-        "title": claim.title,
-        "where": str(claim.place),
-        "line": claim.place.line,
-        "section": claim.place.section,
-        "cell": claim.place.cell,
-        "quote": " ".join(claim.quote.split()),
-        "printed": claim.text,
-        "unit": claim.unit,
-        "kind": claim.kind,
-    }
+    own = {name: getattr(claim, name) for name in ("id", "title", "unit", "kind")}
+    place = {name: getattr(claim.place, name) for name in ("line", "section", "cell")}
+    quote = " ".join(claim.quote.split())
+    return {**own, **place, "where": str(claim.place), "quote": quote, "printed": claim.text}
