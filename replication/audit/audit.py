@@ -36,12 +36,6 @@ def audit(ledger: Ledger | None = None) -> r.Record:
     return Audit(ledger or ledgers.load()).record()
 
 
-def audit_claim(name: str) -> r.ClaimRecord:
-    """Audit one claim. Raises KeyError if the ledger has none of this id."""
-    whole = Audit(ledgers.load())
-    return whole.claim(whole.ledger.claims[name])
-
-
 class Audit(Known):
     """The audit of one ledger."""
 
@@ -83,7 +77,8 @@ class Audit(Known):
             provenance=_provenance(),
         )
 
-    def _counts(self, claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
+    @staticmethod
+    def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
         calculations = {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
@@ -95,7 +90,6 @@ class Audit(Known):
             failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
-            blank_cells=len(self.ledger.blank),
         )
 
     # Claims
@@ -142,12 +136,12 @@ class Audit(Known):
     @staticmethod
     def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
         judgement = reading.judgements[0]
-        witness = judgement.witness
+        witness = {name: float(value) for name, value in (judgement.witness or {}).items()}
         return r.filled(
             r.ReadingRecord,
             reading,
             **_proven(judgement),
-            witness={k: float(value) for k, value in witness.items()} if witness else None,
+            witness=witness or None,
             holds=wording.holds(claim, reading),
             otherwise=[_judged(j) for j in reading.otherwise],
         )

@@ -398,28 +398,10 @@ def _digits(text: str) -> list[int]:
 
 
 def _swapped(text: str) -> Iterator[str]:
-    places = _digits(text)
-    for here, there in pairwise(places):
-        if there - here == 1 or text[here + 1 : there] == ".":
-            yield (
-                text[:here] + text[there] + text[here + 1 : there] + text[here] + text[there + 1 :]
-            )
-
-
-def _inserted(text: str) -> Iterator[str]:
-    ends = sorted({end for k in _digits(text) for end in (k, k + 1)})
-    return (text[:k] + digit + text[k:] for k in ends for digit in digits)
-
-
-def _moved(text: str) -> Iterator[str]:
-    """The decimal point one place to the left or right."""
-    point = text.find(".")
-    if point < 0:
-        return
-    if point > 1 and text[point - 1].isdigit():
-        yield text[: point - 1] + "." + text[point - 1] + text[point + 1 :]
-    if text[point + 1 : point + 2].isdigit():
-        yield text[:point] + text[point + 1] + "." + text[point + 2 :]
+    for here, there in pairwise(_digits(text)):
+        between = text[here + 1 : there]
+        if between in ("", "."):
+            yield text[:here] + text[there] + between + text[here] + text[there + 1 :]
 
 
 def _shifted(text: str) -> Iterator[str]:
@@ -433,32 +415,33 @@ def _shifted(text: str) -> Iterator[str]:
             yield text[: match.start("number")] + shown + text[match.end("number") :]
 
 
-_WORDS = (
-    ("one", "two", "three", "four", "five"),
-    ("third", "half"),
-    ("one-sixth", "one-fifth"),
-    ("twice", "thrice"),
-)
+_WORDS = ("one two three four five", "third half", "one-sixth one-fifth", "twice thrice")
 
 
 def _words(text: str) -> Iterator[str]:
     own = text.lower()
-    others = (word for words in _WORDS if own in words for word in words if word != own)
+    others = (w for words in map(str.split, _WORDS) if own in words for w in words if w != own)
     return (word.capitalize() if text[0].isupper() else word for word in others)
 
 
-_EDITS: Mapping[str, Callable[[str], Iterator[str]]] = {
+_EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {
     "digit dropped": lambda text: (text[:k] + text[k + 1 :] for k in _digits(text)),
     "digits swapped": _swapped,
-    "decimal point moved": _moved,
+    "decimal point moved": lambda text: (
+        re.sub(r"(?<=.)(\d)\.", r".\1", text), re.sub(r"\.(\d)", r"\1.", text),
+    ),
     "exponent changed": _shifted,
     "other word": _words,
     "digit doubled": lambda text: (text[:k] + text[k] + text[k:] for k in _digits(text)),
     "digit changed": lambda text: (
         text[:k] + digit + text[k + 1 :] for k in _digits(text) for digit in digits
     ),
-    "digit inserted": _inserted,
-}
+    "digit inserted": lambda text: (
+        text[:end] + digit + text[end:]
+        for end in sorted({end for k in _digits(text) for end in (k, k + 1)})
+        for digit in digits
+    ),
+}  # fmt: skip
 NUMBER_EDITS = tuple(_EDITS)
 """Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
 
@@ -483,8 +466,18 @@ def equation_edits(
         rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        for replacement, kind in _replacements(match, written, dimensions):
-            edits.setdefault(text[: match.start()] + replacement + text[match.end() :], kind)
+        token, mistaken = match[0], []
+        if match["number"]:
+            mistaken = [("", "number dropped")]
+        elif token in _OPPOSITE:
+            kind = "sign changed" if match["sign"] else "function changed"
+            mistaken = [(_OPPOSITE[token], kind)]
+        elif match["symbol"]:
+            own = written[token]
+            mistaken = [(symbol, "symbol changed") for symbol, name in written.items()
+                        if name != own and dimensions[name] == dimensions[own]]  # fmt: skip
+        for instead, kind in mistaken:
+            edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
         turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
         edits.setdefault(turned, "fraction turned over")
@@ -492,18 +485,4 @@ def equation_edits(
     return iter(edits.items())
 
 
-def _replacements(
-    match: re.Match[str], written: Mapping[str, str], dimensions: Mapping[str, Dimension]
-) -> Iterable[tuple[str, str]]:
-    text = match[0]
-    if match["number"]:
-        yield "", "number dropped"
-    elif match["sign"]:
-        yield "+" if text == "-" else "-", "sign changed"
-    elif text in (r"\ln", r"\log"):
-        yield r"\log" if text == r"\ln" else r"\ln", "function changed"
-    elif match["symbol"]:
-        own = dimensions[written[text]]
-        for mistaken, name in written.items():
-            if name != written[text] and dimensions[name] == own:
-                yield mistaken, "symbol changed"
+_OPPOSITE = {"+": "-", "-": "+", r"\ln": r"\log", r"\log": r"\ln"}

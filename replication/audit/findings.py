@@ -94,10 +94,6 @@ class Known:
                 return reading
         raise ArithmeticError(f"{claim} has no value")
 
-    def computed(self, claim: str, reading: str = "") -> float:
-        """What a reading makes of a claim, in SI."""
-        return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
-
 
 def source_record(source: Source, agrees: bool, outcome: str = "") -> r.SourceRecord:
     """A public source beside a number; `outcome` is what comes of it in other words."""
@@ -148,7 +144,8 @@ class Evidence:
         if assertion is not None and assertion.words:
             return Fraction(" ".join(known.ledger.text.split()).count(assertion.words))
         if part in _READINGS:
-            return known.computed(entry, _READINGS[part])
+            reading = known.reading(entry, _READINGS[part])
+            return reading.computed * float(known.ledger.claims[entry].si)
         if part:
             least, greatest = known.ledger.claims[entry].target().ends
             return least if part == "least" else greatest

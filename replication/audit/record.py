@@ -314,7 +314,7 @@ class Level(_Part, frozen=True):
 
 
 class Counts(_Part, frozen=True):
-    """How many there are: printed numbers, of them computed anew, equations, blank cells.
+    """How many there are: printed numbers, of them computed anew, equations.
 
     `calculations` counts the distinct ones among the reproduced numbers: a value that the report
     prints five times is one of them.
@@ -327,7 +327,6 @@ class Counts(_Part, frozen=True):
     failing: int
     equations: int
     equations_derived: int
-    blank_cells: int
 
 
 class Record(_Part, frozen=True):

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from itertools import product
+from itertools import islice, product
 from math import prod
 from typing import Any
 
-from reference.arithmetic import InexactError, Number, Rationals, Reals
+from reference.arithmetic import InexactError, Rationals, Reals
 from reference.derivations import Check, Sides, derive
 from reference.enclosure import Box, enclose, explore
 from reference.equations import EquationError, dimension
@@ -166,51 +166,44 @@ class Judge:
         return Assessment(readings[0].verdict, readings=readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
+        computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
         judgements = tuple(self._judgements(claim, name))
-        reference = self.reference(claim, name) / _REALS.number(claim.si)
-        # With a misprint planted in an equation, the models, which have it right, do not serve.
-        computed = float(reference) if self.ledger.misprinted else self._replica(claim, name)
-        summary = claim.computations[name].summary
+        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
+        reference /= _REALS.number(claim.si)
+        if self.ledger.misprinted:
+            # With a misprint planted in an equation, the models, which have it right, do not serve.
+            computed = float(reference)
+        else:
+            inputs = {key: float(prod(map(self.value, own))) for key, own in claim.inputs.items()}
+            settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
+            if computation.by_scheme:
+                settings["scheme"] = "published"
+            answer = replica(computation.name, inputs, **settings)
+            computed = float(Fraction(answer) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
-        return Reading(name, summary, computed, digits, judgements)
-
-    def reference(self, claim: Claim, name: str = "", *, centered: bool = False) -> Number:
-        """The value of a claim's computation in SI, to 50 digits."""
-        function = self.ledger.function(claim, reading=name, centered=centered)
-        result = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
-        return _REALS.number(result) if isinstance(result, Fraction) else result
-
-    def _replica(self, claim: Claim, name: str) -> float:
-        computation = claim.computations[name]
-        settings: dict[str, object] = {}
-        if computation.by_row:
-            settings["row"] = claim.row
-        if computation.by_scheme:
-            settings["scheme"] = "published"
-        inputs = {
-            key: float(prod(map(self.value, entries))) for key, entries in claim.inputs.items()
-        }
-        return float(Fraction(replica(computation.name, inputs, **settings)) / claim.si)
+        return Reading(name, computation.summary, computed, digits, judgements)
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
+        """Under every convention, or under the usual one only."""
+        every = self._under_every_convention(claim, name)
+        return every if self.every_convention else islice(every, 1)
+
+    def _under_every_convention(self, claim: Claim, name: str) -> Iterator[Judgement]:
         searched: dict[Convention, Judgement] = {}
         for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
             convention = Convention(rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
-            else:
-                for rounded in _input_conventions(self.ledger, claim, convention):
-                    # A search does not ask how ties go.
-                    even = rounding is Rounding.EVEN
-                    key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
-                    if key not in searched:
-                        searched[key] = self._search(claim, name, key)
-                    yield replace(searched[key], convention=rounded)
-                    if not self.every_convention:
-                        return
-            if not self.every_convention:
-                return
+                continue
+            for rounded in _input_conventions(self.ledger, claim, convention):
+                # A search does not ask how ties go.
+                even = rounding is Rounding.EVEN
+                key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
+                if key not in searched:
+                    searched[key] = self._search(claim, name, key)
+                yield replace(searched[key], convention=rounded)
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -293,10 +286,8 @@ class Judge:
         self, claim: Claim, name: str, convention: Convention, box: Box
     ) -> tuple[Fraction, Fraction]:
         computation = claim.computations[name]
-        key = (
-            computation.name, claim.row, convention.centered,
-            tuple(sorted(claim.inputs.items())), tuple(sorted(box.items())),
-        )  # fmt: skip
+        what = computation.name, claim.row, str(claim.inputs)
+        key = what, convention.centered, tuple(box.items())
         if key not in self._ranges:
             function = self.ledger.function(claim, reading=name, centered=convention.centered)
             range_ = enclose(function, box)

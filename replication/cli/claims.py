@@ -30,10 +30,10 @@ def run(options: argparse.Namespace) -> int:
         near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
         hint = f"near it: {near}" if near else "`coldspray claims` lists them"
         raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
-    from replication.audit.audit import audit_claim
+    from replication.audit.audit import Audit
     from replication.report import proof
 
-    claim, strong = audit_claim(options.id), shared.may_emphasize()
+    claim, strong = Audit(ledger).claim(ledger.claims[options.id]), shared.may_emphasize()
     return shared.put(options, claim, lambda: proof(claim, ledger, shared.width(), strong))
 
 
