@@ -282,7 +282,9 @@ class Explainer:
         repairs of the claim that is quickest to compute are given. An input that is doubted only
         because of the claims that rest on it says no more than they do.
         """
-        names = [name for name in names if not self._is_only_shown(name)]
+        claims = self.ledger.claims
+        doubted = {c.id for c in claims.values() if c.computation is None and c.shown_by}
+        names = [name for name in names if name not in doubted]
         if not names:
             return []
         quickest = min(names, key=self._cost)
@@ -290,10 +292,6 @@ class Explainer:
         common = set.intersection(*suspects) or suspects[0]
         repairs = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
-
-    def _is_only_shown(self, name: str) -> bool:
-        claim = self.ledger.claims.get(name)
-        return claim is not None and claim.computation is None and bool(claim.shown_by)
 
     def _cost(self, name: str) -> tuple[int, str]:
         """How long a claim takes to compute: whole sheets last, repetitions first."""

@@ -227,22 +227,25 @@ class Judge:
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
-        inside, around = _without_and_with_ends(claim, convention.rounding)
+        target = claim.target(convention.rounding)
+        inside = around = target
+        if convention.rounding is not Rounding.CUT and target != claim.target(Rounding.CUT):
+            # A search does not ask how ties go: without, and with, the ends on which they decide.
+            inside, around = Interval(*target.ends, False, False), Interval(*target.ends)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
         whole_sheet = claim.by_scheme and claim.row is None
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
             search = explore(function, box, inside, budget)
-            if search.inside is not None and self._evidence_holds(claim, convention, search.inside):
+            witness = search.inside
+            if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
                 ends = enclose(function, whole).ends
-                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, search.inside)
-        if search.inside is not None:
+                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
+        if witness is not None:
             never = any(
-                self.inference(entry, centered=convention.centered).excludes(
-                    function, around, convention, whole, budget
-                )
-                for entry in claim.inferred
+                own.excludes(function, around, convention, whole, budget) for own in inferences
             )
         else:
             never = search.never and (
@@ -250,7 +253,7 @@ class Judge:
             )
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         judgement = _judgement(claim, convention, verdict, search.ends)
-        return replace(judgement, against_evidence=never and search.inside is not None)
+        return replace(judgement, against_evidence=never and witness is not None)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
@@ -274,13 +277,6 @@ class Judge:
             narrow[entry] = inference.admitted(exact)[0].ends
             whole[entry] = inference.admitted(convention)[1].ends
         return narrow, whole
-
-    def _evidence_holds(
-        self, claim: Claim, convention: Convention, witness: Mapping[str, Fraction]
-    ) -> bool:
-        """Whether the witness reproduces the evidence of the inferred inputs, too."""
-        inferences = (self.inference(e, centered=convention.centered) for e in claim.inferred)
-        return all(inference.holds_at(witness, convention) for inference in inferences)
 
     def _range(
         self, claim: Claim, name: str, convention: Convention, box: Box
@@ -328,14 +324,6 @@ def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
 
 _BUDGET = 100
 """Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
-
-
-def _without_and_with_ends(claim: Claim, rounding: Rounding) -> tuple[Interval, Interval]:
-    """A print without and with the ends on which ties decide: a search does not ask how they go."""
-    own = claim.target(rounding)
-    if rounding is Rounding.CUT or own == claim.target(Rounding.CUT):
-        return own, own
-    return Interval(*own.ends, False, False), Interval(*own.ends)
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:

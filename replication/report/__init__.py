@@ -69,15 +69,14 @@ _COLUMNS = (
 
 def _csv(record: Record) -> str:
     """A line for each claim; what does not apply is empty."""
-    return rows_csv([{name: _cell(claim, name) for name in _COLUMNS} for claim in record.claims])
-
-
-def _cell(claim: ClaimRecord, column: str) -> Any:
-    name, _, end = column.rpartition("_")
-    if end in ("lower", "upper"):
-        ends = getattr(claim, name)
-        return ends and ends[end == "upper"]
-    return getattr(claim, column)
+    rows = []
+    for claim in record.claims:
+        ends = {f"{name}_{end}": value
+                for name in ("interval", "enclosure")
+                for end, value in zip(("lower", "upper"), getattr(claim, name) or (None, None),
+                                      strict=True)}  # fmt: skip
+        rows.append({n: ends[n] if n in ends else getattr(claim, n) for n in _COLUMNS})
+    return rows_csv(rows)
 
 
 # Page and Markdown: one arrangement, two templates
