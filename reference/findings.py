@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
 from importlib import resources
+from string import ascii_uppercase
 from typing import Any, Literal
 
 import msgspec
@@ -171,6 +172,12 @@ def expression(text: str) -> tuple[Node, set[str]]:
     >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
     ['a1-radius', 'cth.diameter']
     """
-    names = {*re.findall(r"(?<![\w.-])[a-z][\w:.-]*", text)} - {"ln", "pi"}
-    written = re.sub(r"\bln\b", r"\\ln", text).replace("*", " ").strip()
-    return read_expression(written, {name: name for name in (*names, "pi")}), names
+    names: dict[str, str] = {}
+
+    def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
+        letter = ascii_uppercase[len(names)]
+        return r"\ln" if match[0] == "ln" else names.setdefault(match[0], letter)
+
+    line = re.sub(r"(?<![\w.-])[a-z][\w:.-]*", written, text).replace("*", " ").strip()
+    symbols = {letter: name for name, letter in names.items()}
+    return read_expression(line, dict.fromkeys(ascii_uppercase, "") | symbols), {*names} - {"pi"}

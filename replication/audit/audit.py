@@ -21,7 +21,7 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Known, case, source_record
+from replication.audit.findings import Evidence, Known, case
 from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, quantity
@@ -245,12 +245,7 @@ class Audit(Known):
             possible_with_rounded_inputs=rounded and _doubles(*rounded[1].scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
-            sources=[
-                source_record(source, said == "admitted", f"is {said}")
-                for source in self.ledger.sources.values()
-                if INFERRED + name in source.claims and not centered
-                for said in [inference.admits(source.value, source.interval)]
-            ],
+            sources=[] if centered else self.admitted(INFERRED + name),
         )
 
 

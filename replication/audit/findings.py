@@ -44,6 +44,7 @@ class Known:
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)
+        self.admitted = cache(self._admitted)
 
     def _assess(self, claim: Claim) -> Assessment:
         """The verdict on one claim, and why."""
@@ -72,10 +73,24 @@ class Known:
 
     def sources(self, claim: Claim) -> list[r.SourceRecord]:
         """The public sources for a claim, and whether each agrees with it."""
+
+        def outcome(source: Source) -> str:
+            return "agrees" if claim.target().meets(source.interval) else "differs"
+
+        return self._sources(claim.id, outcome)
+
+    def _admitted(self, name: str) -> list[r.SourceRecord]:
+        """The public sources for an inferred input, and what its evidence says of each."""
+        admits = self.judge.inference(name).admits
+        return self._sources(name, lambda s: f"is {admits(s.value, s.interval)}")
+
+    def _sources(self, name: str, outcome: Callable[[Source], str]) -> list[r.SourceRecord]:
+        agreeing = ("agrees", "is admitted")
         return [
-            source_record(source, claim.target().meets(source.interval))
+            r.filled(r.SourceRecord, source, agrees=said in agreeing, outcome=said)
             for source in self.ledger.sources.values()
-            if claim.id in source.claims
+            if name in source.claims
+            for said in [outcome(source)]
         ]
 
     def exact(self, name: str) -> Fraction:
@@ -93,12 +108,6 @@ class Known:
             if reading.name == name:
                 return reading
         raise ArithmeticError(f"{claim} has no value")
-
-
-def source_record(source: Source, agrees: bool, outcome: str = "") -> r.SourceRecord:
-    """A public source beside a number; `outcome` is what comes of it in other words."""
-    outcome = outcome or ("agrees" if agrees else "differs")
-    return r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome)
 
 
 def case(known: Known, beta: int, /, **changed: float) -> Impact:
@@ -331,9 +340,7 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     ends = {f"{name}{which}": end
             for name, interval in ranges.items()
             for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
-    said = {name: inference.admits(source.value, source.interval)
-            for name, source in known.ledger.sources.items()
-            if _DENSITY in source.claims}  # fmt: skip
+    said = {source.id: source.outcome.removeprefix("is ") for source in known.admitted(_DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
     return ends | {
         "mass_greatest": inference.with_mass.ends[1],
