@@ -18,7 +18,7 @@ import msgspec
 
 from reference import findings as asserted
 from reference.ledger import INFERRED, Ledger
-from replication.audit.record import ClaimRecord, FindingRecord, Record, SourceRecord
+from replication.audit.record import ClaimRecord, Record
 from replication.audit.verdict import Verdict
 from replication.power import measured
 from replication.report import words as told
@@ -124,6 +124,10 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
 def _parts(record: Record) -> dict[str, Any]:
     """What both templates show: the record, and its parts in the order in which they stand."""
     groups, names = _groups(record), told.names_of(record)
+    by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
+    concerned = {name for finding in record.findings for name in finding.claims}
+    sources = {claim.id: claim.sources for claim in record.claims}
+    sources |= {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
     return {
         "record": record,
         "groups": groups,
@@ -132,8 +136,8 @@ def _parts(record: Record) -> dict[str, Any]:
         "facts": lambda claim: told.facts(claim, names),
         "tables": told,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
-        "touching": _touching(record),
-        "sources": _sources(record),
+        "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
+        "sources": {name: own for name, own in sources.items() if own},
         "table": _table_a_1(groups["table-a-1"]),
         "power": measured(),
     }
@@ -174,21 +178,6 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
         "proven": told.proven(cells.values()),
     }
-
-
-def _touching(record: Record) -> dict[str, list[FindingRecord]]:
-    """The findings that name a claim, by its id; those with a check by hand first."""
-    touching: dict[str, list[FindingRecord]] = {}
-    for finding in sorted(record.findings, key=lambda finding: not finding.by_hand):
-        for claim in finding.claims:
-            touching.setdefault(claim, []).append(finding)
-    return touching
-
-
-def _sources(record: Record) -> dict[str, list[SourceRecord]]:
-    """What public sources print for a claim or an inferred input."""
-    claims = {claim.id: claim.sources for claim in record.claims if claim.sources}
-    return claims | {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
 
 
 # For a terminal
