@@ -174,6 +174,7 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     widths, room = [max(map(len, column)) for column in texts], width - 2 * (len(texts) - 1)
 
     def ease(k: int) -> tuple[bool, bool, int]:
+        """How readily a column gives way."""
         return widths[k] > below[k], widths[k] > words[k], widths[k]
 
     while sum(widths) > room and max(widths) > 1:

@@ -156,8 +156,8 @@ class Evidence:
             reading = known.reading(entry, _READINGS[part])
             return reading.computed * float(known.ledger.claims[entry].si)
         if part:
-            least, greatest = known.ledger.claims[entry].target().ends
-            return least if part == "least" else greatest
+            ends = known.ledger.claims[entry].target().ends
+            return ends[("least", "greatest").index(part)]
         is_entry = assertion is None and (name in known.ledger.claims or INFERRED in name)
         return known.exact(name) if is_entry or name in known.ledger.sources else self.proven[name]
 
