@@ -23,17 +23,15 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.error.ladder import converge, ladder, record, step_for_digits, text
+    from replication.error.ladder import converge, ladder, step_for_digits, text
 
-    case = shared.case(options)
+    case, scheme = shared.case(options), options.scheme
     steps = ladder(case.step, options.levels) if options.steps is None else _steps(options.steps)
-    result = converge(case, steps, options.scheme)
-    digits = None
-    if options.digits is not None:
-        digits = step_for_digits(case, options.digits, options.scheme)
-    warnings = (f"{level.step!r} s: {said}" for level in result.levels for said in level.warnings)
-    document = record(result, digits)
-    return shared.put(options, document, lambda: text(result, digits), warnings=warnings)
+    record = converge(case, steps, scheme)
+    digits = options.digits and step_for_digits(case, options.digits, scheme)
+    record["digits"] = digits
+    warnings = (f"{x['step']!r} s: {said}" for x in record["levels"] for said in x["warnings"])
+    return shared.put(options, record, lambda: text(record), warnings=warnings)
 
 
 def _steps(text: str) -> list[float]:
