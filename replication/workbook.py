@@ -418,7 +418,7 @@ class _Builder:
         betas = {
             "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
             "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
-            "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
+            "brinell_beta": self.si["HB_ratio"],
         }
         grains = {name: self.si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
         mean = (grains["feathery"] + grains["clear"]) / 2

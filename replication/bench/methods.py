@@ -20,7 +20,8 @@ import numpy.typing as npt
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
-from replication.error.hard_cases import HARD_CASES, impact_of
+from replication.cases import BETA_5, changed
+from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
@@ -99,7 +100,7 @@ def build(name: str) -> Case:
     """
     if name not in CASES:
         raise ValueError(f"there is no case {name!r} to time: choose of {', '.join(CASES)}")
-    impact = impact_of(HARD_CASES[CASES[name]])
+    impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion = exact_motion(impact)
     times, depths = zip(*(_instant(motion, k) for k in range(POINTS)), strict=True)
     return Case(name, impact, motion, np.array(times), depths)

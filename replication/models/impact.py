@@ -125,13 +125,9 @@ zero
 
 
 def check_range(
-    velocity: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    radius: float = 1.0,
-    step: float = 1.0,
-) -> None:
+    velocity: float, particle_density: float, target_density: float, resistance: float,
+    radius: float = 1.0, step: float = 1.0,
+) -> None:  # fmt: skip
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
     Within that range no formula of the models overflows, underflows or divides by zero.

@@ -123,7 +123,7 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
 
 SAID = {
     "step far too short": "more than 1,000,000 steps",
-    "no resistance": "nothing would bring the particle to rest",
+    "resistance 0": "nothing would bring the particle to rest",
     "step longer than the impact": "-2933 m/s",
 }
 STEPS = {"at the stop velocity": 1, "below the stop velocity": 0}
@@ -173,7 +173,7 @@ def test_converge_prints_the_promised_keys(coldspray: Command) -> None:
 
 def test_hard_cases_are_printed(coldspray: Command) -> None:
     text = coldspray("stability", "--random", 500)[1]
-    assert "no resistance: refused: target resistance is 0.0" in text
+    assert "resistance 0: refused: target resistance is 0.0" in text
     record = json.loads(coldspray("stability", "--random", 500, "--json")[1])
     assert len(record["cases"]) == len(hard_cases.HARD_CASES)
     assert record["random"]["cases"] == 500

@@ -452,16 +452,3 @@ def test_of_two_runs_to_one_folder_the_one_that_lost_its_drafts_says_so(tmp_path
     with pytest.raises(OSError, match="another run is writing to this folder"):
         write_folder(out, Slow(a=b"", b=b""))
     assert state(tmp_path) == {"out": None, "out/a": b"fast"}
-
-
-def test_a_pipe_is_waited_for_and_said_so(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "case.toml")
-    command = [sys.executable, "-m", "replication", "depth", "--case-file", "case.toml"]
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-    with subprocess.Popen(command, cwd=tmp_path, **pipes) as reader:
-        said = reader.stderr.readline()
-        (tmp_path / "case.toml").write_text("[impact]\nvelocity = 500.0\n")
-        out, err = reader.communicate()
-    assert said == "coldspray: waiting for a program to write to case.toml\n"
-    assert (reader.returncode, err) == (0, "")
-    assert "7.6749329 um" in out

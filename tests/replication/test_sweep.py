@@ -31,9 +31,8 @@ from replication.sweep import (
     EXTRAS,
     LEAST_SHARE,
     RESULTS,
-    Grid,
     Plan,
-    Random,
+    Source,
     compute,
     read_plan,
     read_source,
@@ -114,8 +113,8 @@ def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
     index = np.arange(count)
     ends = {"from": str(first), "to": str(last), "points": count}
     linear, log = (read_source("radius", {**ends, "scale": scale}) for scale in ("linear", "log"))
-    assert isinstance(linear, Grid)
-    assert isinstance(log, Grid)
+    assert isinstance(linear, Source)
+    assert isinstance(log, Source)
     # Both round a product and a sum, in an order of their own.
     tolerance = 4 * np.spacing(max(first, last))
     np.testing.assert_allclose(
@@ -202,8 +201,8 @@ def test_quantiles_rise_and_keep_within_the_bounds(
         source = read_source("stop_velocity", {"distribution": kind, **shape, **ends})
     except ValueError:  # less than a millionth of it would be left
         return
-    assert isinstance(source, Random)
-    values = source.quantile(np.array(sorted(shares)))
+    assert isinstance(source, Source)
+    values = source.at(np.array(sorted(shares)))
     least, greatest = source.bounds
     assert (np.diff(values) >= -1e-14 * values[1:]).all()  # the inverse has 16 digits
     assert ((values >= least) & (values <= greatest)).all()
@@ -295,9 +294,9 @@ def test_every_example_runs(tmp_path: Path, coldspray: Command) -> None:
 # Refused at the door
 
 REFUSED = {
-    "velocity = 500": r"there is no 'velocity' here: choose of inputs, sweep",
+    "velocity = 500": r"'velocity' is no table: begin with a line \[inputs\]",
     "[sweep]": "'inputs' is missing",
-    "inputs = 3": r"inputs must be a table, \[inputs\]",
+    "[input]": "there is no 'input' here: choose of inputs, sweep",
     "[inputs": "is no TOML file",
     "[inputs]\nvelocty = 5": r"\[inputs\]: there is no 'velocty' here: choose of velocity, radius",
     "[inputs]\nradius = '5 s'": r"\[inputs\]: radius: '5 s': s does not measure what m does",
