@@ -22,7 +22,7 @@ from replication.bench.methods import MEASURES, OURS, Case, Measure, Task, build
 from replication.cases import inputs_of
 from replication.models import arrays
 from replication.text import aligned, json_text, number, rows_csv
-from spreadsheets.safely import check_folder, write_folder
+from spreadsheets.safely import write_folder
 
 Point = dict[str, Any]
 """What `trial` measures of a task, as in the JSON."""
@@ -65,7 +65,7 @@ def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[
         "depth": float(case.motion.final_depth),
         "times": case.times.tolist(),
         "points": points,
-        "ratios": [ratio(points, *asked) for asked in product((False, True), MEASURES, DIGITS)],
+        "fastest": [fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)],
     }
 
 
@@ -133,14 +133,12 @@ def error_for(digits: int) -> float:
     return 0.5 * 10.0**-digits
 
 
-def ratio(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
-    """For so many digits, the fastest of this project's methods and of the others."""
-    able = [point for point in ranked(points, measure, many) if met(point) <= error_for(digits)]
-    row: dict[str, Any] = {"measure": measure, "many": many, "digits": digits}
-    row["fastest"] = title(able[0]) if able else None
-    for side, ours in (("ours", True), ("peer", False)):
-        row[side] = next((p["best"] for p in able if (p["method"] in OURS) == ours), None)
-    return row
+def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
+    """The fastest method for so many digits and its `best` time [s]; None where there is none."""
+    able = (point for point in ranked(points, measure, many) if met(point) <= error_for(digits))
+    first = next(able, None)
+    method, best = (title(first), first["best"]) if first else (None, None)
+    return {"measure": measure, "many": many, "digits": digits, "method": method, "best": best}
 
 
 def title(point: Point) -> str:
@@ -174,21 +172,19 @@ def texts(record: dict[str, Any]) -> dict[str, str]:
     return {"bench.txt": text, "bench.json": json_text(record), "bench.csv": rows_csv(rows)}
 
 
+_HEAD = """\
+The sheet is measured down to its stop velocity: its final depth against the exact one there, its \
+history until the exact time of it. All others are measured to rest, and all but solve_ivp and \
+this project's are told when it comes. A history's worst error is relative to the depth at rest.
+Times are a case's, in us: best and median of {repeats} that take turns, or of those that \
+{limit:g} s allow; to compile in s. * marks the Pareto front of one case at a time."""
+
+
 def _lines(record: dict[str, Any]) -> Iterator[str]:
     """The whole run: machine, every case's table, and what to use for N digits."""
     repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
     yield ", ".join(f"{name} {value}" for name, value in record["machine"].items())
-    yield (
-        "The sheet is measured down to its stop velocity: its final depth against the exact "
-        "one there, its history until the exact time of it. All others are measured to rest, "
-        "and all but solve_ivp and this project's are told when it comes. "
-        "A history's worst error is relative to the depth at rest."
-    )
-    yield (
-        f"Times are a case's, in us: best and median of {repeats} that take turns, or of those "
-        f"that {record['limit']:g} s allow; to compile in s. "
-        "* marks the Pareto front of one case at a time."
-    )
+    yield _HEAD.format(repeats=repeats, limit=record["limit"])
     for case in record["cases"]:
         yield from ("", f"{case['name']}: {case['depth'] * 1e6:.7g} um")
         yield from _table(case["points"])
@@ -228,31 +224,20 @@ def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
         """What is asked; the method that is the fastest in all cases, or each with its cases."""
         asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
         where: dict[str, list[str]] = {}
-        for case, ratio in zip(cases, row, strict=True):
-            method = (ratio["fastest"] or "none of these, ").rpartition(", ")[0]
+        for case, answer in zip(cases, row, strict=True):
+            method = (answer["method"] or "none of these, ").rpartition(", ")[0]
             where.setdefault(method, []).append(case["name"])
         if len(where) == 1:
             return asked, next(iter(where))
-        named = (f"{method} ({', '.join(names)})" for method, names in where.items())
-        return asked, ", ".join(named)
+        return asked, ", ".join(f"{method} ({', '.join(of)})" for method, of in where.items())
 
-    questions = zip(*(case["ratios"] for case in cases), strict=True)
+    questions = zip(*(case["fastest"] for case in cases), strict=True)
     for (asked, answer), group in groupby(questions, advice):
-        ratios = [ratio for row in group for ratio in row]
-        first, last = ratios[0]["digits"], ratios[-1]["digits"]
-        digits = f"{first} to {last}" if first < last else f"{last}"
-        yield f"{asked}, {digits} digit{'s' if last > 1 else ''}: {answer}{_lead(ratios)}"
-
-
-def _lead(ratios: Sequence[dict[str, Any]]) -> str:
-    """How long the best takes, and how many times as long the others' best where it is ours."""
-    pairs = [(ratio["ours"] or math.inf, ratio["peer"] or math.inf) for ratio in ratios]
-    best = [1e6 * min(pair) for pair in pairs if min(pair) < math.inf]
-    text = f", {_span(best)} us" if best else ""
-    leads = [peer / ours for ours, peer in pairs if ours < peer < math.inf]
-    text += f"; the others' best takes {_span(leads)} times as long" if leads else ""
-    beyond = any(ours < peer == math.inf for ours, peer in pairs)
-    return text + ("; some cases are beyond the others" if beyond else "")
+        answers = [answer for row in group for answer in row]
+        digits = _span([answers[0]["digits"], answers[-1]["digits"]])
+        times = [1e6 * answer["best"] for answer in answers if answer["best"]]
+        taken = f", {_span(times)} us" if times else ""
+        yield f"{asked}, {digits} digit{'' if digits == '1' else 's'}: {answer}{taken}"
 
 
 def _span(values: Sequence[float]) -> str:
@@ -312,9 +297,3 @@ def write(folder: Path, record: dict[str, Any]) -> None:
     """Write text, JSON, CSV and a figure a case into a folder, all or none. Raises OSError."""
     figures = {f"bench-{case['name']}.svg": figure(case) for case in record["cases"]}
     write_folder(folder, {name: text.encode() for name, text in texts(record).items()} | figures)
-
-
-def check(folder: Path, cases: Iterable[str]) -> None:
-    """Raise OSError where the files of a run on these cases cannot be written."""
-    figures = [f"bench-{case}.svg" for case in cases]
-    check_folder(folder, ["bench.txt", "bench.json", "bench.csv", *figures])
