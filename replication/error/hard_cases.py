@@ -117,7 +117,7 @@ def outcome(name: str) -> Outcome:
         return result | {"sheet_refused": str(error)}
     result |= {"steps": sheet.steps, "sheet": sheet.final_depth}
     result["sheet_error"] = sheet.final_depth / float(exact) - 1
-    return result | {"warnings": [warning.text for warning in warnings(sheet)]}
+    return result | {"warnings": list(warnings(sheet).values())}
 
 
 _RANGES = {

@@ -130,7 +130,7 @@ def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
         "depth": sheet.final_depth,
         "error": error,
         "budget": budget,
-        "warnings": [warning.text for warning in warnings(sheet)],
+        "warnings": list(warnings(sheet).values()),
         "order": order,
         "time_step_order": time_step_order,
         "regime": regime(error, budget, time_step_order, ORDER[sheet.scheme]),

@@ -158,8 +158,7 @@ def test_a_frame_holds_the_rows() -> None:
 def test_what_speaks_for_too_long_a_step(changes: dict[str, float], kinds: list[str]) -> None:
     impact = replace(BETA_5, **changes)
     sheet = run(impact)
-    result = warnings(sheet)
-    assert [warning.kind for warning in result] == kinds
+    assert list(warnings(sheet)) == kinds
     assert ("deep" in kinds) == (sheet.final_depth > final_depth(**impact.motion) * 1.0005)
 
 
