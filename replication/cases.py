@@ -7,15 +7,7 @@ from typing import Any
 
 from reference.ledger import claims_of_case, load
 from replication.models.impact import Impact
-from replication.reading import (
-    check_keys,
-    name_of,
-    place,
-    quoted,
-    read_file,
-    read_number,
-    read_tables,
-)
+from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
 
 INPUTS = {
     "velocity": "m/s",
@@ -51,9 +43,9 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
         raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
     impact = CASES[name]
     if file is not None:
-        content = read_file(file)
+        tables, _ = read_tables(file, ["impact"])
         with place(name_of(file)):
-            impact = _changed(impact, read_tables(content, ["impact"])["impact"])
+            impact = _changed(impact, tables["impact"])
     return _changed(impact, given)
 
 

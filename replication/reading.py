@@ -118,20 +118,21 @@ def parse_toml(content: bytes) -> dict[str, Any]:
 
 
 def read_tables(
-    content: bytes, wanted: Sequence[str], allowed: Sequence[str] = ()
-) -> dict[str, dict[str, Any]]:
-    """The tables of a TOML file by name. Raises ValueError for one too many or too few.
+    path: Path, wanted: Sequence[str], allowed: Sequence[str] = ()
+) -> tuple[dict[str, dict[str, Any]], bytes]:
+    """The tables of a TOML file by name, and its bytes.
 
-    >>> read_tables(b"velocity = 5", ["impact"])
-    Traceback (most recent call last):
-    ValueError: 'velocity' is no table: begin with a line [impact]
+    Raises OSError, or ValueError that names the file: for what is no TOML, one table too many or
+    too few, or what is no table.
     """
-    document = parse_toml(content)
-    for name, table in document.items():
-        if not isinstance(table, dict):
-            raise ValueError(f"{quoted(name)} is no table: begin with a line [{wanted[0]}]")
-    check_keys(document, wanted, allowed)
-    return document
+    content = read_file(path)
+    with place(name_of(path)):
+        document = parse_toml(content)
+        for name, table in document.items():
+            if not isinstance(table, dict):
+                raise ValueError(f"{quoted(name)} is no table: begin with a line [{wanted[0]}]")
+        check_keys(document, wanted, allowed)
+    return document, content
 
 
 def check_keys(

@@ -23,15 +23,7 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.impact import Impact, InputError, check, particle_mass
 from replication.models.stream import particle_velocity
-from replication.reading import (
-    check_keys,
-    name_of,
-    place,
-    quoted,
-    read_file,
-    read_number,
-    read_tables,
-)
+from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
 from spreadsheets.safely import check_target, draft_of
 
 Floats = npt.NDArray[np.float64]
@@ -210,10 +202,9 @@ def read_plan(path: Path) -> Plan:
 
     Raises OSError, or ValueError that names the file, the table, the key and what would be right.
     """
-    content = read_file(path)
+    tables, content = read_tables(path, ["inputs"], ["sweep"])
+    settings, table = tables.get("sweep", {}), tables["inputs"]
     with place(name_of(path)):
-        tables = read_tables(content, ["inputs"], ["sweep"])
-        settings, table = tables.get("sweep", {}), tables["inputs"]
         ways = [value for value in table.values() if isinstance(value, dict)]
         with place("[sweep]"):
             check_keys(settings, [], ["case", "samples", "seed", "outputs"])

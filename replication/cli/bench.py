@@ -25,8 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.bench.methods import CASES
-    from replication.bench.run import bench, texts, write
+    from replication.bench import CASES, bench, texts, write
     from spreadsheets.safely import check_folder
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))

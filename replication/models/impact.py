@@ -79,13 +79,9 @@ class Impact:
     @property
     def motion(self) -> dict[str, float]:
         """What Eq. 13 depends on: the arguments of `depth.final_depth`, in order."""
-        return {
-            "velocity": self.velocity,
-            "radius": self.radius,
-            "particle_density": self.particle_density,
-            "target_density": self.target_density,
-            "resistance": self.target_resistance,
-        }
+        names = ("velocity", "radius", "particle_density", "target_density")
+        own = {name: getattr(self, name) for name in names}
+        return own | {"resistance": self.target_resistance}
 
     @property
     def diameter(self) -> float:

@@ -19,28 +19,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.bench import run
-from replication.bench.methods import (
+import replication.bench as module
+from replication.bench import (
     CASES,
+    DIGITS,
     MEASURES,
     OURS,
     SOLVERS,
     STEPS,
     Case,
+    Point,
     Task,
     _taylor,
-    build,
-    tasks,
-)
-from replication.bench.run import (
-    DIGITS,
-    Point,
     bench,
+    build,
     error_for,
     fastest,
     figure,
     mark_front,
     met,
+    tasks,
     texts,
     trial,
 )
@@ -153,7 +151,7 @@ FINE = {
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.methods.POINTS", 11)
+    monkeypatch.setattr("replication.bench.POINTS", 11)
     case = build(name)
     # Nothing smooths the kink of Eq. 13 at x = R for a method that steps over it.
     kink = 1.0 if name == "beta-5" else 1e4
@@ -204,7 +202,7 @@ def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
         run()
         return next(seconds)
 
-    monkeypatch.setattr(run.timeit, "timeit", timed)
+    monkeypatch.setattr(module.timeit, "timeit", timed)
     point = measure(beta_5, replace(TASK, cases=4, run=lambda: [7.67e-6] * 4), repeat=3)
     assert (point["repeats"], point["calls"], point["compile"]) == (3, 5, None)
     assert (point["best"], point["median"]) == (2.5e-4, 5e-4)
@@ -227,14 +225,14 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
         time.sleep(0.01)  # longer than a batch: one call each
         return 0.0
 
-    class Bar(run.tqdm):  # type: ignore[type-arg]
+    class Bar(module.tqdm):  # type: ignore[type-arg]
         def close(self) -> None:
             turns.append("closed")
             super().close()
 
     both = [replace(TASK, run=partial(turn, name)) for name in "ab"]
     for name, instead in (("tasks", lambda _: both), ("build", lambda _: beta_5), ("tqdm", Bar)):
-        monkeypatch.setattr(run, name, instead)
+        monkeypatch.setattr(module, name, instead)
     (case,) = bench(["beta-5"], repeat=3)["cases"]
     assert "".join(turns[:10]) == "aabb" + "ab" * 3  # warmed up, then in turn
     assert [point["repeats"] for point in case["points"]] == [3, 3]
