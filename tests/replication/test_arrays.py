@@ -4,6 +4,7 @@ import functools
 import inspect
 import os
 import pickle
+import re
 import shutil
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import replication
+from replication.cases import BETA_5
 from replication.models import (
     arrays,
     crater,
@@ -112,14 +114,15 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 @pytest.mark.parametrize("centered", [False, True])
 @pytest.mark.parametrize("count", [CASES // 10, pytest.param(CASES, marks=pytest.mark.slow)])
 def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -> None:
-    ranges = ((1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
-    columns = drawn(count, *ranges)
+    # From two rows to hundreds, some that cross R, some below the stop velocity.
+    ranges = ((0.5, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 2))
+    columns, scheme = drawn(count, *ranges), sheet.SCHEMES[centered]
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
-    result = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
-    depth, steps = [0.0], [0]
+    result = run_many(*columns, stop_velocity=0.9, scheme=scheme)
+    names = (*BETA_5.motion, "step")
     for *row, x, k in zip(*(column.tolist() for column in (*columns, *result)), strict=True):
-        sheet.last_row(*row, 0.9, centered, depth, steps)
-        assert (depth[0], steps[0]) == (x, k)
+        rows = sheet.run(Impact(**dict(zip(names, row, strict=True)), stop_velocity=0.9), scheme)
+        assert (rows.final_depth, rows.steps) == run_many(*row, 0.9, scheme) == (x, k)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -215,24 +218,19 @@ def test_what_never_happens_is_refused(function: str, first: Any, message: str) 
 @pytest.mark.parametrize(
     ("place", "bad", "formed"),
     [
-        (0, 1e200, r"velocity squared\[1\] is inf: doubles carry"),
-        (0, 1e-170, r"velocity squared\[1\] is 0.0: doubles carry"),
-        (1, 1e130, r"particle mass\[1\] is inf: it must be"),
-        (1, 1e-126, r"particle mass\[1\] is 0.0: it must be"),
-        (2, 1e251, r"particle density\[1\] is 1e\+251: doubles carry"),
-        (4, 1e-260, r"target resistance\[1\] is 1e-260: doubles carry"),
-        (4, 1e260, r"target resistance\[1\] is 1e\+260: doubles carry"),
-        (4, 0.0, r"target resistance\[1\] is 0.0: nothing would bring the particle to rest"),
+        (0, 1e200, "velocity squared[1] is inf: doubles carry"),
+        (0, 1e-170, "velocity squared[1] is 0.0: doubles carry"),
+        (1, 1e130, "particle mass[1] is inf: it must be"),
+        (1, 1e-126, "particle mass[1] is 0.0: it must be"),
+        (4, 1e260, "target resistance[1] is 1e+260: doubles carry"),
+        (4, 0.0, "target resistance[1] is 0.0: nothing would bring the particle to rest"),
     ],
 )
-def test_what_would_leave_the_range_of_doubles_is_refused(
-    place: int, bad: float, formed: str
-) -> None:
+def test_what_would_leave_the_range_is_refused(place: int, bad: float, formed: str) -> None:
     values: list[Any] = list(CASE)
     values[place] = [CASE[place], bad]
-    names = list(impact.Impact.__dataclass_fields__)
     for function in (arrays.final_depth, functools.partial(history, 1e-9), run_many):
-        with pytest.raises(ValueError, match=rf"^{formed} .*\(with .*{names[0]} "):
+        with pytest.raises(ValueError, match=rf"^{re.escape(formed)} .*\(with .*velocity "):
             function(*values)
 
 

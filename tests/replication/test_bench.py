@@ -21,7 +21,6 @@ from hypothesis import strategies as st
 
 import replication.bench as module
 from replication.bench import (
-    CASES,
     DIGITS,
     MEASURES,
     OURS,
@@ -323,19 +322,3 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     assert {path.name for path in tmp_path.iterdir()} == {
         *("bench.txt", "bench.json", "bench.csv", "bench-beta-5.svg")
     }
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--case", "beta-4"], f"no case 'beta-4' to time: choose of {', '.join(CASES)}"),
-        (["--repeat", "0"], "--repeat: give a whole number from 1 to 10,000,"),
-        (["--limit=-1 s"], "a limit of -1 s: it must be greater than zero"),
-        (["--limit", "3 m"], "m"),
-        (["--json", "--csv"], "argument --csv: not allowed with argument --json"),
-    ],
-)
-def test_bad_options_get_one_line(arguments: list[str], message: str, coldspray: Command) -> None:
-    status, out, err = coldspray("bench", *arguments)
-    assert (status, out, len(err.splitlines())) == (2, "", 1)
-    assert message in err

@@ -155,32 +155,6 @@ def test_what_speaks_for_too_long_a_step(changes: dict[str, float], kinds: list[
 # Many at once
 
 
-@st.composite
-def impacts(draw: st.DrawFn) -> Impact:
-    """From a few steps to hundreds, some far too coarse, some crossing R or never starting."""
-    case = Impact(
-        velocity=draw(st.floats(0.5, 5000)),
-        radius=draw(st.floats(1e-6, 1e-4)),
-        particle_density=draw(st.floats(100, 20000)),
-        target_density=draw(st.floats(100, 20000)),
-        resistance=draw(st.floats(1e7, 1e11)),
-        stop_velocity=draw(st.sampled_from([0.0, 1.0, 100.0])),
-    )
-    share = draw(st.floats(0.5, 100))
-    return replace(case, step=case.radius / case.velocity / share)
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-@given(cases=st.lists(impacts(), min_size=1, max_size=12))
-@settings(max_examples=60, deadline=None)
-def test_each_case_is_the_same_double_as_alone(scheme: str, cases: list[Impact]) -> None:
-    columns = zip(*([*c.motion.values(), c.step, c.stop_velocity] for c in cases), strict=True)
-    depth, steps = run_many(*map(list, columns), scheme=scheme)
-    sheets = [run(case, scheme) for case in cases]
-    assert depth.tolist() == [sheet.final_depth for sheet in sheets]
-    assert steps.tolist() == [sheet.steps for sheet in sheets]
-
-
 def test_cases_broadcast_and_a_single_one_is_a_number() -> None:
     depth, steps = run_many([[500.0], [400.0]], 11e-6, 8900.0, 7850.0, [2.1e9, 3.5e9])
     assert depth.shape == steps.shape == (2, 2)
