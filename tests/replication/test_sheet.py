@@ -84,7 +84,8 @@ def test_beyond_the_radius_the_contact_area_stays_that_of_the_sphere() -> None:
 def test_below_the_stop_velocity_there_is_no_step_and_at_it_one() -> None:
     slow = run(replace(BETA_5, velocity=0.5))
     assert (slow.steps, slow.final_depth) == (0, 0.0)
-    assert run(replace(BETA_5, velocity=1.0, stop_velocity=1.0)).steps == 1
+    at_stop = replace(BETA_5, velocity=1.0, stop_velocity=1.0)
+    assert run(at_stop).steps == run_many(**at_stop.motion, stop_velocity=1.0)[1] == 1
 
 
 @given(IMPACTS, st.floats(0, 1), st.sampled_from(SCHEMES))

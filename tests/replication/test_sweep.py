@@ -115,7 +115,7 @@ def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
         # The exponent, at most 9, is off by two ulp (4e-15): relatively that times ln 10.
         np.testing.assert_allclose(values, expected(first, last, count), rtol=2e-14)
         assert (values[0], values[-1]) == (first, last)
-        assert source.bounds == (values.min(), values.max())
+        assert source.bounds == (values.min(), values.max()) == (min(first, last), max(first, last))
 
 
 # Random numbers
@@ -129,12 +129,14 @@ def test_a_case_has_its_random_number_in_any_block(seed: int, first: int, count:
     assert ((whole >= LEAST_SHARE) & (whole <= 1 - LEAST_SHARE)).all()
 
 
-def test_seeds_and_inputs_have_numbers_of_their_own() -> None:
+def test_seeds_and_inputs_have_numbers_of_their_own(tmp_path: Path) -> None:
     count = 100_000
     drawn = [uniform(*key, 0, count) for key in ((0, 0), (0, 1), (1, 0), (1, 1))]
     correlation = np.corrcoef(drawn)
     # Of independent numbers a correlation is normal about 0 with deviation count^(-1/2).
     assert (abs(correlation - np.eye(4)) < 5 / math.sqrt(count)).all()
+    cases = plan_of(tmp_path, STREAM.format(samples=count)).inputs(0, count)
+    assert abs(np.corrcoef(cases["velocity"], cases["radius"])[0, 1]) < 5 / math.sqrt(count)
 
 
 NORMAL = statistics.NormalDist()
@@ -152,6 +154,7 @@ DISTRIBUTIONS = {
         11 + 2.8 * truncated_mean(0, 1),
         None,
     ),
+    "tail": ("mean = 5e-6, deviation = 1e-6, lower = 8e-6", 5 + truncated_mean(3, math.inf), None),
     "lognormal": ('mean = "11 um", deviation = "2.8 um"', 11.0, 2.8),
     "uniform": ('lower = "5 um", upper = "15 um"', 10.0, 10 / math.sqrt(12)),
     "loguniform": ('lower = "1 um", upper = "100 um"', 99 / math.log(100), None),
@@ -161,7 +164,7 @@ DISTRIBUTIONS = {
 @pytest.mark.parametrize("name", DISTRIBUTIONS)
 def test_samples_have_the_moments_of_their_distribution(name: str, tmp_path: Path) -> None:
     keys, mean, deviation = DISTRIBUTIONS[name]
-    kind = "normal" if name == "truncated" else name
+    kind = "normal" if name in ("truncated", "tail") else name
     count = 200_000
     text = f'[sweep]\nsamples = {count}\n[inputs]\nradius = {{ distribution = "{kind}", {keys} }}'
     radii = plan_of(tmp_path, text).inputs(0, count)["radius"] * 1e6
