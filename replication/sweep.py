@@ -144,14 +144,15 @@ class Plan:
         """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
         values: dict[str, Floats] = {}
         position = np.arange(first, first + count) // self.samples
-        where: dict[str, npt.NDArray[Any]] = {}
-        for name, values_of in reversed(self.grid.items()):
-            position, where[name] = np.divmod(position, values_of)
+        positions: dict[str, npt.NDArray[Any]] = {}
+        for name, size in reversed(self.grid.items()):
+            position, positions[name] = np.divmod(position, size)
         for stream, name in enumerate(INPUTS):
             if isinstance(source := self.sources.get(name), Source):
-                drawn = source.count is None
-                share = uniform(self.seed, stream, first, count) if drawn else where[name]
-                values[name] = source.at(share)
+                if source.count is None:
+                    values[name] = source.at(uniform(self.seed, stream, first, count))
+                else:
+                    values[name] = source.at(positions[name])
         velocity = self.sources["velocity"]
         if isinstance(velocity, ByMass):
             mass = arrays.ufunc(particle_mass)(values["radius"], values["particle_density"])

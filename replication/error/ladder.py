@@ -47,11 +47,11 @@ def split(sheet: Sheet) -> tuple[float, Budget]:
     ['-0.00538', '-0.00548', '-0.00023']
     """
     impact, motion = sheet.impact, exact_motion(sheet.impact)
-    rest, number = motion.final_depth, motion.reals.number
-    depth, step = number(Fraction(sheet.final_depth)), number(Fraction(impact.step))
-    x, v, lag = number(0), motion.velocity, number(0)
+    rest, real = motion.final_depth, motion.reals.number
+    depth, step = real(Fraction(sheet.final_depth)), real(Fraction(impact.step))
+    x, v, lag = real(0), motion.velocity, real(0)
     if sheet.steps:
-        inputs = {name: number(Fraction(value)) for name, value in impact.motion.items()}
+        inputs = {name: real(Fraction(value)) for name, value in impact.motion.items()}
         ways: Any = {"centered": sheet.scheme == "centered", "most_rows": sheet.steps}
         rows = sheet_rows(motion.reals, **inputs, step=step, **ways)
         last = next(islice(rows, sheet.steps - 1, None))
@@ -226,9 +226,14 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> d
     while not keeps(fails / 1.01):
         fails /= 1.01
     sheet = run(replace(impact, step=fails / 1.01), scheme)
-    found = {"digits": digits, "step": sheet.impact.step, "steps": sheet.steps}
-    depth = sheet.final_depth
-    return found | {"depth": depth, "error": depth - rest, "fails": fails}
+    return {
+        "digits": digits,
+        "step": sheet.impact.step,
+        "steps": sheet.steps,
+        "depth": sheet.final_depth,
+        "error": sheet.final_depth - rest,
+        "fails": fails,
+    }
 
 
 # As the command shows them
@@ -255,13 +260,14 @@ def _um(length: float | None, digits: int) -> str:
 
 
 def _row(level: Level) -> tuple[str, ...]:
-    orders = (level["order"], level["time_step_order"])
+    budget, orders = level["budget"], (level["order"], level["time_step_order"])
     order, time_step_order = ("-" if x is None else f"{x:.2f}" for x in orders)
-    step, depth, error = number(level["step"] * 1e9, 5), _um(level["depth"], 7), level["error"]
-    parts = zip(level["budget"].values(), (3, 3, 3, 2), strict=True)
-    time_step, *others = (_um(part, digits) for part, digits in parts)
-    start = (step, str(level["steps"]), depth, _um(error, 3), order, time_step, time_step_order)
-    return (*start, *others, level["regime"])
+    return (
+        number(level["step"] * 1e9, 5), str(level["steps"]), _um(level["depth"], 7),
+        _um(level["error"], 3), order, _um(budget["time_step"], 3), time_step_order,
+        _um(budget["stop_rule"], 3), _um(budget["half_step"], 3), _um(budget["rounding"], 2),
+        level["regime"],
+    )  # fmt: skip
 
 
 def text(result: dict[str, Any]) -> str:
