@@ -7,7 +7,7 @@ from typing import Any
 
 from reference.ledger import claims_of_case, load
 from replication.models.impact import Impact
-from replication.reading import name_of, parse_toml, place, quoted, read_file, read_number
+from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
 
 INPUTS = {
     "velocity": "m/s",
@@ -33,49 +33,43 @@ CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     """The named case, changed by what the file gives, changed by what is given singly.
 
-    Inputs are texts such as "11 um" or "1.1e-5". A resistance takes the place of beta and flow
-    stress, and the other way round. Raises ValueError or OSError with a message for the user.
+    Inputs are texts such as "11 um" or "1.1e-5". Raises ValueError or OSError with a message for
+    the user.
 
     >>> read_case("beta-5", None, {"radius": "5 um"}).radius
     5e-06
     """
     if name not in CASES:
         raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
-    from_file = {} if file is None else _file(file)
-    for group, instead in ((_PRODUCT, {"resistance"}), ({"resistance"}, _PRODUCT)):
-        if group & set(given):  # displaces in the file what stands instead of it
-            from_file = {key: text for key, text in from_file.items() if key not in instead}
-    places = {**dict.fromkeys(from_file, f"{name_of(file)}: "), **dict.fromkeys(given, "")}
-    values: dict[str, Any] = {}
-    for key, text in {**from_file, **given}.items():
-        with place(f"{places[key]}{key}"):
-            values[key] = read_number(text, INPUTS[key])
-    if "resistance" in values:
-        values = {"beta": None, "flow_stress": None, **values}
-    try:
-        return replace(CASES[name], **values)
-    except ValueError as error:
-        raise ValueError(f"{name_of(file)}: {error}" if from_file else str(error)) from error
+    impact = CASES[name]
+    if file is not None:
+        tables, _ = read_tables(file, ["impact"])
+        with place(name_of(file)):
+            impact = _changed(impact, tables["impact"])
+    return _changed(impact, given)
 
 
-_PRODUCT = {"beta", "flow_stress"}
+def _changed(impact: Impact, given: Mapping[str, Any]) -> Impact:
+    check_keys(given, allowed=INPUTS)
+    values = {}
+    for key, text in given.items():
+        with place(key):
+            values[key] = read_number(str(text), INPUTS[key])
+    return changed(impact, values)
 
 
-def _file(path: Path) -> dict[str, str]:
-    content = read_file(path)
-    try:
-        document = parse_toml(content)
-    except ValueError as error:
-        raise ValueError(f"{name_of(path)} {error}") from error
-    table = document.get("impact")
-    if not isinstance(table, dict) or set(document) != {"impact"}:
-        raise ValueError(f"{name_of(path)}: give one table, [impact], of inputs such as velocity")
-    if unknown := sorted(set(table) - set(INPUTS)):
-        known = ", ".join(INPUTS)
-        raise ValueError(
-            f"{name_of(path)}: no such input as {quoted(unknown[0])}: choose of {known}"
-        )
-    return {name: str(value) for name, value in table.items()}
+def changed(impact: Impact, values: Mapping[str, float]) -> Impact:
+    """A case with other inputs; raises ValueError as `Impact` does.
+
+    A resistance takes the place of beta and flow stress, and the other way round.
+
+    >>> changed(BETA_5, {"resistance": 2e9}).target_resistance
+    2000000000.0
+    """
+    product = {"beta", "flow_stress"}
+    instead = product if "resistance" in values else {"resistance"} if product & set(values) else ()
+    changes: dict[str, Any] = {**dict.fromkeys(instead), **values}
+    return replace(impact, **changes)
 
 
 def inputs_of(impact: Impact) -> dict[str, float | None]:

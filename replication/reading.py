@@ -2,11 +2,9 @@
 
 import math
 import re
-import stat
 import sys
-import threading
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -17,8 +15,6 @@ _SIZE = 2**20
 _DEPTH = 20
 _QUOTED = 60
 _NAME = 255
-_PATIENCE = 2.0
-"""Seconds for which a pipe may be silent."""
 
 
 def quoted(text: object, longest: int = _QUOTED) -> str:
@@ -56,25 +52,16 @@ def one_line(message: str, longest: int = 340) -> str:
 def read_file(path: Path, largest: int = _SIZE) -> bytes:
     """The bytes of a file or a pipe, at most so many.
 
-    A pipe is waited for: another program may yet write to it; after a while standard error says so.
     Raises ValueError for a larger one and for a device, OSError where it cannot be read.
     """
-    mode = path.stat().st_mode
-    if stat.S_ISCHR(mode):
+    if path.is_char_device():
         raise ValueError(f"{name_of(path)} is a device, not a file")
-    note = f"coldspray: waiting for a program to write to {name_of(path)}\n"
-    timer = threading.Timer(_PATIENCE, lambda: sys.stderr.write(note))
-    timer.daemon = True  # whoever is tired of waiting may leave
     try:
-        if stat.S_ISFIFO(mode):
-            timer.start()
         with path.open("rb") as file:
             content = file.read(largest + 1)
     except OSError as error:
         error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
         raise
-    finally:
-        timer.cancel()
     if len(content) > largest:
         raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
     return content
@@ -128,6 +115,37 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     except ValueError as error:
         most = sys.get_int_max_str_digits()
         raise ValueError(f"holds a whole number of more than {most} digits") from error
+
+
+def read_tables(
+    path: Path, wanted: Sequence[str], allowed: Sequence[str] = ()
+) -> tuple[dict[str, dict[str, Any]], bytes]:
+    """The tables of a TOML file by name, and its bytes.
+
+    Raises OSError, or ValueError that names the file: for what is no TOML, one table too many or
+    too few, or what is no table.
+    """
+    content = read_file(path)
+    with place(name_of(path)):
+        document = parse_toml(content)
+        for name, table in document.items():
+            if not isinstance(table, dict):
+                raise ValueError(f"{quoted(name)} is no table: begin with a line [{wanted[0]}]")
+        check_keys(document, wanted, allowed)
+    return document, content
+
+
+def check_keys(
+    table: Mapping[str, Any], wanted: Iterable[str] = (), allowed: Iterable[str] = ()
+) -> None:
+    """Raise ValueError for a key that is neither, or is wanted and missing."""
+    known = [*wanted, *allowed]
+    for key in table:
+        if key not in known:
+            raise ValueError(f"there is no {quoted(key)} here: choose of {', '.join(known)}")
+    for key in wanted:
+        if key not in table:
+            raise ValueError(f"{quoted(key)} is missing")
 
 
 def read_number(text: str, unit: str) -> float:

@@ -8,7 +8,7 @@ and a sweep is refused before it runs, not in the middle.
 import hashlib
 import itertools
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -23,7 +23,7 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.impact import Impact, InputError, check, particle_mass
 from replication.models.stream import particle_velocity
-from replication.reading import name_of, parse_toml, place, quoted, read_file, read_number
+from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
 from spreadsheets.safely import check_target, draft_of
 
 Floats = npt.NDArray[np.float64]
@@ -31,8 +31,8 @@ Floats = npt.NDArray[np.float64]
 BLOCK = 65_536
 """Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
 
-MAX_CASES = 10**12
-"""Days of work for many cores."""
+MAX_CASES, MAX_POINTS = 10**12, 10**7
+"""Of a plan, days of work for many cores; of one range, which stands in memory."""
 
 RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
 """What is computed of every case, with its SI unit: none for a truth value."""
@@ -61,20 +61,16 @@ def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Grid:
-    """`count` values one by one, within `bounds`; `at` gives those of positions from 0 on."""
+class Source:
+    """Values within `bounds`.
 
-    count: int
-    bounds: tuple[float, float]
-    at: Callable[[npt.NDArray[np.int64]], Floats]
-
-
-@dataclass(frozen=True, slots=True)
-class Random:
-    """Drawn values, within `bounds`; `quantile` gives those that these shares fall short of."""
+    There are `count` of them, and `at` gives those of positions from 0 on; or they are drawn, the
+    count is None, and `at` gives those that these shares fall short of.
+    """
 
     bounds: tuple[float, float]
-    quantile: Callable[[Floats], Floats]
+    at: Callable[[npt.NDArray[Any]], Floats]
+    count: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +79,6 @@ class ByMass:
 
     average_velocity: float
     average_mass: float
-
-
-Source = Grid | Random | ByMass
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +91,7 @@ class Plan:
     or a combination of them would leave the range that `Impact` allows.
     """
 
-    sources: dict[str, Source]
+    sources: dict[str, Source | ByMass]
     samples: int
     seed: int
     extras: tuple[str, ...]
@@ -108,8 +101,7 @@ class Plan:
         if self.count > MAX_CASES:
             raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
         # All that `Impact` checks is monotone in each input: the ends stand for the rest.
-        sources = self.sources.items()
-        bounds = {name: x.bounds for name, x in sources if not isinstance(x, ByMass)}
+        bounds = {name: x.bounds for name, x in self.sources.items() if isinstance(x, Source)}
         varying = {name: ends for name, ends in bounds.items() if ends[0] != ends[1]}
         for corner in itertools.product(*varying.values()):
             ends = dict(zip(varying, corner, strict=True))
@@ -126,14 +118,15 @@ class Plan:
                 raise ValueError(f"{error} (with {where})" if ends else str(error)) from error
 
     @property
-    def grid(self) -> dict[str, Grid]:
-        """The sources that are gone through value by value, the slowest first."""
-        return {name: value for name, value in self.sources.items() if isinstance(value, Grid)}
+    def grid(self) -> dict[str, int]:
+        """How many values the inputs have that are gone through value by value, slowest first."""
+        sources = self.sources.items()
+        return {name: x.count for name, x in sources if isinstance(x, Source) and x.count}
 
     @property
     def count(self) -> int:
         """Number of cases."""
-        return self.samples * math.prod(source.count for source in self.grid.values())
+        return self.samples * math.prod(self.grid.values())
 
     @property
     def blocks(self) -> int:
@@ -151,13 +144,15 @@ class Plan:
         """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
         values: dict[str, Floats] = {}
         position = np.arange(first, first + count) // self.samples
-        for name, source in reversed(self.grid.items()):
-            position, own = np.divmod(position, source.count)
-            values[name] = source.at(own)
+        positions: dict[str, npt.NDArray[Any]] = {}
+        for name, size in reversed(self.grid.items()):
+            position, positions[name] = np.divmod(position, size)
         for stream, name in enumerate(INPUTS):
-            drawn = self.sources.get(name)
-            if isinstance(drawn, Random):
-                values[name] = drawn.quantile(uniform(self.seed, stream, first, count))
+            if isinstance(source := self.sources.get(name), Source):
+                if source.count is None:
+                    values[name] = source.at(uniform(self.seed, stream, first, count))
+                else:
+                    values[name] = source.at(positions[name])
         velocity = self.sources["velocity"]
         if isinstance(velocity, ByMass):
             mass = arrays.ufunc(particle_mass)(values["radius"], values["particle_density"])
@@ -208,21 +203,16 @@ def read_plan(path: Path) -> Plan:
 
     Raises OSError, or ValueError that names the file, the table, the key and what would be right.
     """
-    content = read_file(path)
+    tables, content = read_tables(path, ["inputs"], ["sweep"])
+    settings, table = tables.get("sweep", {}), tables["inputs"]
     with place(name_of(path)):
-        document = parse_toml(content)
-        _check_keys(document, ["inputs"], ["sweep"])
-        for name, table in document.items():
-            if not isinstance(table, dict):
-                raise ValueError(f"{name} must be a table, [{name}]")
-        settings = document.get("sweep", {})
+        ways = [value for value in table.values() if isinstance(value, dict)]
         with place("[sweep]"):
-            _check_keys(settings, [], ["case", "samples", "seed", "outputs"])
+            check_keys(settings, [], ["case", "samples", "seed", "outputs"])
             base, extras = _settings(settings)
+            samples, seed = _sampling(settings, any("distribution" in way for way in ways))
         with place("[inputs]"):
-            sources = _sources(document["inputs"], base)
-        with place("[sweep]"):
-            samples, seed = _sampling(settings, sources)
+            sources = _sources(table, base)
         return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
 
 
@@ -239,31 +229,32 @@ def _settings(settings: Table) -> tuple[dict[str, float], tuple[str, ...]]:
     return base, tuple(name for name in EXTRAS if name in asked)
 
 
-def _sampling(settings: Table, sources: dict[str, Source]) -> tuple[int, int]:
-    if any(isinstance(source, Random) for source in sources.values()):
-        if "samples" not in settings:
-            raise ValueError("samples is missing: how many cases to draw")
-        seed = _whole_number("seed", settings.get("seed", 0), 0, 2**64 - 1)
-        return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
-    for key in ("samples", "seed"):
-        if key in settings:
-            raise ValueError(f"{key} is for distributions, and no input has one")
-    return 1, 0
+def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
+    """How many cases to draw, and the seed."""
+    if not drawn:
+        for key in ("samples", "seed"):
+            if key in settings:
+                raise ValueError(f"{key} is for distributions, and no input has one")
+        return 1, 0
+    if "samples" not in settings:
+        raise ValueError("samples is missing: how many cases to draw")
+    seed = _whole_number("seed", settings.get("seed", 0), 0, 2**64 - 1)
+    return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
 
 
-def _sources(table: Table, base: dict[str, float]) -> dict[str, Source]:
-    _check_keys(table, [], INPUTS)
+def _sources(table: Table, base: dict[str, float]) -> dict[str, Source | ByMass]:
+    check_keys(table, [], INPUTS)
     if "resistance" in table:
         base = {name: base[name] for name in base if name not in ("beta", "flow_stress")}
-    sources: dict[str, Source] = {name: _listed(name, str(x)) for name, x in base.items()}
-    for name, value in table.items():
-        sources.pop(name, None)  # so that the order is the file's
+    rest = {name: str(value) for name, value in base.items() if name not in table}
+    sources = {}
+    for name, value in (rest | table).items():  # so that the order is the file's
         with place(name):
             sources[name] = read_source(name, value)
     return sources
 
 
-def read_source(name: str, value: Any) -> Source:
+def read_source(name: str, value: Any) -> Source | ByMass:
     """The source of an input, all of whose values are such as the input may have.
 
     Raises ValueError that names the key, what is wrong and what would be right.
@@ -271,86 +262,71 @@ def read_source(name: str, value: Any) -> Source:
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
     (1e-06, 5e-06)
     """
-    readers: Any = {"distribution": _random, "from": _spaced, "average_mass": _by_mass}
-    named = (readers[key] for key in readers if key in value)
-    reader = next(named, None) if isinstance(value, dict) else _listed
-    if reader is None:
+    table = value if isinstance(value, dict) else {}
+    if "average_mass" in table:
+        return _by_mass(name, table)
+    if "distribution" in table:
+        source = _drawn(name, table)
+    elif "from" in table or table is not value:
+        values = _spaced(name, table) if table else _listed(name, value)
+        source = Source((float(values.min()), float(values.max())), values.take, len(values))
+    else:
         raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
-    source: Source = reader(name, value)
-    for number in () if isinstance(source, ByMass) else source.bounds:
+    for number in source.bounds:
         check({name: number})
     return source
 
 
-def _listed(name: str, value: Any) -> Grid:
+def _listed(name: str, value: Any) -> Floats:
     items = value if isinstance(value, list) else [value]
     if not items:
         raise ValueError("the list is empty: give one value or more")
-    values = [_read(item, INPUTS[name]) for item in items]
-    return Grid(len(values), (min(values), max(values)), np.array(values).take)
+    return np.array([_read(item, INPUTS[name]) for item in items])
 
 
-def _spaced(name: str, table: Table) -> Grid:
-    _check_keys(table, ["from", "to", "points"], ["scale"])
+def _spaced(name: str, table: Table) -> Floats:
+    check_keys(table, ["from", "to", "points"], ["scale"])
     scale = table.get("scale", "linear")
     if scale not in ("linear", "log"):
         raise ValueError(f"scale is {scale!r}: choose linear or log")
     first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
     if scale == "log" and min(first, last) <= 0:
         raise ValueError("a log scale needs from and to greater than zero")
-    count = _whole_number("points", table["points"], 2, MAX_CASES)
-    bounds = min(first, last), max(first, last)
-    start, stop = (math.log10(first), math.log10(last)) if scale == "log" else (first, last)
-
-    def at(index: npt.NDArray[np.int64]) -> Floats:
-        values = start + index * ((stop - start) / (count - 1))
-        values = np.clip(10.0**values if scale == "log" else values, *bounds)
-        return np.select([index == 0, index == count - 1], [first, last], values)
-
-    return Grid(count, bounds, at)
+    count = _whole_number("points", table["points"], 2, MAX_POINTS)
+    if scale == "log":
+        values = 10.0 ** np.linspace(math.log10(first), math.log10(last), count)
+    else:
+        values = np.linspace(first, last, count)
+    values[[0, -1]] = first, last
+    return values.clip(min(first, last), max(first, last))
 
 
-def _random(name: str, table: Table) -> Random:
-    kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
-    if kind not in kinds:
-        raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
-    shape, ends = ["mean", "deviation"], ["lower", "upper"]
-    wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
-    _check_keys(table, ["distribution", *wanted], allowed)
-    numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
-    for key in ("deviation", *(wanted if kind.startswith("log") else [])):
-        if numbers.get(key, 1.0) <= 0:
-            raise ValueError(f"{key} must be greater than zero")
-    log, law = kind.startswith("log"), None
-    if wanted == shape:
-        mean, deviation = (numbers[key] for key in shape)
-        if log:  # those given are of the quantity, before it is truncated
-            ratio = deviation / mean
-            variance = math.log1p(ratio * ratio)
-            mean, deviation = math.log(mean) - variance / 2, math.sqrt(variance)
-        law = NormalDist(mean, deviation)
-    lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
-    if lower >= upper:
-        raise ValueError("lower must be less than upper")
-    return distribution(lower, upper, log, law)
-
-
-def distribution(lower: float, upper: float, log: bool, normal: NormalDist | None) -> Random:
+def _drawn(name: str, table: Table) -> Source:
     """A distribution, by the inverse of its cumulative probability.
 
     Uniform between lower and upper, or normal: of the quantity itself or (log) of its logarithm.
     A normal one is truncated: what lies outside lower and upper is as if drawn again, so that
-    inside the density keeps its shape. Raises ValueError if hardly any lies there, or if it may be
-    negative.
-
-    >>> radii = distribution(0.0, math.inf, False, NormalDist(11e-6, 2.8e-6))
-    >>> [f"{x * 1e6:.2f}" for x in radii.quantile(np.array([0.1587, 0.5, 0.8413]))]
-    ['8.20', '11.00', '13.80']
+    inside the density keeps its shape.
     """
     from scipy.special import ndtri
 
+    kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
+    if kind not in kinds:
+        raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
+    log, shape, ends = kind.startswith("log"), ["mean", "deviation"], ["lower", "upper"]
+    wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
+    check_keys(table, ["distribution", *wanted], allowed)
+    numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
+    for key in ("deviation", *(wanted if log else [])):
+        if numbers.get(key, 1.0) <= 0:
+            raise ValueError(f"{key} must be greater than zero")
+    lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
+    if lower >= upper:
+        raise ValueError("lower must be less than upper")
     low, high = (math.log(x) if log and x > 0 else -math.inf if log else x for x in (lower, upper))
-    if normal:
+    normal = None
+    if wanted == shape:
+        normal = _normal(numbers["mean"], numbers["deviation"], log)
         low, high = normal.cdf(low), normal.cdf(high)
         if high - low < 1e-6:
             raise ValueError("less than a millionth of the distribution is between lower and upper")
@@ -368,27 +344,26 @@ def distribution(lower: float, upper: float, log: bool, normal: NormalDist | Non
     least, greatest = np.clip(wide, lower, upper).tolist()
     if least < 0:
         raise ValueError(f"values down to {least:.3g} would be drawn: give a lower end")
-    return Random((least, greatest), quantile)
+    return Source((least, greatest), quantile)
+
+
+def _normal(mean: float, deviation: float, log: bool) -> NormalDist:
+    """Of a quantity or, for its mean and deviation before truncation, of its logarithm."""
+    if not log:
+        return NormalDist(mean, deviation)
+    ratio = deviation / mean
+    variance = math.log1p(ratio * ratio)
+    return NormalDist(math.log(mean) - variance / 2, math.sqrt(variance))
 
 
 def _by_mass(name: str, table: Table) -> ByMass:
     if name != "velocity":
         raise ValueError("only the velocity follows from the mass, by Eq. 1")
     units = {"average_velocity": "m/s", "average_mass": "kg"}
-    _check_keys(table, list(units), [])
+    check_keys(table, list(units), [])
     numbers = {key: _number(table, key, unit) for key, unit in units.items()}
     check(numbers)
     return ByMass(**numbers)
-
-
-def _check_keys(table: Table, wanted: Collection[str], allowed: Collection[str]) -> None:
-    known = [*wanted, *allowed]
-    for key in table:
-        if key not in known:
-            raise ValueError(f"there is no {key!r} here: choose of {', '.join(known)}")
-    for key in wanted:
-        if key not in table:
-            raise ValueError(f"{key!r} is missing")
 
 
 def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:

@@ -251,9 +251,9 @@ class _Builder:
         if findings is not None:
             values |= live_verdicts(self.ledger, plan, values, findings)
         warnings = [
-            f"{page.name}: {doubt.text}"
+            f"{page.name}: {doubt}"
             for page, sheet in self.runs
-            for doubt in doubts_about(sheet)
+            for doubt in doubts_about(sheet).values()
         ]
         rounding = max(rounding_bound(sheet) for _, sheet in (*self.runs, *self.coarse))
         return Workbook(plan, values, warnings, rounding)
@@ -418,7 +418,7 @@ class _Builder:
         betas = {
             "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
             "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
-            "brinell_beta": resistance.brinell_beta(self.si["HB_ratio"]),
+            "brinell_beta": self.si["HB_ratio"],
         }
         grains = {name: self.si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
         mean = (grains["feathery"] + grains["clear"]) / 2
@@ -514,7 +514,7 @@ def _at_rest(impact: Impact) -> dict[str, float]:
 
 def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
-    kinds = [doubt.kind for doubt in doubts_about(sheet)]
+    kinds = doubts_about(sheet)
     trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
     message = (steps.DOUBTFUL, steps.REVERSED, steps.COMPLETE)[trust]
     return trust, message if sheet.steps else steps.NO_STEPS

@@ -12,7 +12,6 @@ import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from types import FrameType
 from typing import Any, NoReturn
 
 from replication.reading import one_line, quoted
@@ -66,14 +65,14 @@ def _end_as_interrupted() -> None:
 
     A signal that is ignored, as after `nohup`, remains so.
     """
+
+    def interrupt(number: int, _: object) -> NoReturn:
+        raise KeyboardInterrupt(number)
+
     for name in ("SIGTERM", "SIGHUP"):  # Windows has no hangup
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, _interrupt)
-
-
-def _interrupt(number: int, _: FrameType | None) -> NoReturn:
-    raise KeyboardInterrupt(number)
+            signal.signal(number, interrupt)
 
 
 def _message(error: Exception) -> str:

@@ -45,10 +45,9 @@ def run(options: argparse.Namespace) -> int:
     gc.disable()  # to look for garbage would take a twentieth of the time
     try:
         record = audit()
-        random, outcomes = hard_cases.worst_of(1000, seed=1), hard_cases.outcomes()
         beside = {
             "workbook.xlsx": build(record=record).to_bytes(),
-            "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
+            "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
         }
         written = report.write(record, options.out, beside)
     finally:

@@ -25,12 +25,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.bench.methods import CASES
-    from replication.bench.run import bench, check, texts, write
+    from replication.bench import CASES, bench, texts, write
+    from spreadsheets.safely import check_folder
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:
-        check(options.out, names)
+        check_folder(options.out, ["bench.txt"])
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
     if options.limit is not None:
         with place("--limit"):

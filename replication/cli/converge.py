@@ -3,7 +3,6 @@
 import argparse
 
 from replication.cli import options as shared
-from replication.reading import place, read_number
 
 HELP = "error against time step, observed order, limit"
 
@@ -23,25 +22,15 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from replication.error.ladder import converge, ladder, record, step_for_digits, text
+    from replication.error.ladder import converge, ladder, step_for_digits, text
 
-    case = shared.case(options)
-    steps = ladder(case.step, options.levels) if options.steps is None else _steps(options.steps)
-    result = converge(case, steps, options.scheme)
-    digits = None
-    if options.digits is not None:
-        digits = step_for_digits(case, options.digits, options.scheme)
-    warnings = (f"{level.step!r} s: {said}" for level in result.levels for said in level.warnings)
-    document = record(result, digits)
-    return shared.put(options, document, lambda: text(result, digits), warnings=warnings)
-
-
-def _steps(text: str) -> list[float]:
-    texts = text.split(",")
-    if len(texts) > MOST_STEPS:
-        raise ValueError(f"--steps takes at most {MOST_STEPS} steps, not {len(texts)}")
-    steps = []
-    for at, step in enumerate(texts, 1):
-        with place(f"--steps, value {at}"):
-            steps.append(read_number(step.strip(), "s"))
-    return steps
+    case, scheme = shared.case(options), options.scheme
+    if options.steps is None:
+        steps = ladder(case.step, options.levels)
+    else:
+        steps = shared.times("--steps", options.steps, MOST_STEPS)
+    record = converge(case, steps, scheme)
+    digits = options.digits and step_for_digits(case, options.digits, scheme)
+    record["digits"] = digits
+    warnings = (f"{x['step']!r} s: {said}" for x in record["levels"] for said in x["warnings"])
+    return shared.put(options, record, lambda: text(record), warnings=warnings)

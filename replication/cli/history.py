@@ -5,7 +5,6 @@ import argparse
 from replication.cases import inputs_of
 from replication.cli import options as shared
 from replication.models.impact import Impact
-from replication.reading import quoted, read_number
 from replication.text import numbers
 
 HELP = "depth and velocity of a case against time, without small steps"
@@ -28,7 +27,10 @@ def run(options: argparse.Namespace) -> int:
 
     case = shared.case(options)
     stop = stop_time(**case.motion)
-    times = _times(options, stop)
+    if options.times is None:
+        times = [stop * (k / (options.points - 1)) for k in range(options.points)]
+    else:
+        times = shared.times("--times", options.times, MAX_POINTS)
     depth, velocity = _history(times, case)
     record = {
         "inputs": inputs_of(case),
@@ -60,20 +62,3 @@ def _history(times: list[float], case: Impact) -> tuple[list[float], list[float]
     depths, velocities = [0.0] * len(times), [0.0] * len(times)
     history(times, **case.motion, depth=depths, speed=velocities)
     return depths, velocities
-
-
-def _times(options: argparse.Namespace, stop: float) -> list[float]:
-    """The times [s] that were asked for; `stop`: that of rest."""
-    if options.times is None:
-        last = options.points - 1
-        return [stop * (k / last) for k in range(options.points)]
-    times = []
-    for k, text in enumerate(map(str.strip, options.times.split(",")), 1):
-        try:
-            times.append(read_number(text, "s"))
-            if not 0 <= times[-1] <= 1e250:
-                raise ValueError(f"{quoted(text)} is not from 0 to 1e250 s")
-        except ValueError as error:
-            wanted = 'give times such as "0 ns,5 ns"'
-            raise ValueError(f"--times, value {k}: {error}: {wanted}") from error
-    return times

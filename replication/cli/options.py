@@ -10,7 +10,7 @@ from typing import Any
 
 from replication.cases import INPUTS, read_case
 from replication.models.impact import Impact
-from replication.reading import one_line, quoted
+from replication.reading import one_line, place, quoted, read_number
 from replication.text import json_text, rows_csv
 
 
@@ -49,6 +49,19 @@ def whole_option(
     command.add_argument(
         flag, type=whole(least, most), default=default, metavar="N", help=help_text
     )
+
+
+def times(flag: str, text: str, most: int) -> list[float]:
+    """The times [s] that an option lists, such as "0 ns,5 ns"; at most so many."""
+    texts, values = [time.strip() for time in text.split(",")], []
+    if len(texts) > most:
+        raise ValueError(f"{flag}: give at most {most:,} values, not {len(texts):,}")
+    for at, time in enumerate(texts, 1):
+        with place(f"{flag}, value {at}"):
+            values.append(read_number(time, "s"))
+            if not 0 <= values[-1] <= 1e250:
+                raise ValueError(f"{quoted(time)} is not from 0 to 1e250 s")
+    return values
 
 
 def output_options(

@@ -25,7 +25,7 @@ def run(options: argparse.Namespace) -> int:
 
     sheet = run(shared.case(options), options.scheme)
     rows = [row._asdict() for row in sheet.rows] if options.json or options.csv else []
-    doubts = [warning.text for warning in warnings(sheet)]
+    doubts = list(warnings(sheet).values())
     record = {
         "inputs": inputs_of(sheet.impact),
         "scheme": sheet.scheme,

@@ -17,7 +17,5 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from replication.error import hard_cases
 
-    outcomes = hard_cases.outcomes()
-    worst = hard_cases.worst_of(options.random, options.seed)
-    record = hard_cases.record(outcomes, worst)
-    return shared.put(options, record, lambda: hard_cases.text(outcomes, worst))
+    record = hard_cases.record(options.random, options.seed)
+    return shared.put(options, record, lambda: hard_cases.text(record))

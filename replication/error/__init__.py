@@ -1,7 +1,5 @@
 """The sheet against the exact motion; here, signs in a sheet that its time step is too long."""
 
-from typing import NamedTuple
-
 from replication.models.depth import final_depth
 from replication.models.sheet import Sheet
 
@@ -15,15 +13,8 @@ DEEP = 5e-4
 unit of the third is at least that much."""
 
 
-class Doubt(NamedTuple):
-    """What is wrong: "no steps", "reversed", "coarse" or "deep", and a sentence with figures."""
-
-    kind: str
-    text: str
-
-
-def warnings(sheet: Sheet) -> list[Doubt]:
-    """The warnings about a sheet.
+def warnings(sheet: Sheet) -> dict[str, str]:
+    """The warnings about a sheet: what is wrong, and a sentence with figures.
 
     "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
     "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
@@ -32,25 +23,24 @@ def warnings(sheet: Sheet) -> list[Doubt]:
     >>> from dataclasses import replace
     >>> from replication.cases import BETA_5
     >>> from replication.models.sheet import run
-    >>> [warning.kind for warning in warnings(run(replace(BETA_5, step=1e-7)))]
+    >>> list(warnings(run(replace(BETA_5, step=1e-7))))
     ['reversed', 'coarse', 'deep']
     """
-    impact, last = sheet.impact, sheet.rows[-1]
-    if sheet.steps == 0:
+    impact, last, said = sheet.impact, sheet.rows[-1], {}
+    if last.velocity_final is None:
         slow, least = impact.velocity, impact.stop_velocity
         text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
-        return [Doubt("no steps", text)]
-    doubts = []
-    if last.velocity_final is not None and last.velocity_final < -impact.stop_velocity:
+        return {"no steps": text}
+    if last.velocity_final < -impact.stop_velocity:
         share = 100 * -last.velocity_final / impact.velocity
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
-        doubts.append(Doubt("reversed", f"{text}, {share:.2g} % of the impact velocity"))
+        said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
     if travel > COARSE:
         text = f"a step at the impact velocity passes {travel:.3g} of the radius"
-        doubts.append(Doubt("coarse", f"{text}: at most {COARSE} is sound"))
+        said["coarse"] = f"{text}: at most {COARSE} is sound"
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DEEP):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
-        doubts.append(Doubt("deep", f"{text}, by {100 * (last.depth / rest - 1):.3g} %"))
-    return doubts
+        said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
+    return said

@@ -6,47 +6,20 @@ And the closed form against the reference over random cases that span all sensib
 import math
 import random
 import sys
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
 from flint import arb, ctx
 
-from replication.cases import BETA_5
+from replication.cases import BETA_5, changed
 from replication.error import warnings
 from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
-from replication.models.impact import Impact
 from replication.models.sheet import run
 from replication.text import aligned
 
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What became of a hard case; depths in m.
-
-    `refused` is the message where the inputs are, `sheet_refused` where only the sheet is.
-    `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units of its last
-    place, `sheet_error` the sheet's relative to the exact depth.
-    """
-
-    name: str
-    changes: dict[str, float]
-    refused: str = ""
-    sheet_refused: str = ""
-    steps: int | None = None
-    sheet: float | None = None
-    sheet_error: float | None = None
-    closed_form: float | None = None
-    reference: str = ""
-    ulps: float | None = None
-    warnings: tuple[str, ...] = ()
-
-    @property
-    def notes(self) -> list[str]:
-        refused = [f"refused: {note}" for note in (self.refused, self.sheet_refused) if note]
-        return [*refused, *self.warnings]
+Outcome = dict[str, Any]
 
 
 # With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1 at rest.
@@ -58,7 +31,7 @@ _HALF_BURIED = {
 
 
 def _buried(factor: float) -> dict[str, float]:
-    return {**_HALF_BURIED, "resistance": _HALF_BURIED["resistance"] * factor}
+    return _HALF_BURIED | {"resistance": _HALF_BURIED["resistance"] * factor}
 
 
 def _shallow(velocity: float) -> dict[str, float]:
@@ -83,7 +56,6 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
     "resistance 1e12 Pa": {"resistance": 1e12},
     "resistance 1e15 Pa": {"resistance": 1e15},
     "resistance 1e15 Pa, fine step": {"resistance": 1e15, "step": 2e-13},
-    "no resistance": {"resistance": 0.0},
     "density ratio 1e-6": {"particle_density": 8900e-6, "target_density": 8900.0},
     "density ratio 1e-6, fine step": {
         "particle_density": 8900e-6, "target_density": 8900.0, "step": 2e-13,
@@ -104,17 +76,10 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
     "step longer than the impact": {"step": 1e-7},
     "step half the impact": {"step": 1.3e-8},
     "step far too short": {"step": 1e-18},
-    "velocity NaN": {"velocity": math.nan},
-    "velocity infinite": {"velocity": math.inf},
-    "velocity negative": {"velocity": -500.0},
-    "radius zero": {"radius": 0.0},
-    "particle density zero": {"particle_density": 0.0},
-    "target density zero": {"target_density": 0.0},
-    "step zero": {"step": 0.0},
     **{
         f"{name.replace('_', ' ')} {word}": {name: value}
-        for name in ("radius", "particle_density", "target_density", "resistance", "step")
-        for word, value in (("negative", -1.0), ("NaN", math.nan), ("infinite", math.inf))
+        for name in (*BETA_5.motion, "step")
+        for word, value in (("0", 0.0), ("-1", -1.0), ("NaN", math.nan), ("infinite", math.inf))
     },
     "radius squared underflows": {"radius": 1e-170, "particle_density": 1e302},
     "dynamic pressure below 1e-250": _shallow(1e-130),
@@ -122,53 +87,37 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
 """Why a case is hard, and the inputs by which it differs from the report's beta-5."""
 
 
-def impact_of(changes: Mapping[str, float]) -> Impact:
-    """A case by what it changes. Raises ValueError as `Impact` does."""
-    instead: dict[str, Any] = {"beta": None, "flow_stress": None} if "resistance" in changes else {}
-    return replace(BETA_5, **{**instead, **changes})
+def outcome(name: str) -> Outcome:
+    """What became of a hard case; depths in m.
 
-
-def outcomes() -> list[Outcome]:
-    """Every hard case, run in the sheet, the closed form and the reference."""
-    return [outcome(name, changes) for name, changes in HARD_CASES.items()]
-
-
-def outcome(name: str, changes: dict[str, float]) -> Outcome:
-    """Run one case."""
+    `refused` is the message where the inputs are, `sheet_refused` where only the sheet is.
+    `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units of its last
+    place, `sheet_error` the sheet's relative to the exact depth. What is not known is None. Inputs
+    that are no finite numbers are given as text.
+    """
+    changes = HARD_CASES[name]
+    result: Outcome = {
+        "name": name,
+        "changes": {key: x if math.isfinite(x) else str(x) for key, x in changes.items()},
+        **dict.fromkeys(("refused", "sheet_refused"), ""),
+        **dict.fromkeys(("steps", "sheet", "sheet_error", "closed_form", "reference", "ulps")),
+        "warnings": [],
+    }
     try:
-        impact = impact_of(changes)
+        impact = changed(BETA_5, changes)
     except ValueError as error:
-        return Outcome(name, changes, refused=str(error))
+        return result | {"refused": str(error)}
     motion, depth = exact_motion(impact), final_depth(**impact.motion)
     exact = motion.final_depth
-    closed = Outcome(
-        name,
-        changes,
-        closed_form=depth,
-        reference=motion.context.nstr(exact, 20),
-        ulps=float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth)),
-    )
+    result |= {"closed_form": depth, "reference": motion.context.nstr(exact, 20)}
+    result["ulps"] = float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth))
     try:
         sheet = run(impact)
     except ValueError as error:
-        return replace(closed, sheet_refused=str(error))
-    return replace(
-        closed,
-        steps=sheet.steps,
-        sheet=sheet.final_depth,
-        sheet_error=sheet.final_depth / float(exact) - 1,
-        warnings=tuple(warning.text for warning in warnings(sheet)),
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class Worst:
-    """The closed form's greatest error over random cases [ulp], with the inputs that gave it."""
-
-    cases: int
-    skipped: int
-    ulps: float
-    inputs: dict[str, float]
+        return result | {"sheet_refused": str(error)}
+    result |= {"steps": sheet.steps, "sheet": sheet.final_depth}
+    result["sheet_error"] = sheet.final_depth / float(exact) - 1
+    return result | {"warnings": list(warnings(sheet).values())}
 
 
 _RANGES = {
@@ -192,18 +141,20 @@ def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
         }
 
 
-def worst_of(count: int, seed: int) -> Worst:
-    """The worst of so many random cases. Depths that are no normal doubles are skipped, counted."""
-    worst, skipped = Worst(count, 0, 0.0, {}), 0
+def worst_of(count: int, seed: int) -> dict[str, Any]:
+    """The closed form's greatest error over so many random cases, and the inputs that gave it.
+
+    The number of `cases`, the error in `ulps`, `inputs`. Depths that are no normal doubles are
+    left out, and counted as `skipped`.
+    """
+    worst, inputs, skipped = 0.0, dict[str, float](), 0
     for case in random_cases(count, seed):
         depth = final_depth(**case)
-        if not math.isfinite(depth) or depth < sys.float_info.min:
+        if not sys.float_info.min <= depth < math.inf:
             skipped += 1
-            continue
-        error = _ulps(depth, case)
-        if abs(error) > abs(worst.ulps):
-            worst = Worst(count, 0, error, case)
-    return Worst(count, skipped, worst.ulps, worst.inputs)
+        elif abs(error := _ulps(depth, case)) > abs(worst):
+            worst, inputs = error, case
+    return {"cases": count, "skipped": skipped, "ulps": worst, "inputs": inputs}
 
 
 @ctx.workdps(40)
@@ -223,36 +174,39 @@ def _ulps(depth: float, case: dict[str, float]) -> float:
     return float(distance * radius / math.ulp(depth))
 
 
-def record(outcomes: Sequence[Outcome], worst: Worst) -> dict[str, Any]:
-    """As JSON. Inputs that are no finite numbers are given as text."""
-    cases = [asdict(outcome) for outcome in outcomes]
-    for case in cases:
-        given = case["changes"].items()
-        case["changes"] = {name: x if math.isfinite(x) else str(x) for name, x in given}
-    return {"cases": cases, "random": worst}
+def record(count: int, seed: int) -> dict[str, Any]:
+    """Every hard case, and the worst of so many random ones: the JSON of `coldspray stability`."""
+    return {"cases": list(map(outcome, HARD_CASES)), "random": worst_of(count, seed)}
 
 
-def text(outcomes: Sequence[Outcome], worst: Worst) -> str:
+def text(record: dict[str, Any]) -> str:
     """The hard cases as a table, notes under it, and the worst of the random cases."""
     heads = ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
-    inputs = ", ".join(f"{name} {value!r}" for name, value in worst.inputs.items())
+    notes = [f"{case['name']}: {note}" for case in record["cases"] for note in _notes(case)]
+    worst = record["random"]
+    inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
     return "\n".join(
         [
-            *aligned([heads, *map(_line, outcomes)]),
+            *aligned([heads, *map(_line, record["cases"])]),
             "",
-            *(f"{outcome.name}: {note}" for outcome in outcomes for note in outcome.notes),
+            *notes,
             "",
-            f"Closed form over {worst.cases} random cases ({worst.skipped} without a normal double "
-            f"for an answer): at worst {worst.ulps:.2f} ulp, at {inputs}.",
+            f"Closed form over {worst['cases']} random cases ({worst['skipped']} without a normal "
+            f"double for an answer): at worst {worst['ulps']:.2f} ulp, at {inputs}.",
         ]
     )
 
 
-def _line(outcome: Outcome) -> tuple[str, ...]:
-    if outcome.refused:
-        return outcome.name, "-", "refused", "", "", "", ""
-    closed = (f"{outcome.closed_form:.9g}", f"{outcome.ulps:+.2f}", outcome.reference)
-    if outcome.sheet is None or outcome.sheet_error is None:
-        return outcome.name, "-", "refused", "", *closed
-    off = f"{100 * outcome.sheet_error:+.3g} %"
-    return outcome.name, str(outcome.steps), f"{outcome.sheet:.9g}", off, *closed
+def _notes(case: Outcome) -> list[str]:
+    refused = [f"refused: {note}" for note in (case["refused"], case["sheet_refused"]) if note]
+    return refused + list(case["warnings"])
+
+
+def _line(case: Outcome) -> tuple[str, ...]:
+    sheet, closed = ("-", "refused", ""), ("", "", "")
+    if case["steps"] is not None:
+        off = f"{100 * case['sheet_error']:+.3g} %"
+        sheet = str(case["steps"]), f"{case['sheet']:.9g}", off
+    if case["reference"]:
+        closed = f"{case['closed_form']:.9g}", f"{case['ulps']:+.2f}", case["reference"]
+    return case["name"], *sheet, *closed

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
-from replication.models import crater, depth, frank_zook, impact, motion, sheet, stream
+from replication.models import crater, depth, impact, motion, sheet
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
 Model = Callable[..., Any]
@@ -73,13 +73,9 @@ stop_time = _for_anything(motion.stop_time, _exceeds("stop_velocity", "the impac
 
 
 def history(
-    time: Any,
-    velocity: Any,
-    radius: Any,
-    particle_density: Any,
-    target_density: Any,
+    time: Any, velocity: Any, radius: Any, particle_density: Any, target_density: Any,
     resistance: Any,
-) -> Any:
+) -> Any:  # fmt: skip
     """Depth [m] and velocity [m/s] of Eqs. 12-13 at times [s] after touch.
 
     Inputs are those of `final_depth`; time broadcasts against them. Both are within 1e-14 of
@@ -129,15 +125,9 @@ def _histories(numbers: Numbers) -> Any:
 
 
 def run_many(
-    velocity: Any,
-    radius: Any,
-    particle_density: Any,
-    target_density: Any,
-    resistance: Any,
-    step: Any = 2e-10,
-    stop_velocity: Any = 1.0,
-    scheme: str = "published",
-) -> Any:
+    velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
+    step: Any = 2e-10, stop_velocity: Any = 1.0, scheme: str = "published",
+) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
     Inputs are those of `final_depth`, and step [s], stop_velocity [m/s], scheme as for `run`. The
@@ -336,7 +326,7 @@ def _make_known() -> None:
     import numpy as np
     from numba.extending import overload, register_jitable
 
-    for module in (crater, depth, frank_zook, impact, motion, sheet, stream):
+    for module in (crater, depth, impact, motion, sheet):
         for function in vars(module).values():
             if inspect.isfunction(function) and function is not motion.series:
                 register_jitable(function)
@@ -392,7 +382,6 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
 
 
 def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
-    import numpy as np
     import pandas as pd
 
     index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
@@ -404,11 +393,6 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
             for label in index.symmetric_difference(value.index, sort=False)[:1]:
                 raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
             numbers[name] = value.reindex(index).to_numpy()
-        elif np.shape(value) not in ((), (len(index),)):
-            raise TypeError(
-                f"{name} is a {type(value).__name__} of shape {np.shape(value)}: beside a Series "
-                f"give a Series, a single number, or an array of {len(index)}"
-            )
     try:
         results = within(*numbers.values())
     except InputError as error:

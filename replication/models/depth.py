@@ -33,12 +33,9 @@ def _depth_of_work(three_quarters: float) -> float:
 
 
 def final_depth(
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
+    velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float,
-) -> float:
+) -> float:  # fmt: skip
     """Penetration depth at rest, X [m], exact for Eqs. 12-13: R times `normalized_depth`.
 
     >>> f"{final_depth(500.0, 11e-6, 8900.0, 7850.0, 2.1e9) * 1e6:.2f}"
@@ -48,13 +45,9 @@ def final_depth(
 
 
 def depth_at_velocity(
-    at_velocity: float,
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-) -> float:
+    at_velocity: float, velocity: float, radius: float, particle_density: float,
+    target_density: float, resistance: float,
+) -> float:  # fmt: skip
     """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s]; NaN above V.
 
     >>> f"{depth_at_velocity(250.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e6:.4f}"
@@ -68,13 +61,9 @@ def depth_at_velocity(
 
 
 def velocity_at_depth(
-    at_depth: float,
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
+    at_depth: float, velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float,
-) -> float:
+) -> float:  # fmt: skip
     """Velocity [m/s] at a depth [m]; NaN beyond the final one.
 
     Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.

@@ -9,14 +9,9 @@ import math
 
 
 def depth_as_printed(
-    length_ratio: float,
-    particle_density: float,
-    target_density: float,
-    k_1: float,
-    k_t: float,
-    resistance: float,
-    velocity: float,
-) -> float:
+    length_ratio: float, particle_density: float, target_density: float, k_1: float, k_t: float,
+    resistance: float, velocity: float,
+) -> float:  # fmt: skip
     """X/R [1] as Eq. 16 prints it.
 
     length_ratio L/D [1], densities [kg/m^3], k_1 and k_t [1], R_t [Pa], V [m/s].
@@ -28,24 +23,13 @@ def depth_as_printed(
     return inertia * math.log1p(k_t * target_density * velocity * velocity / resistance)
 
 
-def depth_derived(
-    length_ratio: float,
-    particle_density: float,
-    target_density: float,
-    k_1: float,
-    k_t: float,
-    resistance: float,
-    velocity: float,
-) -> float:
+def depth_derived(*inputs: float, **named: float) -> float:
     """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
-
-    Arguments as for `depth_as_printed`.
 
     >>> f"{depth_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.255'
     """
-    inputs = length_ratio, particle_density, target_density, k_1, k_t, resistance, velocity
-    return 2 * depth_as_printed(*inputs)
+    return 2 * depth_as_printed(*inputs, **named)
 
 
 def sphere_length_ratio() -> float:

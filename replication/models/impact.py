@@ -79,13 +79,9 @@ class Impact:
     @property
     def motion(self) -> dict[str, float]:
         """What Eq. 13 depends on: the arguments of `depth.final_depth`, in order."""
-        return {
-            "velocity": self.velocity,
-            "radius": self.radius,
-            "particle_density": self.particle_density,
-            "target_density": self.target_density,
-            "resistance": self.target_resistance,
-        }
+        names = ("velocity", "radius", "particle_density", "target_density")
+        own = {name: getattr(self, name) for name in names}
+        return own | {"resistance": self.target_resistance}
 
     @property
     def diameter(self) -> float:
@@ -125,13 +121,9 @@ zero
 
 
 def check_range(
-    velocity: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    radius: float = 1.0,
-    step: float = 1.0,
-) -> None:
+    velocity: float, particle_density: float, target_density: float, resistance: float,
+    radius: float = 1.0, step: float = 1.0,
+) -> None:  # fmt: skip
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
     Within that range no formula of the models overflows, underflows or divides by zero.

@@ -24,15 +24,9 @@ Series = Any  # a list of floats or, where it is compiled, an array
 
 
 def history(
-    time: Series,
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    depth: Series,
-    speed: Series,
-) -> None:
+    time: Series, velocity: float, radius: float, particle_density: float, target_density: float,
+    resistance: float, depth: Series, speed: Series,
+) -> None:  # fmt: skip
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
     Both are within 1e-14 of the final depth and of the impact velocity; from the stop time on they
@@ -61,13 +55,9 @@ def history(
 
 
 def stop_time(
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    stop_velocity: float = 0.0,
-) -> float:
+    velocity: float, radius: float, particle_density: float, target_density: float,
+    resistance: float, stop_velocity: float = 0.0,
+) -> float:  # fmt: skip
     """Time [s] from touch until the velocity has fallen to `stop_velocity` [m/s]; NaN above V.
 
     >>> f"{stop_time(500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.12f}"
@@ -78,13 +68,9 @@ def stop_time(
 
 
 def time_to_depth(
-    at_depth: float,
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
+    at_depth: float, velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float,
-) -> float:
+) -> float:  # fmt: skip
     """Time [s] from touch to a depth [m]; NaN beyond the final one.
 
     Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.

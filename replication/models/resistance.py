@@ -1,4 +1,4 @@
-"""Target resistance and its factor beta by three routes (Eqs. 7-11), and the centerline stress."""
+"""Target resistance and its factor beta by two routes (Eqs. 7-11), and the centerline stress."""
 
 import math
 
@@ -37,15 +37,6 @@ def walker_anderson_beta(alpha: float) -> float:
     '5.0'
     """
     return 7 / 3 * math.log(alpha)
-
-
-def brinell_beta(hardness_over_strength: float) -> float:
-    """beta [1] if the Brinell hardness is the target resistance (section 3): the ratio itself.
-
-    >>> brinell_beta(3.0)
-    3.0
-    """
-    return hardness_over_strength
 
 
 def centerline_stress(target_density: float, velocity: float, resistance: float) -> float:

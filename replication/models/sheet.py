@@ -99,17 +99,9 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
 
 
 def last_row(
-    velocity: float,
-    radius: float,
-    particle_density: float,
-    target_density: float,
-    resistance: float,
-    step: float,
-    stop_velocity: float,
-    centered: bool,
-    depth: Any,
-    steps: Any,
-) -> None:
+    velocity: float, radius: float, particle_density: float, target_density: float,
+    resistance: float, step: float, stop_velocity: float, centered: bool, depth: Any, steps: Any,
+) -> None:  # fmt: skip
     """Fill in depth x [m] and number of the sheet's last row, each in the one place that it has.
 
     NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. SI units.
@@ -130,16 +122,9 @@ def last_row(
 
 
 def _next_row(
-    k: int,
-    x: float,
-    v: float,
-    dt: float,
-    centered: bool,
-    R: float,
-    M: float,
-    rho_t: float,
+    k: int, x: float, v: float, dt: float, centered: bool, R: float, M: float, rho_t: float,
     R_t: float,
-) -> tuple[float, float, float]:
+) -> tuple[float, float, float]:  # fmt: skip
     """Depth, deceleration and final velocity of row k, from the depth of the row before and v."""
     # The half step to start: x is half a step behind the velocity that closes the row.
     x = v * (dt / 2) if k == 1 else x + v * dt

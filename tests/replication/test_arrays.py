@@ -4,6 +4,7 @@ import functools
 import inspect
 import os
 import pickle
+import re
 import shutil
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import replication
+from replication.cases import BETA_5
 from replication.models import (
     arrays,
     crater,
@@ -79,12 +81,10 @@ MODELS: dict[Callable[..., Any], tuple[tuple[float, float], ...]] = {
     crater.depth_from_volume_ratio: ((1e-9, 0.5),),
     crater.contact_diameter: (SHARE, POSITIVE),
     frank_zook.depth_as_printed: (SHARE, DENSITY, DENSITY, SHARE, SHARE, POSITIVE, POSITIVE),
-    frank_zook.depth_derived: (SHARE, DENSITY, DENSITY, SHARE, SHARE, POSITIVE, POSITIVE),
     impact.particle_mass: (POSITIVE, DENSITY),
     resistance.target_resistance: (POSITIVE, POSITIVE),
     resistance.goodier_beta: (POSITIVE,),
     resistance.walker_anderson_beta: (POSITIVE,),
-    resistance.brinell_beta: (POSITIVE,),
     resistance.centerline_stress: (DENSITY, POSITIVE, POSITIVE),
     sheet.deceleration: (SHARE, POSITIVE, SHARE, POSITIVE, DENSITY, POSITIVE),
     stream.particle_velocity: (POSITIVE, POSITIVE, POSITIVE),
@@ -114,14 +114,15 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 @pytest.mark.parametrize("centered", [False, True])
 @pytest.mark.parametrize("count", [CASES // 10, pytest.param(CASES, marks=pytest.mark.slow)])
 def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -> None:
-    ranges = ((1, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 0.2))
-    columns = drawn(count, *ranges)
+    # From two rows to hundreds, some that cross R, some below the stop velocity.
+    ranges = ((0.5, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 2))
+    columns, scheme = drawn(count, *ranges), sheet.SCHEMES[centered]
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
-    result = run_many(*columns, stop_velocity=0.9, scheme=sheet.SCHEMES[centered])
-    depth, steps = [0.0], [0]
+    result = run_many(*columns, stop_velocity=0.9, scheme=scheme)
+    names = (*BETA_5.motion, "step")
     for *row, x, k in zip(*(column.tolist() for column in (*columns, *result)), strict=True):
-        sheet.last_row(*row, 0.9, centered, depth, steps)
-        assert (depth[0], steps[0]) == (x, k)
+        rows = sheet.run(Impact(**dict(zip(names, row, strict=True)), stop_velocity=0.9), scheme)
+        assert (rows.final_depth, rows.steps) == run_many(*row, 0.9, scheme) == (x, k)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -217,24 +218,19 @@ def test_what_never_happens_is_refused(function: str, first: Any, message: str) 
 @pytest.mark.parametrize(
     ("place", "bad", "formed"),
     [
-        (0, 1e200, r"velocity squared\[1\] is inf: doubles carry"),
-        (0, 1e-170, r"velocity squared\[1\] is 0.0: doubles carry"),
-        (1, 1e130, r"particle mass\[1\] is inf: it must be"),
-        (1, 1e-126, r"particle mass\[1\] is 0.0: it must be"),
-        (2, 1e251, r"particle density\[1\] is 1e\+251: doubles carry"),
-        (4, 1e-260, r"target resistance\[1\] is 1e-260: doubles carry"),
-        (4, 1e260, r"target resistance\[1\] is 1e\+260: doubles carry"),
-        (4, 0.0, r"target resistance\[1\] is 0.0: nothing would bring the particle to rest"),
+        (0, 1e200, "velocity squared[1] is inf: doubles carry"),
+        (0, 1e-170, "velocity squared[1] is 0.0: doubles carry"),
+        (1, 1e130, "particle mass[1] is inf: it must be"),
+        (1, 1e-126, "particle mass[1] is 0.0: it must be"),
+        (4, 1e260, "target resistance[1] is 1e+260: doubles carry"),
+        (4, 0.0, "target resistance[1] is 0.0: nothing would bring the particle to rest"),
     ],
 )
-def test_what_would_leave_the_range_of_doubles_is_refused(
-    place: int, bad: float, formed: str
-) -> None:
+def test_what_would_leave_the_range_is_refused(place: int, bad: float, formed: str) -> None:
     values: list[Any] = list(CASE)
     values[place] = [CASE[place], bad]
-    names = list(impact.Impact.__dataclass_fields__)
     for function in (arrays.final_depth, functools.partial(history, 1e-9), run_many):
-        with pytest.raises(ValueError, match=rf"^{formed} .*\(with .*{names[0]} "):
+        with pytest.raises(ValueError, match=rf"^{re.escape(formed)} .*\(with .*velocity "):
             function(*values)
 
 
@@ -328,8 +324,7 @@ def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
         (minus, radius, ValueError, r"^velocity\[b\] is -1\.0: it must"),
         (another, radius, ValueError, "^radius must have the labels of the first Series, so [bc] "),
         (velocity, radius.iloc[:1], ValueError, "^radius must have the labels .*, so a too"),
-        (velocity, [1e-5], TypeError, r"^radius is a list of shape \(1,\): beside a Series give"),
-        (velocity, radius.to_frame(), TypeError, r"^radius is a DataFrame of shape \(2, 1\): be"),
+        (velocity, radius.to_frame(), TypeError, "a DataFrame is no input: give its columns"),
         (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
         (velocity.to_frame(), 1e-5, TypeError, "a DataFrame is no input: give its columns"),
     ]
@@ -470,12 +465,6 @@ def test_public_names_are_there_and_loaded_when_used() -> None:
     )
     subprocess.run([sys.executable, "-c", program], check=True)
     assert all(hasattr(replication, name) for name in replication.__all__)
+    assert "[Pa]" in str(replication.stop_time.__doc__)
     with pytest.raises(AttributeError, match="no attribute 'final_dept'"):
         replication.final_dept  # noqa: B018
-
-
-def test_public_functions_say_units_and_errors() -> None:
-    for name in ("final_depth", "velocity_at_depth", "time_to_depth", "stop_time"):
-        said = getattr(replication, name).__doc__
-        assert "[Pa]" in said
-        assert "Raises ValueError" in said

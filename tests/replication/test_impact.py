@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from replication.cases import BETA_5, INPUTS, inputs_of, read_case
+from replication.cases import BETA_5, INPUTS, changed, inputs_of, read_case
 from replication.models.impact import Impact
 
 
@@ -55,3 +55,4 @@ def test_units_are_understood_without_rounding_twice(name: str, text: str, value
 def test_resistance_takes_the_place_of_beta_and_flow_stress() -> None:
     impact = read_case("beta-5", None, {"resistance": "2.1 GPa"})
     assert (impact.beta, impact.flow_stress, impact.target_resistance) == (None, None, 2.1e9)
+    assert changed(impact, {"beta": 3.0, "flow_stress": 7e8}).resistance is None

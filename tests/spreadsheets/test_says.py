@@ -215,7 +215,7 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
 )
 def test_doubts_are_those_of_the_command(step: float, kinds: list[str]) -> None:
     """Where the workbook, above, doubts its run: as it reverses, or for more."""
-    assert [doubt.kind for doubt in warnings(run(replace(BETA_5, step=step)))] == kinds
+    assert list(warnings(run(replace(BETA_5, step=step)))) == kinds
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The cases that are timed, this project's methods, and what a user would take otherwise.
+"""Speed against error: this project's methods and what a user would take otherwise, in one run.
 
 The latter are written as a user would. SciPy's `solve_ivp` finds rest by an event. The other
 solvers are told when rest comes, and integrate up to there: nothing that they lack is held against
@@ -6,25 +6,38 @@ them. All have depth over R and velocity over V, in units of R / V of time: y' =
 u' = -(b u^2 + c) A(y) (Eqs. 12-13). A solver takes its setting, b, c and times, and gives y there.
 """
 
+import io
 import math
-from collections.abc import Callable, Iterator, Sequence
+import os
+import platform
+import tempfile
+import timeit
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
-from itertools import product
+from importlib.metadata import distributions
+from itertools import groupby, product
+from operator import itemgetter
+from pathlib import Path
+from statistics import median
 from typing import Any, Literal
 
 import numba
 import numpy as np
 import numpy.typing as npt
+from tqdm import tqdm
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
-from replication.error.hard_cases import HARD_CASES, impact_of
+from replication.cases import BETA_5, changed, inputs_of
+from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, run
+from replication.text import aligned, json_text, number, rows_csv
+from spreadsheets.safely import write_folder
 
 Function = Callable[..., Any]
 njit: Callable[[Function], Function] = numba.njit  # which has no types
@@ -99,7 +112,7 @@ def build(name: str) -> Case:
     """
     if name not in CASES:
         raise ValueError(f"there is no case {name!r} to time: choose of {', '.join(CASES)}")
-    impact = impact_of(HARD_CASES[CASES[name]])
+    impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion = exact_motion(impact)
     times, depths = zip(*(_instant(motion, k) for k in range(POINTS)), strict=True)
     return Case(name, impact, motion, np.array(times), depths)
@@ -353,3 +366,280 @@ def _sheet_loop(dt: float, stop: float, V: Any, R: Any, rho_p: Any, rho_t: Any, 
             v -= (0.5 * rho_t[i] * v * v + R_t[i]) * math.pi * area / mass * dt
         depths[i] = x
     return depths
+
+
+# Every method on the cases asked for: measured, and the fastest for so many digits
+
+Point = dict[str, Any]
+"""What `trial` measures of a task, as in the JSON."""
+
+DIGITS = range(1, 16)
+
+BATCH = 5e-3
+"""A call is repeated without a look at the clock for about so many seconds."""
+
+
+def bench(
+    names: Sequence[str], repeat: int = 7, limit: float = 5.0, quiet: bool | None = True
+) -> dict[str, Any]:
+    """Measure everything on the named cases: the JSON of `coldspray bench`.
+
+    A task's repeats get about `limit` seconds. The tasks of a case take turns, so that a busy spell
+    of the machine spoils one repeat of each and not all of one. A progress bar is shown unless
+    `quiet`; if that is None, on a terminal. Raises ValueError for a case that is not there and a
+    limit that is not positive.
+    """
+    if not limit > 0:
+        raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
+    cases = [build(name) for name in names]
+    with tempfile.TemporaryDirectory() as empty:
+        numba.config.CACHE_DIR = empty  # so that all is compiled anew
+        arrays.ufunc.cache_clear()
+        numba.vectorize(["f8(f8)"])(error_for)  # to start the compiler is no method's cost
+        measured = [_measure(case, repeat, limit, quiet) for case in cases]
+    return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
+
+
+def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[str, Any]:
+    trials = [trial(case, task, repeat, limit) for task in tasks(case)]
+    with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
+        points = [next(turn, {}) for turn in turns][: len(trials)]  # later turns fill them in
+    mark_front(points)
+    return {
+        "name": case.name,
+        "inputs": inputs_of(case.impact),
+        "depth": float(case.motion.final_depth),
+        "times": case.times.tolist(),
+        "points": points,
+        "fastest": [fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)],
+    }
+
+
+def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
+    """A task's point, measured in turns: the first warms it up, the others time a batch each.
+
+    It has the relative error, and in s a case `best` and `median` of `repeats` batches of `calls`
+    calls, and what the first call took longer where something is compiled. A task that fails, or
+    takes longer than the limit, is left alone from then: a `gap`, for this reason.
+    """
+    names = ("error", "compile", "best", "median", "repeats", "calls", "gap")
+    point: Point = {"method": task.method, "setting": task.setting, "measure": task.measure}
+    point |= {"cases": task.cases, **dict.fromkeys(names), "front": False}
+    answers: list[Any] = []
+    try:
+        first = timeit.timeit(lambda: answers.append(task.run()), number=1)
+        once = timeit.timeit(task.run, number=1)
+        error = case.error(task.measure, answers[0], task.stop)
+        if once > limit:
+            raise TimeoutError(f"takes {once:.3g} s, more than {limit:g} s")
+        if not math.isfinite(error):
+            raise ArithmeticError("the answer is not finite")
+    except (ArithmeticError, ValueError, OSError) as failure:
+        point["gap"] = str(failure)
+        yield point
+        return
+    calls = max(1, round(BATCH / once))
+    repeats = max(1, int(min(repeat, limit / (once * calls))))
+    compiling = max(first - once, 0.0) if task.compiled else None
+    point |= {"error": error, "compile": compiling, "repeats": repeats, "calls": calls}
+    batches = []
+    for _ in range(repeats):
+        yield point
+        batches.append(timeit.timeit(task.run, number=calls) / calls / task.cases)
+        point |= {"best": min(batches), "median": median(batches)}
+
+
+def met(point: Point) -> float:
+    """The error that counts: not below half an ulp, where being nearer is luck; of a gap, any."""
+    return math.inf if point["gap"] else max(float(point["error"]), 2.0**-53)
+
+
+def ranked(points: Sequence[Point], measure: Measure, many: bool) -> list[Point]:
+    """Those without a gap, the fastest first; where wanted, those of many cases at once too."""
+    asked = (p for p in points if not p["gap"] and p["measure"] == measure)
+    able = (p for p in asked if many or p["cases"] == 1)
+    return sorted(able, key=lambda point: (point["best"], met(point)))
+
+
+def mark_front(points: Sequence[Point]) -> None:
+    """Mark those of one case at a time that no other beats in time without loss of accuracy."""
+    for measure in MEASURES:
+        least = math.inf
+        for point in ranked(points, measure, many=False):
+            point["front"] = met(point) < least
+            least = min(met(point), least)
+
+
+def error_for(digits: int) -> float:
+    """The greatest relative error that leaves so many digits correct.
+
+    >>> error_for(3)
+    0.0005
+    """
+    return 0.5 * 10.0**-digits
+
+
+def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
+    """The fastest method for so many digits and its `best` time [s]; None where there is none."""
+    able = (point for point in ranked(points, measure, many) if met(point) <= error_for(digits))
+    first = next(able, None)
+    method, best = (title(first), first["best"]) if first else (None, None)
+    return {"measure": measure, "many": many, "digits": digits, "method": method, "best": best}
+
+
+def title(point: Point) -> str:
+    """Method and setting."""
+    return f"{point['method']}, {point['setting']}"
+
+
+def _machine() -> dict[str, Any]:
+    """Processor, number of cores, system, and the versions of Python and the libraries."""
+    file = Path("/proc/cpuinfo")  # where Linux tells the processor's name
+    lines = file.read_text("utf-8").splitlines() if file.exists() else []
+    models = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    names = ("coldspray", "numpy", "numba", "scipy", "heyoka")
+    return {
+        "processor": next(models, platform.processor() or platform.machine()),
+        "cores": os.cpu_count(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "python": f"{platform.python_implementation()} {platform.python_version()}",
+        **{name: next((d.version for d in distributions(name=name)), None) for name in names},
+    }
+
+
+# What a run has measured, as text, JSON, CSV, and a figure a case
+
+
+def texts(record: dict[str, Any]) -> dict[str, str]:
+    """The files of a run that are text, by name."""
+    cases = record["cases"]
+    rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
+    text = "\n".join(_lines(record)) + "\n"
+    return {"bench.txt": text, "bench.json": json_text(record), "bench.csv": rows_csv(rows)}
+
+
+_HEAD = """\
+The sheet is measured down to its stop velocity: its final depth against the exact one there, its \
+history until the exact time of it. All others are measured to rest, and all but solve_ivp and \
+this project's are told when it comes. A history's worst error is relative to the depth at rest.
+Times are a case's, in us: best and median of {repeats} that take turns, or of those that \
+{limit:g} s allow; to compile in s. * marks the Pareto front of one case at a time."""
+
+
+def _lines(record: dict[str, Any]) -> Iterator[str]:
+    """The whole run: machine, every case's table, and what to use for N digits."""
+    repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
+    yield ", ".join(f"{name} {value}" for name, value in record["machine"].items())
+    yield _HEAD.format(repeats=repeats, limit=record["limit"])
+    for case in record["cases"]:
+        yield from ("", f"{case['name']}: {case['depth'] * 1e6:.7g} um")
+        yield from _table(case["points"])
+    yield from ("", "What should I use for N digits?")
+    yield from (f"  {line}" for line in _answers(record["cases"]))
+
+
+def _table(points: Sequence[Point]) -> Iterator[str]:
+    heads = ("error", "best", "median", "")
+    rows: list[tuple[str, ...]] = [
+        ("method", "setting", "compile", "final depth", "", "", "", "history", "", "", ""),
+        ("", "", "", *heads, *heads),
+    ]
+    for (method, setting), group in groupby(points, itemgetter("method", "setting")):
+        known = {point["measure"]: point for point in group}
+        seconds = max(point["compile"] or 0.0 for point in known.values())
+        cells = [cell for measure in MEASURES for cell in _cells(known.get(measure))]
+        rows.append((method, setting, f"{seconds:.2f}" if seconds > 5e-3 else "", *cells))
+    yield from aligned(rows)
+    for point in points:
+        if point["gap"]:
+            yield f"- {title(point)}, {MEASURES[point['measure']]}: {point['gap']}"
+
+
+def _cells(point: Point | None) -> tuple[str, ...]:
+    if point is None or point["gap"]:
+        return ("-" if point else "", "", "", "")
+    seconds = (point["best"], point["median"])
+    times = (f"{1e6 * s:.0f}" if s >= 1e-3 else number(1e6 * s, 4) for s in seconds)
+    return (f"{point['error']:.1e}", *times, "*" if point["front"] else "")
+
+
+def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """For one case at a time, then for many: what is the fastest for how many digits."""
+
+    def advice(row: Sequence[dict[str, Any]]) -> tuple[str, str]:
+        """What is asked; the method that is the fastest in all cases, or each with its cases."""
+        asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
+        where: dict[str, list[str]] = {}
+        for case, answer in zip(cases, row, strict=True):
+            method = (answer["method"] or "none of these, ").rpartition(", ")[0]
+            where.setdefault(method, []).append(case["name"])
+        if len(where) == 1:
+            return asked, next(iter(where))
+        return asked, ", ".join(f"{method} ({', '.join(of)})" for method, of in where.items())
+
+    questions = zip(*(case["fastest"] for case in cases), strict=True)
+    for (asked, answer), group in groupby(questions, advice):
+        answers = [answer for row in group for answer in row]
+        digits = _span([answers[0]["digits"], answers[-1]["digits"]])
+        times = [1e6 * answer["best"] for answer in answers if answer["best"]]
+        taken = f", {_span(times)} us" if times else ""
+        yield f"{asked}, {digits} digit{'' if digits == '1' else 's'}: {answer}{taken}"
+
+
+def _span(values: Sequence[float]) -> str:
+    least, most = number(min(values), 3), number(max(values), 3)
+    return least if least == most else f"{least} to {most}"
+
+
+_STYLE: Any = {
+    "font.family": "DejaVu Sans",  # comes with matplotlib: the same letters on every machine
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E5E5E5",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 4,
+    "svg.hashsalt": "coldspray",  # or the ids in the file would differ from run to run
+    "svg.fonttype": "none",
+}
+
+
+def figure(case: dict[str, Any]) -> bytes:
+    """The figure of one case as SVG: error against time a case, on a white ground."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+    from matplotlib.rcsetup import cycler
+
+    content, methods = io.BytesIO(), dict.fromkeys(point["method"] for point in case["points"])
+    colors = mpl.colormaps["tab20"](range(20))
+    looks = cycler(linestyle=("-", "--")) * cycler(color=list(colors))
+    with mpl.rc_context({**_STYLE, "axes.prop_cycle": looks}):
+        drawn = Figure(figsize=(12, 5.5), layout="constrained")
+        for panel, measure in zip(drawn.subplots(1, 2), MEASURES, strict=True):
+            panel.set(xscale="log", yscale="log", title=f"{case['name']}: {MEASURES[measure]}")
+            panel.set(xlabel="time a case [s]", ylabel="relative error")
+            points = [point for point in case["points"] if point["measure"] == measure]
+            for method in methods:
+                line = _line(point for point in points if point["method"] == method)
+                panel.plot(*line, marker="s" if method in OURS else "o", label=method)
+            front = [point for point in ranked(points, measure, many=False) if point["front"]]
+            edge: Any = {"label": "Pareto front, one case at a time", "color": "#D55E00"}
+            panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)
+        labels = panel.get_legend_handles_labels()
+        drawn.legend(*labels, loc="outside lower center", ncols=5, frameon=False)
+        # A date would make the same numbers another file.
+        drawn.savefig(content, format="svg", metadata={"Date": None})
+    return content.getvalue()
+
+
+def _line(points: Iterable[Point]) -> Any:
+    """Times and errors; a gap, which has no time, breaks the line."""
+    return np.array([(p["best"], met(p)) for p in points], float).reshape(-1, 2).T
+
+
+def write(folder: Path, record: dict[str, Any]) -> None:
+    """Write text, JSON, CSV and a figure a case into a folder, all or none. Raises OSError."""
+    figures = {f"bench-{case['name']}.svg": figure(case) for case in record["cases"]}
+    write_folder(folder, {name: text.encode() for name, text in texts(record).items()} | figures)
