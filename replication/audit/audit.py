@@ -386,7 +386,7 @@ _LIBRARIES = ("coldspray", "msgspec", "mpmath", "numpy", "python-flint", "XlsxWr
 
 def _provenance() -> dict[str, object]:
     """What the audit was made with, and of."""
-    folder = resources.files("reference.report")
+    folder = resources.files("reference") / "report"
     names: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
     return {
         "command": "coldspray audit",

@@ -1,15 +1,16 @@
-"""Each computation by name: its units, its values, the printed equations that it uses."""
+"""Each computation by name: its inputs and values, the printed equations that it uses."""
 
 from fractions import Fraction as F
-from inspect import Parameter, signature
+from inspect import signature
+from math import prod
 
 import pytest
 
 from reference.arithmetic import Floats, Reals
-from reference.computations import COMPUTATIONS, EXPONENT, SAME, Formulas
+from reference.computations import COMPUTATIONS, Formulas
 from reference.enclosure import enclose
 from reference.ledger import Claim, load
-from reference.units import to_si
+from reference.units import unit_dimension
 
 LEDGER = load()
 COMPUTED = [
@@ -22,19 +23,31 @@ COMPUTED = [
 @pytest.mark.parametrize("name", COMPUTATIONS)
 def test_what_is_said_of_a_computation_is_true(name: str) -> None:
     computation = COMPUTATIONS[name]
-    assert computation.name == name
     assert computation.summary
     assert not computation.summary.endswith(".")
     assert set(computation.equations) <= set(LEDGER.equations)
-    for unit in (computation.unit, *computation.inputs.values()):
-        assert unit in (SAME, EXPONENT) or to_si(unit)
-    _, *rest = signature(computation.function).parameters.values()
-    named = {p.name for p in rest if p.kind is not Parameter.VAR_KEYWORD}
-    assert computation.by_row == ("row" in named)
-    assert computation.by_scheme == ("centered" in named)
-    assert named - {"row", "centered"} <= set(computation.inputs)
+    names = signature(computation.function).parameters
+    assert computation.by_row == ("row" in names)
+    assert computation.by_scheme == ("centered" in names)
     used = {c.name for claim in LEDGER.claims.values() for c in claim.computations.values()}
     assert name in used
+
+
+def in_other_units(unit: str) -> float:
+    """The factor to units of which the kilogram, metre and second hold 2, 3 and 5."""
+    powers = unit_dimension(unit).powers
+    return prod(size ** float(power) for size, power in zip((2, 3, 5), powers, strict=True))
+
+
+@pytest.mark.parametrize("claim", LEDGER.claims.values(), ids=lambda claim: claim.id)
+def test_a_computation_takes_the_claims_inputs_and_gives_its_unit(claim: Claim) -> None:
+    """What measures something is the same in other units: each input, and so the result."""
+    point = {name: float(LEDGER.value(name)) for name in claim.entries}
+    changed = {name: x * in_other_units(LEDGER.unit(name)) for name, x in point.items()}
+    for reading in claim.computations:
+        function = LEDGER.function(claim, reading=reading)
+        expected = float(function(Floats(), **point)) * in_other_units(claim.unit)
+        assert float(function(Floats(), **changed)) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("claim", COMPUTED, ids=lambda claim: claim.id)
