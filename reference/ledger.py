@@ -16,7 +16,7 @@ from operator import mul
 from typing import Any, Literal, TypeVar
 
 import msgspec
-from msgspec.structs import asdict, replace
+from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENTS, Computation, Formulas
@@ -43,41 +43,8 @@ Kind = Literal[
 Relation = Literal["<", "<=", ">", ">="]
 
 
-class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A table of a file, which may hold no keys but its own."""
-
-
-class ClaimEntry(Entry, frozen=True):
-    """A [[claim]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Kind
-    unit: str = "1"
-    computed_by: str | None = None
-    rests_on: dict[str, str] = {}
-    readings: dict[str, str] = {}
-    given: str | None = None
-    shown_by: list[str] = []
-    relation: Relation | None = None
-    against: str | None = None
-    assumes: str | None = None
-    exact: bool = False
-    cell: str | None = None
-    row: int | None = None
-    quantity: str | None = None
-    workbook: str | None = None
-
-
-class EquationEntry(Entry, frozen=True):
-    """An [[equation]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Literal["derived", "definition", "taken over"]
-    follows_from: str
 
 
 class Inferred(Entry, frozen=True):
@@ -183,17 +150,12 @@ class Furniture(Entry, frozen=True):
 class Place:
     """Where something stands: characters and line of the text, section, equation, table cell."""
 
-    start: int
-    end: int
-    line: int
-    section: str
-    equation: str | None
-    cell: str | None
-
-    @property
-    def order(self) -> tuple[bool, int, str]:
-        """By place in the text; the table, which ends it, cell by cell."""
-        return (True, int(self.cell[1:]), self.cell) if self.cell else (False, self.start, "")
+    start: int = 0
+    end: int = 0
+    line: int = 0
+    section: str = ""
+    equation: str | None = None
+    cell: str | None = None
 
     def __str__(self) -> str:
         if self.cell:
@@ -260,19 +222,38 @@ class Convention:
     centered: bool = False
 
 
-class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
-    """One printed number: its table of the file, and what follows from it.
+class Claim(Entry, frozen=True, dict=True, eq=False):
+    """A [[claim]]: one printed number, and what the ledger tells of it besides.
 
-    `given` is the reason in words; `inputs` names for each input of the computations the entries
-    whose product it is; `within` the equation that the number is a constant of; `chosen` says that
-    the author set it, here or where this claim repeats it; `bound` is the number that a relation
-    compares with.
+    `given` is then the reason in words; `inputs` names for each input of the computations the
+    entries whose product it is; `within` the equation that the number is a constant of; `chosen`
+    says that the author set it, here or where this claim repeats it; `bound` is the number that a
+    relation compares with.
     """
 
-    text: str
-    place: Place
-    inputs: Mapping[str, tuple[str, ...]]
-    within: str | None
+    id: str
+    title: str
+    quote: str
+    kind: Kind
+    unit: str = "1"
+    computed_by: str | None = None
+    rests_on: dict[str, str] = {}
+    readings: dict[str, str] = {}
+    given: str | None = None
+    shown_by: list[str] = []
+    relation: Relation | None = None
+    against: str | None = None
+    assumes: str | None = None
+    exact: bool = False
+    cell: str | None = None
+    row: int | None = None
+    quantity: str | None = None
+    workbook: str | None = None
+
+    text: str = ""
+    place: Place = Place()
+    inputs: Mapping[str, tuple[str, ...]] = {}
+    within: str | None = None
     chosen: bool = False
     bound: Fraction | None = None
 
@@ -381,13 +362,18 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return sorted({e for c in self.computations.values() for e in c.equations})
 
 
-class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
-    """One printed equation: its table of the file, and where it stands."""
+class Equation(Entry, frozen=True, eq=False):
+    """An [[equation]], and where it stands."""
 
-    place: Place
+    id: str
+    title: str
+    quote: str
+    kind: Literal["derived", "definition", "taken over"]
+    follows_from: str
+    place: Place = Place()
 
 
-class Ledger(Entry, frozen=True, kw_only=True, dict=True, eq=False):
+class Ledger(Entry, frozen=True, dict=True, eq=False):
     """The whole of ledger.toml, with all claims and equations in the order of the report.
 
     `misprinted` are the texts that stand in the place of the report's, by the id of the claim or
@@ -402,9 +388,9 @@ class Ledger(Entry, frozen=True, kw_only=True, dict=True, eq=False):
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
     furniture: list[Furniture]
-    equation_entries: list[EquationEntry] = msgspec.field(name="equation")
-    claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
-    slips: list[Slip] = msgspec.field(name="slip")
+    equation: list[Equation]
+    claim: list[Claim]
+    slip: list[Slip]
     misprinted: Mapping[str, str] = {}
 
     @cached_property
@@ -432,33 +418,34 @@ class Ledger(Entry, frozen=True, kw_only=True, dict=True, eq=False):
     @cached_property
     def equations(self) -> Mapping[str, Equation]:
         """The printed equations, by id."""
-        placed = ((entry, place_of(self.text, entry.quote)) for entry in self.equation_entries)
-        return {entry.id: Equation(**asdict(entry), place=place) for entry, place in placed}
+        placed = (replace(own, place=place_of(self.text, own.quote)) for own in self.equation)
+        return {equation.id: equation for equation in placed}
 
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
-        placed = sorted(map(self._claim, self.claim_entries), key=lambda claim: claim.place.order)
+        placed = sorted(map(self._placed, self.claim), key=lambda claim: claim.place.start)
         claims = {claim.id: claim for claim in placed}
         return {
             name: replace(claim, chosen=_is_chosen(claim, claims), bound=_bound(claim, claims))
             for name, claim in claims.items()
         }
 
-    def _claim(self, entry: ClaimEntry) -> Claim:
-        """One claim, as far as its own entry tells."""
-        place, rests_on = place_of(self.text, entry.quote, entry.cell), dict(entry.rests_on)
+    def _placed(self, claim: Claim) -> Claim:
+        """A claim with its place, its inputs, and the reason why nothing decides it in words."""
+        place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
         equations = ((equation.id, equation.place) for equation in self.equations.values())
         around = (name for name, own in equations if own.start <= place.start < own.end)
-        return Claim(
-            **{**asdict(entry), "given": entry.given and self.reasons[entry.given]},
+        return replace(
+            claim,
+            given=claim.given and self.reasons[claim.given],
             text=self.text[place.start : place.end],
             place=place,
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
-            chosen=entry.given == "choice",
+            chosen=claim.given == "choice",
         )
 
     # The printed equations

@@ -335,7 +335,7 @@ class Explainer:
     def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
         """What the slips of the claim's equations make of it."""
         target, rounded = claim.target(), Convention(choices_exact=False)
-        for slip in (slip for slip in self.ledger.slips if slip.equation in claim.uses):
+        for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
             ledger = self.ledger
             if slip.text is not None:
                 ledger = ledger.misprint(slip.equation, slip.text)

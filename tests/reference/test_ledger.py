@@ -204,7 +204,7 @@ def test_a_misprinted_constant_is_in_its_equation_and_only_there() -> None:
 
 
 def test_every_entry_has_a_name_of_its_own() -> None:
-    names = [entry.id for entry in (*LEDGER.claim_entries, *LEDGER.equation_entries)]
+    names = [entry.id for entry in (*LEDGER.claim, *LEDGER.equation)]
     assert [name for name, times in Counter(names).items() if times > 1] == []
     assert "" not in names
     assert LEDGER.claims.keys() | LEDGER.equations.keys() == set(names)
@@ -241,7 +241,7 @@ def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> Non
     for source in LEDGER.sources.values():
         assert 1 <= len(source.numbers) <= 2
         assert all(same_dimension(LEDGER.unit(name), source.unit) for name in source.claims)
-    for slip in LEDGER.slips:
+    for slip in LEDGER.slip:
         assert slip.equation in LEDGER.equations
         assert slip.text is None or LEDGER.read(slip.text)
         assert LEDGER.claims.keys() >= set(slip.inputs.values())
