@@ -333,7 +333,7 @@ class Ratios:
         return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
 
     def log(self, x: Ratio) -> Ratio:
-        return self._other(None, x)
+        return self.number(0) if x == 1 else self._other(None, x)
 
     def power(self, x: Ratio, exponent: Fraction) -> Ratio:
         if exponent.denominator == 1:

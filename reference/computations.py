@@ -13,8 +13,7 @@ from functools import reduce
 from itertools import islice
 
 from reference.arithmetic import Arithmetic, Number
-from reference.derivations import Sides
-from reference.equations import evaluate
+from reference.equations import Sides, evaluate
 from reference.motion import sheet_depth, sheet_rows
 from reference.units import unit_dimension
 

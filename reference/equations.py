@@ -39,6 +39,10 @@ class Node:
     value: Fraction = Fraction(0)
 
 
+Sides = Mapping[str, tuple[Node, ...]]
+"""The sides of every printed equation, by the equation's id."""
+
+
 class _Token(NamedTuple):
     kind: str
     text: str

@@ -20,8 +20,7 @@ from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Number
 from reference.computations import COMPUTATIONS, EXPONENTS, Computation, Formulas
-from reference.derivations import Sides
-from reference.equations import EquationError, Node, read_equation
+from reference.equations import EquationError, Node, Sides, read_equation
 from reference.printed import Interval, Printed, Rounding, parse
 from reference.units import Dimension, raised, to_si, unit_dimension
 
@@ -362,6 +361,27 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return sorted({e for c in self.computations.values() for e in c.equations})
 
 
+class Side(Entry, frozen=True, kw_only=True):
+    """A side of an equation, or its slope by a symbol, with something put in for its symbols."""
+
+    side: int = -1
+    put: dict[str, str] = {}
+    slope: str | None = None
+
+
+class Premise(Side, frozen=True):
+    """What another equation is derived from."""
+
+    equation: str
+
+
+class Condition(Side, frozen=True):
+    """What must hold of an equation, so that it follows from its premises."""
+
+    says: str
+    equals: str
+
+
 class Equation(Entry, frozen=True, eq=False):
     """An [[equation]], and where it stands."""
 
@@ -370,6 +390,8 @@ class Equation(Entry, frozen=True, eq=False):
     quote: str
     kind: Literal["derived", "definition", "taken over"]
     follows_from: str
+    checks: list[Condition] = []
+    premises: dict[str, Premise] = {}
     place: Place = Place()
 
 
@@ -462,8 +484,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        within = [claim.id for claim in self.claims.values() if claim.within == equation]
-        return [] if equation in self.misprinted else within
+        return [] if equation in self.misprinted else self._constants[equation]
+
+    @cached_property
+    def _constants(self) -> Mapping[str, list[str]]:
+        within = [(claim.within, claim.id) for claim in self.claims.values()]
+        return {name: [own for e, own in within if e == name] for name in self.equations}
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""

@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cache, cached_property
 
 from reference.arithmetic import Floats
-from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
@@ -228,7 +227,8 @@ class Explainer:
     def _suspects(self, name: str) -> list[str]:
         """The claim or equation itself, its entries, and what its equations hold."""
         if name in self.ledger.equations:
-            equations = [name, *PREMISES.get(name, ())]
+            premises = self.ledger.equations[name].premises.values()
+            equations = dict.fromkeys([name, *(premise.equation for premise in premises)])
             return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
         claim = self.ledger.claims[name]
         entries = claim.stated

@@ -10,9 +10,9 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
-from reference.derivations import Check, Sides, derive
+from reference.derivations import Check, derive
 from reference.enclosure import Box, enclose, explore
-from reference.equations import EquationError, dimension
+from reference.equations import EquationError, Sides, dimension
 from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
@@ -447,7 +447,7 @@ def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
 
 def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
     try:
-        yield from derive(name, sides, ledger.symbols)
+        yield from derive(ledger, name, sides)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
 
