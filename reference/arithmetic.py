@@ -163,30 +163,30 @@ class Dual(Operators):
         return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value + other, self.slopes)
+        other = _dual(other)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return self.scaled(self.value * other, other)
-        mine = {name: slope * other.value for name, slope in self.slopes.items()}
-        others = {name: self.value * slope for name, slope in other.slopes.items()}
-        return Dual(self.value * other.value, _added(mine, others))
+        other = _dual(other)
+        product = self.value * other.value
+        mine, others = self.scaled(product, other.value), other.scaled(product, self.value)
+        return Dual(product, _added(mine.slopes, others.slopes))
 
     def __truediv__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value / other, {name: x / other for name, x in self.slopes.items()})
+        other = _dual(other)
         quotient = self.value / other.value
         slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __rtruediv__(self, other: Any) -> "Dual":
-        quotient = other / self.value
-        return self.scaled(quotient, -(quotient / self.value))
+        return Dual(other) / self
 
     def __pow__(self, exponent: int) -> "Dual":
         return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
+
+
+def _dual(number: Any) -> Dual:
+    return number if isinstance(number, Dual) else Dual(number)
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:

@@ -8,7 +8,6 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -38,16 +37,8 @@ class Span(Operators):
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        if self.low >= _ZERO:
-            if low >= _ZERO:
-                return Span(self.low * low, self.high * high)
-            if high <= _ZERO:
-                return Span(self.high * low, self.low * high)
-        elif self.high <= _ZERO:
-            if low >= _ZERO:
-                return Span(self.low * high, self.high * low)
-            if high <= _ZERO:
-                return Span(self.high * high, self.low * low)
+        if self.low >= _ZERO and low >= _ZERO:  # no corners to compare
+            return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 
@@ -141,8 +132,6 @@ class Intervals(Arithmetic):
         return arb.pi()
 
     def number(self, value: Fraction | int) -> Number:
-        if value.denominator == 1:
-            return _integer(value.numerator)
         if ctx.prec == self._bits:
             return _ball(value)
         with self.working():
@@ -207,11 +196,6 @@ class Intervals(Arithmetic):
     def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return _between(_least(*lows), _greatest(*highs))
-
-
-@lru_cache(1000)
-def _integer(value: int) -> arb:
-    return arb(value)
 
 
 def _ball(value: Fraction | int) -> arb:
