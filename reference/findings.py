@@ -15,9 +15,10 @@ from typing import Literal
 import msgspec
 
 from reference.arithmetic import Reals
+from reference.entries import Entry
 from reference.equations import evaluate, read_expression
-from reference.ledger import Entry, tables
 from reference.ledger import load as load_ledger
+from reference.ledger import tables
 from reference.printed import decimal_text, parse
 from reference.units import to_si
 

@@ -7,7 +7,7 @@ what each entry must have and that its quote stands in the report once; that ent
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache, reduce
@@ -19,8 +19,24 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Number
-from reference.computations import COMPUTATIONS, EXPONENTS, Computation, Formulas
+from reference.entries import (
+    Computation,
+    Entry,
+    Equation,
+    Furniture,
+    Inferred,
+    Kind,
+    Place,
+    Quantity,
+    Relation,
+    Report,
+    Slip,
+    Source,
+    Symbol,
+    place_of,
+)
 from reference.equations import EquationError, Node, Sides, read_equation
+from reference.formulas import compute
 from reference.printed import Interval, Printed, Rounding, parse
 from reference.units import Dimension, raised, to_si, unit_dimension
 
@@ -31,167 +47,6 @@ Tables = TypeVar("Tables", bound="Entry")
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
-
-
-# The tables of the files
-
-Kind = Literal[
-    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
-    "quoted", "constant", "remark",
-]  # fmt: skip
-Relation = Literal["<", "<=", ">", ">="]
-
-
-class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A table of a file, which may hold no keys but its own."""
-
-
-class Inferred(Entry, frozen=True):
-    """An input that the report does not print, to be inferred from the numbers that it does."""
-
-    title: str
-    symbol: str
-    unit: str
-    quantity: str
-    search: tuple[Fraction, Fraction]
-    nominal: Fraction
-    nominal_source: str
-    mass: str
-    radius: str
-    density: str
-    header: list[str]
-    results: list[str]
-    evidence: list[str]
-
-
-class Symbol(Entry, frozen=True):
-    """What a symbol of the equations means, how the report writes it, and how a page shows it."""
-
-    written: list[str]
-    shown: str
-    unit: str
-    means: str
-    value: str | None = None
-
-
-class Quantity(Entry, frozen=True):
-    """A physical quantity: the range of it that is searched, in its unit, and why this one."""
-
-    unit: str
-    search: tuple[Fraction, Fraction]
-    reason: str
-
-
-class Slip(Entry, frozen=True):
-    """What the author may have computed instead: another text of an equation, or other inputs."""
-
-    name: str
-    reason: str
-    equation: str
-    text: str | None = None
-    inputs: dict[str, str] = {}
-
-
-class Source(Entry, frozen=True):
-    """A public source for a number that the report takes from nowhere; see sources.toml."""
-
-    id: str
-    title: str
-    address: str
-    quote: str
-    unit: str
-    applies: str
-    claims: list[str]
-
-    @property
-    def numbers(self) -> list[Printed]:
-        """The number that it prints, or the two ends of a range."""
-        return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
-
-    @property
-    def says(self) -> str:
-        """The number or the range as text, without its unit."""
-        return " to ".join(number.text for number in self.numbers)
-
-    @property
-    def value(self) -> Fraction:
-        """The number in SI; of a range, its lower end."""
-        return self.numbers[0].value * to_si(self.unit)
-
-    @property
-    def interval(self) -> Interval:
-        """What agrees with it, in SI."""
-        ends = [number.interval() for number in self.numbers]
-        whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
-        return whole.scaled(to_si(self.unit))
-
-
-class Report(Entry, frozen=True):
-    """What is audited."""
-
-    text: str
-    title: str
-    author: str
-    year: int
-
-
-class Furniture(Entry, frozen=True):
-    """Digits and number words of the text that are no quantities."""
-
-    pattern: str
-    reason: str
-
-
-# Places in the text
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where something stands: characters and line of the text, section, equation, table cell."""
-
-    start: int = 0
-    end: int = 0
-    line: int = 0
-    section: str = ""
-    equation: str | None = None
-    cell: str | None = None
-
-    def __str__(self) -> str:
-        if self.cell:
-            return f"Table A-1, cell {self.cell}"
-        where = f"{self.section}, line {self.line}"
-        return f"{where}, Eq. {self.equation}" if self.equation else where
-
-
-def place_of(text: str, quote: str, cell: str | None = None) -> Place:
-    """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
-    before, own, after = re.split("[⟦⟧]", quote)
-    words = before + own + after
-    if (times := text.count(words)) != 1:
-        raise ValueError(f"the report has {words!r} {times} times, not once")
-    start = text.index(words) + len(before)
-    section = next(name for at, name in reversed(_sections(text)) if at <= start)
-    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
-    line = text.count("\n", 0, start) + 1
-    return Place(start, start + len(own), line, section, equation, cell)
-
-
-@cache
-def _sections(text: str) -> list[tuple[int, str]]:
-    """Where the parts of the report begin, and what they are called."""
-    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
-    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
-    return [(0, "title"), *named]
-
-
-@cache
-def _displays(text: str) -> list[tuple[int, int, str]]:
-    """Where the numbered equations stand, and their numbers."""
-    numbered = r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)"
-    return [(*match.span(), match[1]) for match in re.finditer(numbered, text, re.DOTALL)]
-
-
-# Claims
 
 
 def shown(text: str) -> str:
@@ -224,7 +79,8 @@ class Convention:
 class Claim(Entry, frozen=True, dict=True, eq=False):
     """A [[claim]]: one printed number, and what the ledger tells of it besides.
 
-    `given` is then the reason in words; `inputs` names for each input of the computations the
+    `given` is then the reason in words; `computations` has the computation as printed under the
+    name "", and each other reading; `inputs` names for each input of the computations the
     entries whose product it is; `within` the equation that the number is a constant of; `chosen`
     says that the author set it, here or where this claim repeats it; `bound` is the number that a
     relation compares with.
@@ -236,10 +92,10 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     kind: Kind
     unit: str = "1"
     computed_by: str | None = None
-    rests_on: dict[str, str] = {}
-    readings: dict[str, str] = {}
+    rests_on: Mapping[str, str] = {}
+    readings: Mapping[str, str] = {}
     given: str | None = None
-    shown_by: list[str] = []
+    shown_by: Sequence[str] = ()
     relation: Relation | None = None
     against: str | None = None
     assumes: str | None = None
@@ -251,6 +107,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     text: str = ""
     place: Place = Place()
+    computations: Mapping[str, Computation] = {}
     inputs: Mapping[str, tuple[str, ...]] = {}
     within: str | None = None
     chosen: bool = False
@@ -260,12 +117,6 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     def printed(self) -> Printed | None:
         """What it prints, if that is a number."""
         return None if self.kind in ("comparison", "remark") else parse(self.text)
-
-    @cached_property
-    def computations(self) -> Mapping[str, Computation]:
-        """The computation as printed under the name "", and each other reading."""
-        names = {"": self.computed_by, **self.readings}
-        return {reading: COMPUTATIONS[name] for reading, name in names.items() if name}
 
     @property
     def shown(self) -> str:
@@ -361,40 +212,6 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return sorted({e for c in self.computations.values() for e in c.equations})
 
 
-class Side(Entry, frozen=True, kw_only=True):
-    """A side of an equation, or its slope by a symbol, with something put in for its symbols."""
-
-    side: int = -1
-    put: dict[str, str] = {}
-    slope: str | None = None
-
-
-class Premise(Side, frozen=True):
-    """What another equation is derived from."""
-
-    equation: str
-
-
-class Condition(Side, frozen=True):
-    """What must hold of an equation, so that it follows from its premises."""
-
-    says: str
-    equals: str
-
-
-class Equation(Entry, frozen=True, eq=False):
-    """An [[equation]], and where it stands."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Literal["derived", "definition", "taken over"]
-    follows_from: str
-    checks: list[Condition] = []
-    premises: dict[str, Premise] = {}
-    place: Place = Place()
-
-
 class Ledger(Entry, frozen=True, dict=True, eq=False):
     """The whole of ledger.toml, with all claims and equations in the order of the report.
 
@@ -413,6 +230,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     equation: list[Equation]
     claim: list[Claim]
     slip: list[Slip]
+    computation: list[Computation]
     misprinted: Mapping[str, str] = {}
 
     @cached_property
@@ -438,6 +256,11 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         ]
 
     @cached_property
+    def computations(self) -> Mapping[str, Computation]:
+        """What computes claims, by name."""
+        return {computation.name: computation for computation in self.computation}
+
+    @cached_property
     def equations(self) -> Mapping[str, Equation]:
         """The printed equations, by id."""
         placed = (replace(own, place=place_of(self.text, own.quote)) for own in self.equation)
@@ -455,6 +278,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def _placed(self, claim: Claim) -> Claim:
         """A claim with its place, its inputs, and the reason why nothing decides it in words."""
+        computed_by = {"": claim.computed_by, **claim.readings}
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
@@ -465,6 +289,9 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             given=claim.given and self.reasons[claim.given],
             text=self.text[place.start : place.end],
             place=place,
+            computations={
+                key: self.computations[name] for key, name in computed_by.items() if name
+            },
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
             chosen=claim.given == "choice",
@@ -568,18 +395,19 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         An entry that stands in several inputs is one variable.
         """
         computation, sides = claim.computations[reading], self.sides
-        inputs = dict(claim.inputs)
-        exponents = {key: inputs.pop(key) for key in EXPONENTS if key in inputs}
-        settings: dict[str, Any] = {key: self.value(name) for key, (name,) in exponents.items()}
+        settings: dict[str, Any] = {}
         if computation.by_row:
             settings["row"] = claim.row
         if computation.by_scheme:
             settings["centered"] = centered
+        inputs = dict(claim.inputs)
+        if "power" in inputs:  # an exponent stays exact
+            settings["power"] = self.value(*inputs.pop("power"))
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
             own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return computation.function(Formulas(ar, sides), **own, **settings)
+            return compute(computation, ar, sides, {**own, **settings})
 
         return of_entries
 

@@ -13,7 +13,6 @@ from types import SimpleNamespace
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
-from reference.computations import SYMBOLS
 from reference.equations import MATHML, PLAIN, EquationError, Node, Notation, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import Interval
@@ -160,11 +159,13 @@ class Audit(Known):
             return nothing
         if computation is None or not computation.equations:
             return nothing
-        (left, right) = self.ledger.sides[computation.equations[-1]]
+        *_, premise = computation.premises.values()
+        (left, right) = self.ledger.sides[premise.equation]
+        inputs = {key: names for key, names in claim.inputs.items() if len(names) == 1}
         values = {
-            SYMBOLS[key]: self.judge.value(*names)
-            for key, names in claim.inputs.items()
-            if key in SYMBOLS and len(names) == 1
+            symbol: self.judge.value(*inputs[text])
+            for symbol, text in premise.put.items()
+            if text in inputs
         } | {"D": Fraction(1)}  # L is given in diameters
         try:
             value = evaluate(right, Floats(), {key: float(x) for key, x in values.items()})

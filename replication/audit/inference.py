@@ -7,7 +7,8 @@ from functools import cached_property
 
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
-from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
+from reference.entries import Inferred
+from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
 
 

@@ -10,10 +10,11 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Number, Rationals, Reals
-from reference.derivations import Check, derive
 from reference.enclosure import Box, enclose, explore
+from reference.entries import Equation
 from reference.equations import EquationError, Sides, dimension
-from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Ledger
+from reference.formulas import Check, derive
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
 from replication.audit.inference import Inference, infer
@@ -447,7 +448,7 @@ def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
 
 def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
     try:
-        yield from derive(ledger, name, sides)
+        yield from derive(ledger.equations[name], sides, ledger.written, ledger.symbols)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
 

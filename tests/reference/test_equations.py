@@ -34,7 +34,7 @@ AT = SimpleNamespace(**{name.replace("/", "_"): float(value) for name, value in 
 PI = math.pi
 
 # What nothing derives, once more in Python, by hand from the printed page; of all others the
-# derivations tell whether they are read as they are meant.
+# checks of the ledger tell whether they are read as they are meant.
 SIDES: dict[str, tuple[Any, ...]] = {
     "eq1": (lambda s: s.V_p, lambda s: s.V * (s.m_o / s.m) ** 0.5),
     "eq8": (lambda s: s.F_r, lambda s: s.q * (2 * s.a) ** 2),

@@ -12,7 +12,8 @@ import msgspec
 import pytest
 
 from reference.arithmetic import Reals
-from reference.ledger import Claim, Convention, Furniture, Kind, load, place_of, shown
+from reference.entries import Furniture, Kind, place_of
+from reference.ledger import Claim, Convention, load, shown
 from reference.printed import Rounding
 from reference.units import same_dimension
 

@@ -1,0 +1,158 @@
+"""What the ledger says in the report's notation: computations in any arithmetic, and derivations.
+
+A formula has the report's symbols and names for sides of printed equations, its premises. Where the
+report prints a formula, it is the printed one that is evaluated, its constants included. Inputs are
+in SI units; exponents, and results that are exact in rational numbers, are Fractions.
+
+A check of a derivation compares two quotients of polynomials, made from the equation as it is
+printed and from what it must follow from: they are equal for all values of the symbols or they are
+not. To integrate, a printed solution is differentiated and put in. Premises are geometry (a plane
+cuts a sphere), Newton's law, Bernoulli's, and earlier equations of the report where it says that it
+uses them.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache, reduce
+from itertools import islice
+from typing import Any
+
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratio, Ratios
+from reference.entries import Computation, Condition, Equation, Side
+from reference.equations import Node, Sides, evaluate, read_expression
+from reference.motion import sheet_depth, sheet_rows
+from reference.units import unit_dimension
+
+_Names = tuple[tuple[str, str], ...]
+"""How symbols and premises are written, and their names."""
+
+
+@lru_cache(1024)
+def _read(text: str, names: _Names) -> Node:
+    return read_expression(text, dict(names))
+
+
+def _put(own: Side, ar: Any, known: Mapping[str, Number], names: _Names) -> dict[str, Number]:
+    """What is put in the place of symbols of a side; an exponent stays the Fraction that it is."""
+    return {
+        symbol: known[text] if text in known else evaluate(_read(text, names), ar, known)
+        for symbol, text in own.put.items()
+    }
+
+
+# Computations
+
+
+def compute(
+    computation: Computation, ar: Arithmetic, sides: Sides, inputs: Mapping[str, Any]
+) -> Number | Fraction:
+    """The value of a computation, given the sides of all equations, for inputs by name."""
+    if computation.formula is None:
+        return FUNCTIONS[computation.name](ar, **inputs)
+    names = ((r"\pi", "pi"), *((key, key) for key in (*inputs, *computation.premises)))
+    known = dict(inputs)
+    for key, own in computation.premises.items():
+        side = sides[own.equation][own.side]
+        known[key] = evaluate(side, ar, _put(own, ar, known, names))
+    return evaluate(_read(computation.formula, names), ar, known)
+
+
+def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
+    # CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3)
+    return ar.cap_root(4 * volume_ratio / 3)
+
+
+def _final_sheet_depth(ar: Arithmetic, centered: bool = False, **inputs: Number) -> Number:
+    rows = sheet_rows(ar, centered=centered, **inputs)
+    return sheet_depth(ar, rows, inputs["stop_velocity"])
+
+
+def _cell(column: str) -> Callable[..., Number]:
+    """One column of the sheet, in a given row."""
+
+    def cell(ar: Arithmetic, row: int, centered: bool = False, **inputs: Number) -> Number:
+        rows = sheet_rows(ar, centered=centered, **inputs)
+        return getattr(next(islice(rows, row - 1, None)), column)
+
+    return cell
+
+
+FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
+    "count": lambda _, **values: Fraction(len(values)),
+    "crater_normalized_depth": _crater,
+    "crater_depth": lambda ar, volume_ratio, diameter: _crater(ar, volume_ratio) * diameter / 2,
+    "crater_depth_over_diameter": lambda ar, volume_ratio: _crater(ar, volume_ratio) / 2,
+    "force_power": lambda _: (unit_dimension("N") / unit_dimension("Pa")).powers[1],
+    "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),
+    "greatest_beta": lambda ar, **betas: reduce(ar.greatest, betas.values()),
+    "row_velocity_initial": _cell("velocity_initial"),
+    "row_depth": _cell("depth"),
+    "row_deceleration": _cell("deceleration"),
+    "row_velocity_final": _cell("velocity_final"),
+    "final_sheet_depth": _final_sheet_depth,
+}
+"""Computations that the report's notation does not say."""
+
+
+# Derivations
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One step of a derivation: what must hold, and whether it does.
+
+    `factor` is the number by which the printed side differs from the derived one, where it is
+    nothing but a number.
+    """
+
+    says: str
+    holds: bool
+    factor: Fraction | None = None
+
+
+def derive(
+    equation: Equation, sides: Sides, written: Mapping[str, str], symbols: Iterable[str]
+) -> Iterator[Check]:
+    """Every check of one equation, given the sides of all, one by one.
+
+    `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
+    or EquationError where what is printed makes no sense there.
+    """
+    field = Ratios([symbol for symbol in symbols if symbol != "pi"])
+    names = (*written.items(), *((key, key) for key in equation.premises))
+
+    def side_of(number: str, own: Side) -> Number:
+        values = {**field.symbols, **_put(own, field, field.symbols, names)}
+        side = sides[number][own.side]
+        return (
+            _slope(side, own.slope, values, field) if own.slope else evaluate(side, field, values)
+        )
+
+    for check in equation.checks:
+        if check.equals[0] in "<>":
+            yield Check(check.says, _is_so(check, sides[equation.id][check.side], field))
+            continue
+        named = {key: own for key, own in equation.premises.items() if key in check.equals}
+        premises = {key: side_of(own.equation, own) for key, own in named.items()}
+        printed = side_of(equation.id, check)
+        derived = evaluate(_read(check.equals, names), field, {**field.symbols, **premises})
+        holds = printed == derived
+        factor = None if holds or derived == 0 else (printed / derived).constant
+        yield Check(check.says, holds, factor)
+
+
+def _is_so(check: Condition, side: Node, field: Ratios) -> bool:
+    """Whether a side is above or below a number, at the numbers put in and all others at 1."""
+    put = {symbol: float(text) for symbol, text in check.put.items()}
+    value = evaluate(side, Floats(), {**dict.fromkeys(field.symbols, 1.0), **put})
+    bound = float(check.equals[1:])
+    return bool(value < bound if check.equals[0] == "<" else value > bound)
+
+
+def _slope(side: Node, by: str, values: Mapping[str, Ratio], field: Ratios) -> Number:
+    """The derivative of a side by one of its symbols."""
+    duals = Duals(field)
+    numbers = {name: Dual(ratio) for name, ratio in values.items()}
+    numbers[by] = duals.variable(values[by], by)
+    return evaluate(side, duals, numbers).slopes.get(by, field.number(0))
