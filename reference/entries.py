@@ -114,13 +114,6 @@ class Report(Entry, frozen=True):
     year: int
 
 
-class Furniture(Entry, frozen=True):
-    """Digits and number words of the text that are no quantities."""
-
-    pattern: str
-    reason: str
-
-
 @dataclass(frozen=True, slots=True)
 class Place:
     """Where something stands: characters and line of the text, section, equation, table cell."""

@@ -86,12 +86,6 @@ class Finding(Entry, frozen=True, kw_only=True):
     steps: dict[str, bool] = msgspec.field(default_factory=dict)
 
 
-class _Findings(Entry, frozen=True):
-    """The whole of findings.toml."""
-
-    finding: list[Finding]
-
-
 @cache
 def load() -> Mapping[str, Finding]:
     """The findings on the report, the weightiest first.
@@ -101,7 +95,8 @@ def load() -> Mapping[str, Finding]:
     >>> list(load())[:2]
     ['headline', 'frank-zook-pair']
     """
-    return {entry.id: filled(entry) for entry in tables("findings.toml", _Findings).finding}
+    entries = tables("findings.toml", dict[Literal["finding"], list[Finding]])["finding"]
+    return {entry.id: filled(entry) for entry in entries}
 
 
 def filled(entry: Finding) -> Finding:

@@ -14,7 +14,7 @@ uses them.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, reduce
+from functools import reduce
 from itertools import islice
 from typing import Any
 
@@ -24,19 +24,13 @@ from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import sheet_depth, sheet_rows
 from reference.units import unit_dimension
 
-_Names = tuple[tuple[str, str], ...]
-"""How symbols and premises are written, and their names."""
 
-
-@lru_cache(1024)
-def _read(text: str, names: _Names) -> Node:
-    return read_expression(text, dict(names))
-
-
-def _put(own: Side, ar: Any, known: Mapping[str, Number], names: _Names) -> dict[str, Number]:
+def _put(
+    own: Side, ar: Any, known: Mapping[str, Number], names: Mapping[str, str]
+) -> dict[str, Number]:
     """What is put in the place of symbols of a side; an exponent stays the Fraction that it is."""
     return {
-        symbol: known[text] if text in known else evaluate(_read(text, names), ar, known)
+        symbol: known[text] if text in known else evaluate(read_expression(text, names), ar, known)
         for symbol, text in own.put.items()
     }
 
@@ -50,12 +44,12 @@ def compute(
     """The value of a computation, given the sides of all equations, for inputs by name."""
     if computation.formula is None:
         return FUNCTIONS[computation.name](ar, **inputs)
-    names = ((r"\pi", "pi"), *((key, key) for key in (*inputs, *computation.premises)))
+    names = {r"\pi": "pi", **{key: key for key in (*inputs, *computation.premises)}}
     known = dict(inputs)
     for key, own in computation.premises.items():
         side = sides[own.equation][own.side]
         known[key] = evaluate(side, ar, _put(own, ar, known, names))
-    return evaluate(_read(computation.formula, names), ar, known)
+    return evaluate(read_expression(computation.formula, names), ar, known)
 
 
 def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
@@ -120,7 +114,7 @@ def derive(
     or EquationError where what is printed makes no sense there.
     """
     field = Ratios([symbol for symbol in symbols if symbol != "pi"])
-    names = (*written.items(), *((key, key) for key in equation.premises))
+    names = {**written, **{key: key for key in equation.premises}}
 
     def side_of(number: str, own: Side) -> Number:
         values = {**field.symbols, **_put(own, field, field.symbols, names)}
@@ -136,7 +130,9 @@ def derive(
         named = {key: own for key, own in equation.premises.items() if key in check.equals}
         premises = {key: side_of(own.equation, own) for key, own in named.items()}
         printed = side_of(equation.id, check)
-        derived = evaluate(_read(check.equals, names), field, {**field.symbols, **premises})
+        derived = evaluate(
+            read_expression(check.equals, names), field, {**field.symbols, **premises}
+        )
         holds = printed == derived
         factor = None if holds or derived == 0 else (printed / derived).constant
         yield Check(check.says, holds, factor)

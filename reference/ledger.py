@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property, lru_cache, reduce
+from functools import cache, cached_property, reduce
 from importlib import resources
 from operator import mul
 from typing import Any, Literal, TypeVar
@@ -23,7 +23,6 @@ from reference.entries import (
     Computation,
     Entry,
     Equation,
-    Furniture,
     Inferred,
     Kind,
     Place,
@@ -221,12 +220,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     report: Report
     reasons: dict[str, str]
-    table: dict[Literal["blank"], list[str]]
+    blank: list[str]
     groups: dict[str, dict[str, str]]
     inferred: dict[str, Inferred]
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
-    furniture: list[Furniture]
+    furniture: list[dict[Literal["pattern", "reason"], str]]
     equation: list[Equation]
     claim: list[Claim]
     slip: list[Slip]
@@ -241,19 +240,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def sources(self) -> Mapping[str, Source]:
         """The public sources, by id."""
-        return {source.id: source for source in tables("sources.toml", _Sources).source}
-
-    @cached_property
-    def blank(self) -> list[str]:
-        """The cells that Table A-1 leaves blank."""
-        corners = (cells.split(":") for cells in self.table["blank"])
-        return [
-            f"{column}{row}"
-            for first, last in corners
-            for row in range(int(first[1:]), int(last[1:]) + 1)
-            for column in "ABCDEF"
-            if first[0] <= column <= last[0]
-        ]
+        sources = tables("sources.toml", dict[Literal["source"], list[Source]])["source"]
+        return {source.id: source for source in sources}
 
     @cached_property
     def computations(self) -> Mapping[str, Computation]:
@@ -350,7 +338,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
-        return _read_equation(text, tuple(self.written.items()))
+        return read_equation(text, self.written)
 
     # The entries as inputs
 
@@ -435,12 +423,6 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return copy
 
 
-class _Sources(Entry, frozen=True):
-    """The whole of sources.toml."""
-
-    source: list[Source]
-
-
 def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
     """Whether the author set the number, here or where this claim repeats it."""
     repeated = claim.stated if claim.computed_by == "same_as" else []
@@ -453,12 +435,6 @@ def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
     return compared.printed.value if claim.relation and compared.printed else None
 
 
-@lru_cache(512)
-def _read_equation(text: str, written: tuple[tuple[str, str], ...]) -> tuple[Node, ...]:
-    """Each text once: the same misprint of an equation is tried for all that rests on it."""
-    return read_equation(text, dict(written))
-
-
 @cache
 def load() -> Ledger:
     """The report's ledger.
@@ -468,10 +444,11 @@ def load() -> Ledger:
     >>> claim.text, str(claim.interval()), claim.unit
     ('7.67', '[7.665, 7.675)', 'um')
     """
-    return tables("ledger.toml", Ledger)
+    ledger: Ledger = tables("ledger.toml", Ledger)
+    return ledger
 
 
-def tables(file: str, kind: type[Tables]) -> Tables:
+def tables(file: str, kind: Any) -> Any:
     """A file of `reference/report` as structs; msgspec.ValidationError where it does not fit."""
     document = tomllib.loads(_file(file))
     return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))

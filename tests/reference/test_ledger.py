@@ -12,7 +12,7 @@ import msgspec
 import pytest
 
 from reference.arithmetic import Reals
-from reference.entries import Furniture, Kind, place_of
+from reference.entries import Condition, Kind, place_of
 from reference.ledger import Claim, Convention, load, shown
 from reference.printed import Rounding
 from reference.units import same_dimension
@@ -44,7 +44,7 @@ def uncovered(
     ]
 
 
-FURNITURE = [piece.pattern for piece in LEDGER.furniture]
+FURNITURE = [piece["pattern"] for piece in LEDGER.furniture]
 
 
 def test_nothing_that_the_report_prints_is_left_out() -> None:
@@ -80,12 +80,12 @@ def test_no_two_claims_share_a_word_and_they_come_in_order() -> None:
     assert {claim.kind for claim in CLAIMS} == set(get_args(Kind))
 
 
-@pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece.pattern)
+@pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece["pattern"])
 def test_every_piece_of_furniture_is_needed_and_hides_no_claim(piece: Any) -> None:
-    assert piece.reason
-    others = [pattern for pattern in FURNITURE if pattern != piece.pattern]
+    assert piece["reason"]
+    others = [pattern for pattern in FURNITURE if pattern != piece["pattern"]]
     assert uncovered(LEDGER.text, CLAIMS, others)
-    spans = [match.span() for match in re.finditer(piece.pattern, LEDGER.text)]
+    spans = [match.span() for match in re.finditer(piece["pattern"], LEDGER.text)]
     for claim in (c for c in CLAIMS if c.kind not in ("comparison", "remark")):
         assert all(claim.place.end <= a or b <= claim.place.start for a, b in spans), claim.id
 
@@ -248,7 +248,7 @@ def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> Non
 
 def test_a_misspelt_key_and_a_quote_that_is_not_there_once_are_refused() -> None:
     with pytest.raises(msgspec.ValidationError, match="unknown field `reasons`"):
-        msgspec.convert({"pattern": "1", "reason": "any", "reasons": "any"}, Furniture)
+        msgspec.convert({"says": "any", "equals": "R", "reasons": "any"}, Condition)
     for quote, times in (("is ⟦23⟧", 0), ("is ⟦22⟧", 2)):
         with pytest.raises(ValueError, match=f"{times} times, not once"):
             place_of("It is 22. It is 22 again.", quote)
