@@ -145,8 +145,6 @@ def explore(function: Function, box: Box, target: Interval, budget: int = 250) -
     whole = enclose(function, box)
     if target.excludes(*whole.ends):
         return Exploration(whole.ends, None, never=True)
-    if target.encloses(*whole.ends):
-        return Exploration(whole.ends, _middle(box))
     if whole.is_monotone:
         inside = _on_the_way(function, box, whole, target) if whole.signs else None
         return Exploration(whole.ends, inside)
@@ -186,14 +184,13 @@ def _middle(box: Box) -> dict[str, Fraction]:
     return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
-def _scales(box: Box) -> dict[str, Fraction]:
-    """What an input's width is measured by, so that unlike quantities can be compared."""
-    sizes = {name: max(abs(low), abs(high)) for name, (low, high) in box.items()}
-    return {name: size or Fraction(1) for name, size in sizes.items()}
+def _halves(part: Box, whole: Box) -> list[Box]:
+    """A part cut across the side that is widest beside the numbers of that input in the whole."""
 
+    def width(name: str) -> Fraction:
+        return (part[name][1] - part[name][0]) / (max(map(abs, whole[name])) or 1)
 
-def _halves(part: Box, scales: Mapping[str, Fraction]) -> list[Box]:
-    name = max(part, key=lambda key: (part[key][1] - part[key][0]) / scales[key])
+    name = max(part, key=width)
     low, high = part[name]
     middle = (low + high) / 2
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
@@ -404,7 +401,7 @@ def satisfying(
     None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
     ones first save time. In each box one point is tried, where the constraints' tangents aim.
     """
-    queue, scales = deque([(box, list(constraints))]), _scales(box)
+    queue = deque([(box, list(constraints))])
     for _ in range(budget):
         if not queue:
             return False, None
@@ -415,7 +412,7 @@ def satisfying(
         point = _aimed(undecided, part)
         if not undecided or _undecided(undecided, _points(point)) == []:
             return True, point
-        queue += [(half, undecided) for half in _halves(part, scales)]
+        queue += [(half, undecided) for half in _halves(part, box)]
     return None, None
 
 

@@ -11,28 +11,42 @@ cuts a sphere), Newton's law, Bernoulli's, and earlier equations of the report w
 uses them.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import islice
 from typing import Any
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratio, Ratios
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
 from reference.entries import Computation, Condition, Equation, Side
 from reference.equations import Node, Sides, evaluate, read_expression
-from reference.motion import sheet_depth, sheet_rows
+from reference.motion import Row, sheet_depth, sheet_rows
 from reference.units import unit_dimension
 
+Names = Mapping[str, str]
+"""How symbols and premises are written, and what they are called."""
 
-def _put(
-    own: Side, ar: Any, known: Mapping[str, Number], names: Mapping[str, str]
-) -> dict[str, Number]:
-    """What is put in the place of symbols of a side; an exponent stays the Fraction that it is."""
-    return {
+
+def _side(
+    own: Side, sides: Sequence[Node], ar: Any, known: Mapping[str, Any], names: Names
+) -> Number:
+    """A side of an equation, or its slope, with something put in for its symbols.
+
+    Those for which nothing is put in have their known values; a Fraction put in stays one, as
+    exponents must.
+    """
+    put = {
         symbol: known[text] if text in known else evaluate(read_expression(text, names), ar, known)
         for symbol, text in own.put.items()
     }
+    side, values = sides[own.side], {**known, **put}
+    if own.slope is None:
+        return evaluate(side, ar, values)
+    duals = Duals(ar)
+    numbers = {name: Dual(value) for name, value in values.items()}
+    numbers[own.slope] = duals.variable(values[own.slope], own.slope)
+    return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
 
 
 # Computations
@@ -47,8 +61,7 @@ def compute(
     names = {r"\pi": "pi", **{key: key for key in (*inputs, *computation.premises)}}
     known = dict(inputs)
     for key, own in computation.premises.items():
-        side = sides[own.equation][own.side]
-        known[key] = evaluate(side, ar, _put(own, ar, known, names))
+        known[key] = _side(own, sides[own.equation], ar, known, names)
     return evaluate(read_expression(computation.formula, names), ar, known)
 
 
@@ -80,10 +93,7 @@ FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
     "force_power": lambda _: (unit_dimension("N") / unit_dimension("Pa")).powers[1],
     "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),
     "greatest_beta": lambda ar, **betas: reduce(ar.greatest, betas.values()),
-    "row_velocity_initial": _cell("velocity_initial"),
-    "row_depth": _cell("depth"),
-    "row_deceleration": _cell("deceleration"),
-    "row_velocity_final": _cell("velocity_final"),
+    **{f"row_{column}": _cell(column) for column in Row._fields},
     "final_sheet_depth": _final_sheet_depth,
 }
 """Computations that the report's notation does not say."""
@@ -114,25 +124,17 @@ def derive(
     or EquationError where what is printed makes no sense there.
     """
     field = Ratios([symbol for symbol in symbols if symbol != "pi"])
-    names = {**written, **{key: key for key in equation.premises}}
-
-    def side_of(number: str, own: Side) -> Number:
-        values = {**field.symbols, **_put(own, field, field.symbols, names)}
-        side = sides[number][own.side]
-        return (
-            _slope(side, own.slope, values, field) if own.slope else evaluate(side, field, values)
-        )
-
+    names, known = {**written, **{key: key for key in equation.premises}}, field.symbols
     for check in equation.checks:
         if check.equals[0] in "<>":
             yield Check(check.says, _is_so(check, sides[equation.id][check.side], field))
             continue
         named = {key: own for key, own in equation.premises.items() if key in check.equals}
-        premises = {key: side_of(own.equation, own) for key, own in named.items()}
-        printed = side_of(equation.id, check)
-        derived = evaluate(
-            read_expression(check.equals, names), field, {**field.symbols, **premises}
-        )
+        premises = {
+            key: _side(own, sides[own.equation], field, known, names) for key, own in named.items()
+        }
+        printed = _side(check, sides[equation.id], field, known, names)
+        derived = evaluate(read_expression(check.equals, names), field, {**known, **premises})
         holds = printed == derived
         factor = None if holds or derived == 0 else (printed / derived).constant
         yield Check(check.says, holds, factor)
@@ -144,11 +146,3 @@ def _is_so(check: Condition, side: Node, field: Ratios) -> bool:
     value = evaluate(side, Floats(), {**dict.fromkeys(field.symbols, 1.0), **put})
     bound = float(check.equals[1:])
     return bool(value < bound if check.equals[0] == "<" else value > bound)
-
-
-def _slope(side: Node, by: str, values: Mapping[str, Ratio], field: Ratios) -> Number:
-    """The derivative of a side by one of its symbols."""
-    duals = Duals(field)
-    numbers = {name: Dual(ratio) for name, ratio in values.items()}
-    numbers[by] = duals.variable(values[by], by)
-    return evaluate(side, duals, numbers).slopes.get(by, field.number(0))

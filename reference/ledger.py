@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cache, cached_property, reduce
 from importlib import resources
 from operator import mul
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal
 
 import msgspec
 from msgspec.structs import replace
@@ -41,8 +41,6 @@ from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
-
-Tables = TypeVar("Tables", bound="Entry")
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
