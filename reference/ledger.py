@@ -404,13 +404,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
         Raises ValueError if a claim's text is no number.
         """
-        parse(text) if name not in self.equations else None
         copy = replace(self, misprinted={**self.misprinted, name: text})
-        # What the text does not decide is as it was.
-        copy.__dict__.update(self.__dict__)
+        copy.__dict__.update(self.__dict__)  # what the text does not decide is as it was
         equation: str | None = name
         if name not in self.equations:
             claims = {**self.claims, name: replace(self.claims[name], text=text)}
+            parse(text)
             for claim in [c for c in claims.values() if name in (c.id, c.against)]:
                 claims[claim.id] = replace(claim, bound=_bound(claim, claims))
             copy.__dict__["claims"] = claims
