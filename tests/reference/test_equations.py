@@ -192,12 +192,6 @@ def test_a_number_is_replaced_where_it_is_written() -> None:
 # Dimensions
 
 
-@pytest.mark.parametrize("name", LEDGER.equations)
-def test_the_report_is_right_in_its_dimensions(name: str) -> None:
-    sides = [dimension(side, LEDGER.dimensions, {"n": F(2)}) for side in LEDGER.sides[name]]
-    assert len(set(sides)) == 1
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from fractions import Fraction as F
 from functools import cache
-from itertools import islice
+from itertools import islice, product
 from typing import Any
 
 import mpmath
@@ -150,9 +150,9 @@ def test_ends_of_the_motion(case: str) -> None:
     assert motion.stop_time(1) < motion.stop_time()
     assert motion.velocity_at_depth(motion.final_depth) == 0
     assert motion.depth_at_time(10 * motion.stop_time()) == motion.final_depth
-    for beyond in (motion.velocity_at_depth, motion.time_to_depth):
+    for share, function in product((2, F(-1, 9)), (motion.velocity_at_depth, motion.time_to_depth)):
         with pytest.raises(ValueError, match="never gets to a depth"):
-            beyond(2 * motion.final_depth)
+            function(motion.reals.number(share) * motion.final_depth)
     with pytest.raises(ValueError, match="never has a velocity of 1501"):
         motion.depth_at_velocity(1501)
     with pytest.raises(ValueError, match="before the impact"):
