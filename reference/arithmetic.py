@@ -167,10 +167,11 @@ class Dual(Operators):
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
-        other = _dual(other)
-        product = self.value * other.value
-        mine, others = self.scaled(product, other.value), other.scaled(product, self.value)
-        return Dual(product, _added(mine.slopes, others.slopes))
+        if not isinstance(other, Dual):
+            return self.scaled(self.value * other, other)
+        mine = {name: slope * other.value for name, slope in self.slopes.items()}
+        others = {name: self.value * slope for name, slope in other.slopes.items()}
+        return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
         other = _dual(other)

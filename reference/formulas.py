@@ -28,18 +28,19 @@ Names = Mapping[str, str]
 """How symbols and premises are written, and what they are called."""
 
 
+def _value(text: str, ar: Any, known: Mapping[str, Any], names: Names) -> Any:
+    """What a text of the ledger says; a Fraction that is named stays one, as exponents must."""
+    return known[text] if text in known else evaluate(read_expression(text, names), ar, known)
+
+
 def _side(
     own: Side, sides: Sequence[Node], ar: Any, known: Mapping[str, Any], names: Names
 ) -> Number:
     """A side of an equation, or its slope, with something put in for its symbols.
 
-    Those for which nothing is put in have their known values; a Fraction put in stays one, as
-    exponents must.
+    Those for which nothing is put in have their known values.
     """
-    put = {
-        symbol: known[text] if text in known else evaluate(read_expression(text, names), ar, known)
-        for symbol, text in own.put.items()
-    }
+    put = {symbol: _value(text, ar, known, names) for symbol, text in own.put.items()}
     side, values = sides[own.side], {**known, **put}
     if own.slope is None:
         return evaluate(side, ar, values)
@@ -62,7 +63,7 @@ def compute(
     known = dict(inputs)
     for key, own in computation.premises.items():
         known[key] = _side(own, sides[own.equation], ar, known, names)
-    return evaluate(read_expression(computation.formula, names), ar, known)
+    return _value(computation.formula, ar, known, names)
 
 
 def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
@@ -134,7 +135,7 @@ def derive(
             key: _side(own, sides[own.equation], field, known, names) for key, own in named.items()
         }
         printed = _side(check, sides[equation.id], field, known, names)
-        derived = evaluate(read_expression(check.equals, names), field, {**known, **premises})
+        derived = _value(check.equals, field, {**known, **premises}, names)
         holds = printed == derived
         factor = None if holds or derived == 0 else (printed / derived).constant
         yield Check(check.says, holds, factor)
