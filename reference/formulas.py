@@ -71,7 +71,7 @@ def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
     return ar.cap_root(4 * volume_ratio / 3)
 
 
-def _final_sheet_depth(ar: Arithmetic, centered: bool = False, **inputs: Number) -> Number:
+def _final_sheet_depth(ar: Arithmetic, centered: bool, **inputs: Number) -> Number:
     rows = sheet_rows(ar, centered=centered, **inputs)
     return sheet_depth(ar, rows, inputs["stop_velocity"])
 
@@ -79,7 +79,7 @@ def _final_sheet_depth(ar: Arithmetic, centered: bool = False, **inputs: Number)
 def _cell(column: str) -> Callable[..., Number]:
     """One column of the sheet, in a given row."""
 
-    def cell(ar: Arithmetic, row: int, centered: bool = False, **inputs: Number) -> Number:
+    def cell(ar: Arithmetic, row: int, centered: bool, **inputs: Number) -> Number:
         rows = sheet_rows(ar, centered=centered, **inputs)
         return getattr(next(islice(rows, row - 1, None)), column)
 
