@@ -10,13 +10,14 @@ import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
+from string import ascii_uppercase
 from typing import Literal
 
 import msgspec
 
 from reference.arithmetic import Reals
 from reference.entries import Entry
-from reference.equations import evaluate, read_expression
+from reference.equations import Node, evaluate, read_expression
 from reference.ledger import load as load_ledger
 from reference.ledger import tables
 from reference.printed import decimal_text, parse
@@ -32,12 +33,16 @@ class Assertion(Entry, frozen=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
     `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
-    before one. Where it is "yes" or "no", a proof must have had that outcome.
+    before one. Where it is "yes" or "no", a proof must have had that outcome. It is computed by a
+    `formula`, as the `exact` X/R with some inputs changed, or is how often the report has `words`.
     """
 
     says: str
     means: str
     unit: str = "1"
+    formula: str = ""
+    exact: Mapping[str, str] = {}
+    words: str = ""
 
     @property
     def relation(self) -> str:
@@ -126,7 +131,24 @@ def _number(name: str, unit: str | None, entry: Finding) -> str:
 def _holds(text: str) -> bool:
     """Whether a line of arithmetic such as "2/3 * 3 = 2.0" holds, calculated again."""
     left, _, right = text.rpartition("=")
-    expression = re.sub(r"\bln\b", r"\\ln", left).replace("*", " ")
-    value = evaluate(read_expression(expression.strip(), {}), _REALS, {})
+    value = evaluate(expression(left)[0], _REALS, {})
     computed = Fraction(str(_REALS.context.nstr(value, 25)))
     return parse(right.strip()).interval().contains(computed)
+
+
+@cache
+def expression(text: str) -> tuple[Node, set[str]]:
+    """A line of arithmetic, and the names of the values in it. Raises EquationError.
+
+    >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
+    ['a1-radius', 'cth.diameter']
+    """
+    names: dict[str, str] = {}
+
+    def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
+        letter = ascii_uppercase[len(names)]
+        return r"\ln" if match[0] == "ln" else names.setdefault(match[0], letter)
+
+    line = re.sub(r"(?<![\w.-])[a-z][\w:.-]*", written, text).replace("*", " ").strip()
+    symbols = {letter: name for name, letter in names.items()}
+    return read_expression(line, dict.fromkeys(ascii_uppercase, "") | symbols), {*names} - {"pi"}

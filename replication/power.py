@@ -7,22 +7,19 @@ route than the audit's proofs. Then the audit judges what depends on it.
 
 import random
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass
-from fractions import Fraction
 from importlib import resources
+from typing import NamedTuple
 
 import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.edits import edits_of
-from replication.audit.explain import Screen, dependents
-from replication.audit.verdict import OPEN, Verdict, assess_equation
-from replication.text import Table, table
+from replication.audit.explain import Screen, dependents, edits_of, equation_of
+from replication.audit.verdict import OPEN, Verdict
+from replication.text import Table
 
 
-@dataclass(frozen=True, slots=True)
-class Plant:
+class Plant(NamedTuple):
     """One misprint: the entry or equation, its true text, the planted one, the kind of edit."""
 
     entry: str
@@ -31,8 +28,7 @@ class Plant:
     edit: str
 
 
-@dataclass(frozen=True, slots=True)
-class Trial:
+class Trial(NamedTuple):
     """What the audit made of a plant.
 
     `failing`: what fails only because of it; `repaired`: the true text is among the repairs that
@@ -44,11 +40,6 @@ class Trial:
     repaired: bool
     first: bool
     accused: bool
-
-    @property
-    def detected(self) -> bool:
-        """Whether something fails because of it."""
-        return bool(self.failing)
 
 
 class Counts(msgspec.Struct, kw_only=True):
@@ -62,16 +53,12 @@ class Counts(msgspec.Struct, kw_only=True):
     repaired: int = 0
     repaired_first: int = 0
 
-    def percent(self, count: int) -> str:
-        """A count in percent of what is visible."""
-        return f"{100 * count / self.visible:.1f}" if self.visible else "-"
-
     def add(self, trial: Trial) -> None:
         """Count one more."""
         self.planted += 1
         self.invisible += not trial.visible
         self.visible += trial.visible
-        self.detected += trial.visible and trial.detected
+        self.detected += trial.visible and bool(trial.failing)
         self.accused_wrongly += trial.accused
         self.repaired += trial.visible and trial.repaired
         self.repaired_first += trial.visible and trial.first
@@ -90,15 +77,17 @@ class Power(Counts, kw_only=True):
         counts: dict[str, Counts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
             counts |= {f"{word} {name}": parts[name] for name in sorted(parts)}
-        return table("Rates in percent", counts, {
-            "": str,
-            "planted": lambda name: str(counts[name].planted),
-            "visible": lambda name: str(counts[name].visible),
-            "noticed": lambda name: counts[name].percent(counts[name].detected),
-            "text named": lambda name: counts[name].percent(counts[name].repaired),
-            "named first": lambda name: counts[name].percent(counts[name].repaired_first),
-            "accused wrongly": lambda name: counts[name].percent(counts[name].accused_wrongly),
-        })  # fmt: skip
+        rates = {
+            "noticed": "detected", "text named": "repaired", "named first": "repaired_first",
+            "accused wrongly": "accused_wrongly",
+        }  # fmt: skip
+        rows = [
+            (name, str(own.planted), str(own.visible), *(
+                f"{100 * getattr(own, key) / own.visible:.1f}" if own.visible else "-"
+                for key in rates.values()))
+            for name, own in counts.items()
+        ]  # fmt: skip
+        return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
 
 
 def measured() -> Power:
@@ -121,16 +110,15 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
 def trial(truth: Audit, plant: Plant) -> Trial:
     """Judge one plant: all that depends on it, beside what the report itself gives there."""
     ledger = truth.ledger.misprint(plant.entry, plant.text)
-    claims = dependents(truth.ledger, plant.entry)
-    wrong = set()
-    inside = plant.entry in ledger.equations or ledger.claims[plant.entry].within
+    audit = Audit(ledger, every_convention=False)
+    claims, wrong = dependents(truth.ledger, plant.entry), set()
+    inside = equation_of(ledger, plant.entry)
     for name in ledger.equations if inside else ():  # its own, and those derived from it
-        assessed = assess_equation(ledger, name, constants=False)
+        assessed = audit.equation(name, constants=False)
         # One that fails in the report, too, must fail in another way.
         if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
             wrong.add(name)
     claims |= {claim.id for claim in ledger.claims.values() if claim.within in wrong}
-    audit = Audit(ledger, every_convention=False)
     failing = wrong | {
         name
         for name in claims
@@ -157,23 +145,20 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
 
     The audit of the misprint has no part in this; the values are those that the report admits.
     """
+    names = [INFERRED + name for name in truth.ledger.inferred]
+    ends = {name: truth.judge.inference(name).inner.ends for name in names}
+    values = [{name: truth.ledger.value(name) for name in names}] + [
+        {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
+        for k in range(_VALUES + 1)
+    ]
     return all(
         Screen(ledger, inferred).failing(claims) - Screen(truth.ledger, inferred).failing(claims)
-        for inferred in _inferred(truth)
+        for inferred in values
     )
 
 
 _VALUES = 24
 """So many values of an inferred input are tried: a kg/m^3 apart for the density."""
-
-
-def _inferred(truth: Audit) -> Iterator[dict[str, Fraction]]:
-    """The values that the ledger takes for its inferred inputs, then others that are as good."""
-    names = [INFERRED + name for name in truth.ledger.inferred]
-    yield {name: truth.ledger.value(name) for name in names}
-    ends = {name: truth.judge.inference(name).inner.ends for name in names}
-    for k in range(_VALUES + 1):
-        yield {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
 
 
 def power(
@@ -192,6 +177,6 @@ def power(
         result.add(outcome)
         result.by_kind.setdefault(kind, Counts()).add(outcome)
         result.by_edit.setdefault(plant.edit, Counts()).add(outcome)
-        if outcome.visible and not outcome.detected:
-            result.unnoticed.append(asdict(plant))
+        if outcome.visible and not outcome.failing:
+            result.unnoticed.append(plant._asdict())
     return result

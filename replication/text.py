@@ -4,14 +4,15 @@ A proven range never becomes narrower by being shortened.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import zip_longest
+from math import isclose
 from textwrap import wrap
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
-from reference.units import superscript
+from reference.units import superscript, written
 
 # For programs
 
@@ -81,26 +82,35 @@ def with_unit(text: str, unit: str) -> str:
     return text if unit == "1" else f"{text} {unit}"
 
 
-def outward(low: Fraction, high: Fraction, digits: int = 6) -> str:
-    """An interval shortened to some significant digits, never made narrower.
+def quantity(text: str, unit: str) -> str:
+    """Text with its unit, as a page shows it.
 
-    Ends that are the same double are shown as one number.
-
-    >>> outward(Fraction(1, 3), Fraction(2, 3), 3)
-    '[0.333, 0.667]'
+    >>> quantity("7.67", "um"), quantity("0.70", "1")
+    ('7.67 µm', '0.70')
     """
-    if float(low) == float(high):
-        return number(low, digits)
-    return f"[{rounded(low, digits, ROUND_FLOOR)}, {rounded(high, digits, ROUND_CEILING)}]"
+    return f"{text} {written(unit)}".strip()
 
 
-def inward(low: Fraction, high: Fraction, digits: int = 6) -> str:
-    """An interval shortened to some significant digits, never made wider.
+def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: bool = False) -> str:
+    """An interval as words, its ends shortened outward, or inward where all inside is meant.
 
-    >>> inward(Fraction(1, 3), Fraction(2, 3), 3)
-    '[0.334, 0.666]'
+    An end that is short but for the rounding of a double is taken as it is.
+
+    >>> between((0.12374472967338257, 0.13081477249718315))
+    '0.1237447296 to 0.1308147725'
+    >>> between((7839.582511570033, 7863.3048443432035), 8, inward=True)
+    '7839.5826 to 7863.3048'
+    >>> between((0.057999999999999996, 0.058))
+    '0.058'
     """
-    return f"[{rounded(low, digits, ROUND_CEILING)}, {rounded(high, digits, ROUND_FLOOR)}]"
+    shown = []
+    for end, up in zip(ends, (inward, not inward), strict=True):
+        assert end is not None
+        text = number(end + 0, digits)  # no sign on a zero
+        if not isclose(float(text), end, rel_tol=1e-14):
+            text = rounded(Fraction(end), digits, ROUND_CEILING if up else ROUND_FLOOR)
+        shown.append(text)
+    return " to ".join(dict.fromkeys(shown))
 
 
 def rounded(value: Fraction, digits: int, rounding: str) -> str:
@@ -114,9 +124,6 @@ def rounded(value: Fraction, digits: int, rounding: str) -> str:
     return f"{float(shortened):.{digits}g}"
 
 
-_T = TypeVar("_T")
-
-
 class Table(NamedTuple):
     """A table; the first cell of a row is its head."""
 
@@ -125,25 +132,17 @@ class Table(NamedTuple):
     rows: Sequence[tuple[str, ...]]
 
 
-def table(caption: str, things: Iterable[_T], columns: Mapping[str, Callable[[_T], str]]) -> Table:
-    """A table with a row for each thing; `columns` names what stands in it, and writes it.
-
-    >>> table("Powers", [2, 3], {"n": str, "square": lambda n: str(n * n)}).rows
-    [('2', '4'), ('3', '9')]
-    """
-    rows = [tuple(write(thing) for write in columns.values()) for thing in things]
-    return Table(caption, tuple(columns), rows)
-
-
-def aligned(rows: Sequence[tuple[str, ...]], right: bool = False) -> list[str]:
-    """Rows of texts as lines, each column as wide as its widest text.
+def aligned(
+    rows: Sequence[tuple[str, ...]], widths: Sequence[int] = (), right: bool = False
+) -> list[str]:
+    """Rows of texts as lines, each column as wide as its widest text if no widths are given.
 
     `right`: all columns but the first stand to the right.
 
     >>> aligned([("a", "bc"), ("def", "g")])
     ['a    bc', 'def  g']
     """
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    widths = widths or [max(map(len, column)) for column in zip(*rows, strict=True)]
     ways = ["<", *(">" if right else "<") * len(widths)]
     return ["  ".join(map("{:{}{}}".format, row, ways, widths)).rstrip() for row in rows]
 
@@ -161,8 +160,8 @@ def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> lis
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     """Rows as columns within a width; what is too long goes on in the next line.
 
-    The columns give way that make the fewest lines of it. A word is broken only where the width
-    leaves no choice.
+    Heads give way first, then the widest column. A word is broken only where the width leaves no
+    choice.
 
     >>> print(columns([("a", "one two three"), ("bc", "four")], 14))
     a   one two
@@ -171,31 +170,20 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     """
     texts = list(zip(*rows, strict=True))
     words = [max(len(word) for cell in column for word in cell.split() or [""]) for column in texts]
-    # A head goes on in the next line before a cell below it does, and that before a word is broken.
-    below = [max([word, *map(len, column[1:])]) for word, column in zip(words, texts, strict=True)]
-    widths = [max(map(len, column)) for column in texts]
-    lengths = [[len(cell) for cell in row] for row in rows]
+    below = [max([word, *map(len, cells[1:])]) for word, cells in zip(words, texts, strict=True)]
+    widths, room = [max(map(len, column)) for column in texts], width - 2 * (len(texts) - 1)
 
-    def narrowed(column: int) -> tuple[int, int]:
-        """About how many lines there are with this column narrower; of equals, the widest."""
-        trial = [max(width - (k == column), 1) for k, width in enumerate(widths)]
-        lines = (max(-(-n // w) for n, w in zip(row, trial, strict=True)) for row in lengths)
-        return sum(lines), -widths[column]
+    def ease(k: int) -> tuple[bool, bool, int]:
+        """How readily a column gives way."""
+        return widths[k] > below[k], widths[k] > words[k], widths[k]
 
-    for least in (below, words, [1] * len(words)):
-        while sum(widths) + 2 * (len(widths) - 1) > width:
-            room = [k for k, end in enumerate(least) if widths[k] > end]
-            if not room:
-                break
-            widths[min(room, key=narrowed)] -= 1
+    while sum(widths) > room and max(widths) > 1:
+        widest = max(range(len(widths)), key=ease)
+        widths[widest] -= 1
     lines = []
     for row in rows:
         cells = [
-            wrap(cell, max(w, 1), break_on_hyphens=False) or [""]
-            for cell, w in zip(row, widths, strict=True)
+            wrap(cell, w or 1, break_on_hyphens=False) for cell, w in zip(row, widths, strict=True)
         ]
-        lines += [
-            "  ".join(f"{part:{w}}" for part, w in zip(parts, widths, strict=True)).rstrip()
-            for parts in zip_longest(*cells, fillvalue="")
-        ]
+        lines += aligned([*zip_longest(*cells, fillvalue="")], widths) or [""]
     return "\n".join(lines)

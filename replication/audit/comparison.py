@@ -1,14 +1,13 @@
 """What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
 
 import math
-from contextlib import suppress
 from dataclasses import replace
 from statistics import NormalDist
 
 from reference.ledger import Convention
 from replication.audit import record as r
 from replication.audit.findings import Known, case, constant_pressure_ratio, exact_ratio
-from replication.models import depth, motion, sheet, stream
+from replication.models import depth, motion, sheet
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
 
@@ -19,36 +18,36 @@ def approaches(known: Known) -> list[r.Approach]:
     """Every approach to X/R [1] of the report, and one that prices the target's inertia."""
     claims = known.ledger.claims
 
-    def computed(kind: str, name: str, claim: str, reading: str = "") -> r.Approach:
-        printed, value = claims[claim].shown, None
-        with suppress(ArithmeticError):  # a formula without a value, in a report with a misprint
-            value = known.reading(claim, reading).computed
-        return r.Approach(kind=kind, name=name, computed=value, printed=printed, claim=claim)
-
-    def quoted(name: str, claim: str) -> r.Approach:
-        return r.Approach(kind="hydrocode", name=name, printed=claims[claim].shown, claim=claim)
+    def computed(claim: str, reading: str = "") -> float | None:
+        try:
+            return known.reading(claim, reading).computed
+        except ArithmeticError:  # a formula without a value, in a report with a misprint
+            return None
 
     line = depth_from_volume_ratio(known["volume-ratio-line"])
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
-    armor, stainless = "frank-zook-rha", "frank-zook-stainless"
     forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))
-    models = [(beta, case(known, beta)) for beta in BETAS]
-    return [
-        r.Approach(kind="observed", name=f"CV/PV = {drawn}, the line in Figure 1", computed=line),
-        computed("observed", f"CV/PV = {taken}, as taken for Eq. 4", "observed-depth-ratio"),
-        *(r.Approach(kind="sheet", name=f"beta = {beta}",
-                     computed=sheet.run(impact).normalized_depth,
-                     printed=claims[f"ratio-beta-{beta}"].shown, claim=f"ratio-beta-{beta}")
-          for beta, impact in models),
-        *(r.Approach(kind="exact", name=f"beta = {beta}", computed=exact_ratio(impact))
-          for beta, impact in models),
-        *(r.Approach(kind="constant pressure", name=f"beta = {beta}",
-                     computed=constant_pressure_ratio(impact)) for beta, impact in models),
-        *(computed("Frank-Zook", f"{name}, {form}", claim, reading)
-          for name, claim in (("armor", armor), ("stainless steel", stainless))
+    models = {f"beta = {beta}": case(known, beta) for beta in BETAS}
+    rows = [
+        ("observed", f"CV/PV = {drawn}, the line in Figure 1", line, ""),
+        ("observed", f"CV/PV = {taken}, as taken for Eq. 4", computed("observed-depth-ratio"),
+         "observed-depth-ratio"),
+        *(("sheet", name, sheet.run(impact).normalized_depth, f"ratio-beta-{name[-1]}")
+          for name, impact in models.items()),
+        *(("exact", name, exact_ratio(impact), "") for name, impact in models.items()),
+        *(("constant pressure", name, constant_pressure_ratio(impact), "")
+          for name, impact in models.items()),
+        *(("Frank-Zook", f"{name}, {form}", computed(claim, reading), claim)
+          for name, claim in (("armor", "frank-zook-rha"),
+                              ("stainless steel", "frank-zook-stainless"))
           for form, reading in forms),
-        quoted("CTH", "cth-ratio"),
-        quoted("Autodyne", "autodyne-ratio"),
+        ("hydrocode", "CTH", None, "cth-ratio"),
+        ("hydrocode", "Autodyne", None, "autodyne-ratio"),
+    ]  # fmt: skip
+    return [
+        r.Approach(kind=kind, name=name, computed=value, claim=claim or None,
+                   printed=claims[claim].shown if claim else "")
+        for kind, name, value, claim in rows
     ]  # fmt: skip
 
 
@@ -56,20 +55,38 @@ def approaches(known: Known) -> list[r.Approach]:
 
 
 def sensitivity(known: Known, beta: int) -> r.Sensitivity:
-    """How the exact depth of one of the report's cases depends on each input."""
+    """How the exact depth of one of the report's cases depends on each input.
+
+    And what each input's own uncertainty does, as far as the report or its evidence states one.
+    """
     impact = case(known, beta)
-    own = {name: getattr(impact, name) for name in _INPUTS}
-    ten = [_effect(impact, name, 0.9 * x, 1.1 * x, "10 % less and more") for name, x in own.items()]
+    velocity, spread = impact.velocity, known["velocity-deviation"]
+    radius, size = impact.radius, known["diameter-deviation"] / 2
+    printed = known.ledger.claims["a1-density"].target().ends
+    possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
+    ranges = (
+        ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
+        ("radius", radius - size, radius + size, "standard deviation of the powder"),
+        ("particle_density", *printed, "rounding of the print"),
+        ("target_density", *possible, "all that Table A-1 allows"),
+        ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
+        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
+    )
+    stated = []
+    for name, low, high, why in ranges:
+        ends = [replace(impact, **{name: float(end)}) for end in (low, high)]
+        depths = [depth.final_depth(**end.motion) for end in ends]
+        ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
+        stated.append(
+            r.Effect(input=name, low=float(low), high=float(high), depths=depths, ratios=ratios,
+                     why=why)
+        )  # fmt: skip
     return r.Sensitivity(
         beta=float(beta),
         depth=depth.final_depth(**impact.motion),
         elasticities=_elasticities(impact),
-        ten_percent=ten,
-        stated=_stated(known, impact),
+        stated=stated,
     )
-
-
-_INPUTS = ("velocity", "radius", "particle_density", "target_density", "beta", "flow_stress")
 
 
 def _elasticities(impact: Impact) -> dict[str, float]:
@@ -84,34 +101,16 @@ def _elasticities(impact: Impact) -> dict[str, float]:
     y = exact_ratio(impact)
     s = c / (y * y * (2 - y)) if y < 1 else c / y
     q = p / ((1 + p) * math.log1p(p))
-    factors = (2 * q * s, 1.0, s, (q - 1) * s, -q * s, -q * s)
-    return dict(zip(_INPUTS, factors, strict=True))
-
-
-def _stated(known: Known, impact: Impact) -> list[r.Effect]:
-    """What each input's own uncertainty does, as far as the report or its evidence states one."""
-    possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
-    velocity, spread = impact.velocity, known["velocity-deviation"]
-    radius, size = impact.radius, known["diameter-deviation"] / 2
-    ranges = (
-        ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
-        ("radius", radius - size, radius + size, "standard deviation of the powder"),
-        ("particle_density", *known.target("a1-density").ends, "rounding of the print"),
-        ("target_density", *possible, "all that Table A-1 allows"),
-        ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
-        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
-    )
-    return [_effect(impact, name, float(low), float(high), why) for name, low, high, why in ranges]
-
-
-def _effect(impact: Impact, name: str, low: float, high: float, why: str) -> r.Effect:
-    ends = [replace(impact, **{name: end}) for end in (low, high)]
-    depths = [depth.final_depth(**end.motion) for end in ends]
-    ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
-    return r.Effect(input=name, low=low, high=high, ratios=ratios, depths=depths, why=why)
+    return {
+        "velocity": 2 * q * s, "radius": 1.0, "particle_density": s, "target_density": (q - 1) * s,
+        "beta": -q * s, "flow_stress": -q * s,
+    }  # fmt: skip
 
 
 # What scatter does
+
+SHARES = 0.05, 0.5, 0.95
+"""Of the particles of the stream."""
 
 
 def scatter(known: Known) -> list[r.Scatter]:
@@ -126,34 +125,20 @@ def scatter(known: Known) -> list[r.Scatter]:
     mean = NormalDist().pdf(0) * 2  # mean absolute deviation over the standard one
     stated = NormalDist(impact.velocity, known["velocity-deviation"] / mean)
 
-    def by_eq1(share: float) -> float:
-        diameter = size.inv_cdf(1 - share)
-        return stream.particle_velocity(impact.velocity, diameter**3, size.mean**3)
-
-    def by_drag(share: float) -> float:
-        return impact.velocity * math.sqrt(size.mean / size.inv_cdf(1 - share))
-
     relative = size.stdev / size.mean
-    laws = (
-        ("Eq. 1: mass alone", by_eq1, 1.5 * relative * impact.velocity),
-        ("drag on a sphere: mass and area", by_drag, 0.5 * relative * impact.velocity),
-        ("as stated: normal", stated.inv_cdf, stated.stdev),
-    )
+    laws = []
+    for name, power in (("Eq. 1: mass alone", 1.5), ("drag on a sphere: mass and area", 0.5)):
+        velocities = [
+            impact.velocity * (size.mean / size.inv_cdf(1 - share)) ** power for share in SHARES
+        ]
+        laws.append((name, power * relative * impact.velocity, velocities))
+    laws.append(("as stated: normal", stated.stdev, [stated.inv_cdf(share) for share in SHARES]))
     return [
-        r.Scatter(
-            law=name,
-            standard_deviation=deviation,
-            mean_deviation=deviation * mean,
-            points=[
-                r.ScatterPoint(
-                    share=share, velocity=v, ratio=exact_ratio(replace(impact, velocity=v))
-                )
-                for share in (0.05, 0.5, 0.95)
-                for v in [law(share)]
-            ],
-        )
-        for name, law, deviation in laws
-    ]
+        r.Scatter(law=name, standard_deviation=deviation, mean_deviation=deviation * mean,
+                  shares=list(SHARES), velocities=velocities,
+                  ratios=[exact_ratio(replace(impact, velocity=v)) for v in velocities])
+        for name, deviation, velocities in laws
+    ]  # fmt: skip
 
 
 # The sheet and the exact motion

@@ -1,22 +1,18 @@
 """What would explain a number that does not follow: nothing here is asserted, all is tried."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
+from itertools import pairwise
+from string import digits
 
 from reference.arithmetic import Floats
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
-from reference.units import to_si
-from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits_of
-from replication.audit.record import (
-    BackSolvedRecord,
-    CulpritRecord,
-    RepairRecord,
-    Shown,
-    SlipRecord,
-)
+from reference.units import Dimension, to_si
+from replication.audit.record import BackSolvedRecord, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
 # A quick look
@@ -65,13 +61,18 @@ class Screen:
         return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
 
 
+def equation_of(ledger: Ledger, name: str) -> str | None:
+    """The equation with this id, or that the number with this id is a constant of."""
+    return name if name in ledger.equations else ledger.claims[name].within
+
+
 def dependents(ledger: Ledger, name: str) -> set[str]:
     """The claims whose verdict may change with an entry or an equation, itself among them.
 
     Claims that depend on an inferred input depend on its evidence, and on all that this rests on;
     an input that others show to be right depends on them.
     """
-    within = ledger.claims[name].within if name in ledger.claims else name
+    within = equation_of(ledger, name)
     direct = {
         claim.id
         for claim in ledger.claims.values()
@@ -107,27 +108,20 @@ class Explainer:
 
     @cached_property
     def _as_printed(self) -> list[Screen]:
+        """Quick looks at the ledger as it stands."""
         return self._screens(self.ledger)
-
-    @property
-    def screen(self) -> Screen:
-        """A quick look at the ledger as it stands."""
-        return self._as_printed[-1]
 
     # Single inputs
 
     def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
         """For every reading of a claim, the values of each entry alone with which it agrees."""
+        claims = self.ledger.claims
         return [
             self._back_solved(claim, reading, name)
             for reading in claim.computations
             for name in claim.entries
-            if name.startswith(INFERRED) or self._may_vary(self.ledger.claims[name])
+            if name.startswith(INFERRED) or not claims[name].is_exact or claims[name].quantity
         ]
-
-    @staticmethod
-    def _may_vary(claim: Claim) -> bool:
-        return not claim.is_exact or claim.quantity is not None
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
         unit, solutions = self.ledger.unit(name), self.solutions(claim, reading, name)
@@ -138,26 +132,20 @@ class Explainer:
             proof = "undecided"
         elif solutions.reaches_an_end:
             proof = "proven, up to an end of the range"
-        alike = False
-        if not name.startswith(INFERRED):
-            own = self.ledger.claims[name].as_input(Convention(choices_exact=False))
-            alike = any(not own.excludes(*part) for part in solutions.inner)
-        si = to_si(unit)
-        intervals, (search,) = (
-            [(float(low / si), float(high / si)) for low, high in parts]
-            for parts in (solutions.inner, [solutions.search])
+        search, *intervals = (
+            (float(low / to_si(unit)), float(high / to_si(unit)))
+            for low, high in (solutions.search, *solutions.inner)
         )
         return BackSolvedRecord(
             reading=reading,
             entry=name,
             title=self.ledger.title(name),
             unit=unit,
-            printed=float(self.judge.value(name) / si),
+            printed=float(self.judge.value(name) / to_si(unit)),
             intervals=intervals,
             search=search,
             search_reason=self.ledger.search(name)[2],
             proof=proof,
-            prints_alike=alike,
         )
 
     def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
@@ -173,21 +161,21 @@ class Explainer:
         Found by bisection, in doubles: where those claims begin to disagree. None if the number
         shows nothing, or if they disagree with it itself.
         """
-        claims = [self.ledger.claims[name] for name in chosen.shown_by]
-
-        def suits(value: Fraction) -> bool:
-            return all(self.screen.agrees(claim, "", {chosen.id: value}) for claim in claims)
-
-        if not claims or not suits(chosen.value):
+        if not chosen.shown_by or not self._is_shown(chosen, chosen.value):
             return None
         ends = []
         for far in self.ledger.search(chosen.id)[:2]:
             good, bad = chosen.value, far
             for _ in range(_BISECTIONS):
                 middle = (good + bad) / 2
-                good, bad = (middle, bad) if suits(middle) else (good, middle)
+                good, bad = (middle, bad) if self._is_shown(chosen, middle) else (good, middle)
             ends.append(float(good / chosen.si))
         return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
+
+    def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
+        """Whether all that shows a number agrees with this value of it (SI)."""
+        shown, screen = map(self.ledger.claims.__getitem__, chosen.shown_by), self._as_printed[-1]
+        return all(screen.agrees(claim, "", {chosen.id: value}) for claim in shown)
 
     # Misprints
 
@@ -197,7 +185,7 @@ class Explainer:
         A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
         ones the likelier slip of a typist comes first. A constant is mended with its equation.
         """
-        name = (name in self.ledger.claims and self.ledger.claims[name].within) or name
+        name = equation_of(self.ledger, name) or name
         return self._sorted(name, self._suspects(name))
 
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
@@ -230,29 +218,26 @@ class Explainer:
             premises = self.ledger.equations[name].premises.values()
             equations = dict.fromkeys([name, *(premise.equation for premise in premises)])
             return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
-        claim = self.ledger.claims[name]
+        claims = self.ledger.claims
+        claim = claims[name]
         entries = claim.stated
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
             # Its evidence has moved it: what the evidence rests on may be wrong.
-            for evidence in self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence:
-                entries += [
-                    e for e in self.ledger.claims[evidence].entries if e in self.ledger.claims
-                ]
-        against = [claim.against] if claim.against else []
-        within = [claim.within] if claim.within else []
+            evidence = self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence
+            entries += [entry for piece in evidence for entry in claims[piece].stated]
+        more = [key for key in (claim.against, claim.within) if key]
         constants = [c for e in claim.uses for c in self.ledger.constants_of(e)]
-        return list(dict.fromkeys([name, *entries, *against, *within, *claim.uses, *constants]))
+        return list(dict.fromkeys([name, *entries, *more, *claim.uses, *constants]))
 
     def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The reading of the claim or equation that agrees with the edit, None if none does."""
-        within = name if name in self.ledger.equations else self.ledger.claims[name].within
+        within = equation_of(self.ledger, name)
         if within is not None:
             return "" if follows(self.ledger.misprint(entry, text), within) else None
         claim, screens, values = self.ledger.claims[name], self._as_printed, {}
         if claim.computation is None:
             return self._suits(claim, text) if entry == name else None
-        of_equation = entry in self.ledger.equations or self.ledger.claims[entry].within
-        if entry in (name, claim.against) or of_equation:
+        if entry in (name, claim.against) or equation_of(self.ledger, entry):
             changed = self.ledger.misprint(entry, text)
             claim, screens = changed.claims[name], self._screens(changed)
         else:
@@ -266,25 +251,21 @@ class Explainer:
         sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
         if sources and not any(changed.target().meets(source.interval) for source in sources):
             return None
-        value = {claim.id: changed.value}
-        shown = (self.ledger.claims[result] for result in claim.shown_by)
-        return "" if all(self.screen.agrees(result, "", value) for result in shown) else None
+        return "" if self._is_shown(claim, changed.value) else None
 
     def _failing(self, entry: str, text: str) -> set[str]:
         """The claims and equations that fail with the edit; those it does not touch, as before."""
         changed = self.ledger.misprint(entry, text)
         touched = dependents(self.ledger, entry)
-        others = self._failing_now - touched
-        failing = others | min((s.failing(touched) for s in self._screens(changed)), key=len)
-        within = entry if entry in self.ledger.equations else self.ledger.claims[entry].within
-        if within is None:
-            return failing | self._bad_equations
-        own = set() if follows(changed, within) else {within}
-        return failing | (self._bad_equations - {within}) | own
+        failing = min((s.failing(touched) for s in self._screens(changed)), key=len)
+        within, bad = equation_of(self.ledger, entry), self._bad_equations
+        if within is not None:
+            bad = (bad - {within}) | (set() if follows(changed, within) else {within})
+        return (self._failing_now - touched) | failing | bad
 
     @cached_property
     def _failing_now(self) -> set[str]:
-        return self.screen.failing(self.ledger.claims)
+        return self._as_printed[-1].failing(self.ledger.claims)
 
     @cached_property
     def _bad_equations(self) -> set[str]:
@@ -301,7 +282,9 @@ class Explainer:
         repairs of the claim that is quickest to compute are given. An input that is doubted only
         because of the claims that rest on it says no more than they do.
         """
-        names = [name for name in names if not self._is_only_shown(name)]
+        claims = self.ledger.claims
+        doubted = {c.id for c in claims.values() if c.computation is None and c.shown_by}
+        names = [name for name in names if name not in doubted]
         if not names:
             return []
         quickest = min(names, key=self._cost)
@@ -310,25 +293,17 @@ class Explainer:
         repairs = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
-    def _is_only_shown(self, name: str) -> bool:
-        claim = self.ledger.claims.get(name)
-        return claim is not None and claim.computation is None and bool(claim.shown_by)
-
     def _cost(self, name: str) -> tuple[int, str]:
         """How long a claim takes to compute: whole sheets last, repetitions first."""
-        if name in self.ledger.equations:
-            return 2, name
-        claim = self.ledger.claims[name]
-        if claim.computation is None or claim.computation.restates:
-            return 0 if claim.within is None else 2, name
+        claim = self.ledger.claims.get(name)
+        if claim is None or claim.computation is None or claim.computation.restates:
+            return 2 if equation_of(self.ledger, name) else 0, name
         return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.row is None), name
 
-    def culprit(self, names: Collection[str]) -> CulpritRecord | None:
+    def culprit(self, names: Collection[str]) -> RepairRecord | None:
         """The one repair that makes everything agree that fails, if there is one."""
         repairs = self.ranked(names) if len(names) > 1 else []
-        if not repairs or repairs[0].failing:
-            return None
-        return CulpritRecord(repair=repairs[0], explains=list(names))
+        return repairs[0] if repairs and not repairs[0].failing else None
 
     # Slips
 
@@ -359,3 +334,153 @@ _BUDGET = 250
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""
+
+
+# Texts that are one slip of a typist away from a printed number or equation
+
+EQUATION_EDITS = (
+    "number dropped",
+    "symbol changed",
+    "sign changed",
+    "function changed",
+    "fraction turned over",
+)
+"""Kinds of edits of an equation; its numbers are claims, with edits of their own."""
+
+_LEADING_ZERO = re.compile(r"~?\s*0\d")
+_EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
+
+
+def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
+    """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
+    text = ledger.printed_text(name)
+    if name in ledger.equations:
+        return equation_edits(text, ledger.written, ledger.dimensions)
+    return edits(text) if ledger.claims[name].printed is not None else iter(())
+
+
+def edits(text: str) -> Iterator[tuple[str, str]]:
+    """Every text one edit of a number away that is another, with the edit's kind; none twice.
+
+    The base of a power of ten is no digit, and no number begins with a zero before a digit.
+
+    >>> [text for text, kind in edits("0.278") if kind in ("digits swapped", "digit doubled")]
+    ['2.078', '0.728', '0.287', '0.2278', '0.2778', '0.2788']
+    >>> [text for text, kind in edits("3E+08") if kind == "exponent changed"]
+    ['3E+07', '3E+09', '3E-08']
+    """
+    seen = {text}
+    original = _number(text)
+    for kind, edit in _EDITS.items():
+        for edited in edit(text):
+            if edited in seen or _LEADING_ZERO.match(edited):
+                continue
+            seen.add(edited)
+            if _number(edited) not in (None, original):
+                yield edited, kind
+
+
+def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
+    """The value of a text and the places that its last digit may have, if it is a number."""
+    try:
+        printed = parse(text)
+    except ValueError:
+        return None
+    return printed.value, printed.quanta
+
+
+def _digits(text: str) -> list[int]:
+    """Where the digits of the mantissa stand; an exponent has edits of its own."""
+    power = _EXPONENT.search(text)
+    return [k for k, c in enumerate(text) if c.isdigit() and (power is None or k < power.start())]
+
+
+def _swapped(text: str) -> Iterator[str]:
+    for here, there in pairwise(_digits(text)):
+        between = text[here + 1 : there]
+        if between in ("", "."):
+            yield text[:here] + text[there] + between + text[here] + text[there + 1 :]
+
+
+def _shifted(text: str) -> Iterator[str]:
+    """The exponent one less and one more, written as wide as it was, or its sign turned."""
+    for match in _EXPONENT.finditer(text):
+        number = match["number"]
+        for exponent in (int(number) - 1, int(number) + 1, -int(number)):
+            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and exponent >= 0 else ""
+            width = len(number.lstrip("+-")) + len(sign or "-" * (exponent < 0))
+            shown = f"{sign}{exponent:0{width - len(sign)}d}"
+            yield text[: match.start("number")] + shown + text[match.end("number") :]
+
+
+_WORDS = ("one two three four five", "third half", "one-sixth one-fifth", "twice thrice")
+
+
+def _words(text: str) -> Iterator[str]:
+    own = text.lower()
+    others = (w for words in map(str.split, _WORDS) if own in words for w in words if w != own)
+    return (word.capitalize() if text[0].isupper() else word for word in others)
+
+
+_EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {
+    "digit dropped": lambda text: (text[:k] + text[k + 1 :] for k in _digits(text)),
+    "digits swapped": _swapped,
+    "decimal point moved": lambda text: (
+        re.sub(r"(?<=.)(\d)\.", r".\1", text), re.sub(r"\.(\d)", r"\1.", text),
+    ),
+    "exponent changed": _shifted,
+    "other word": _words,
+    "digit doubled": lambda text: (text[:k] + text[k] + text[k:] for k in _digits(text)),
+    "digit changed": lambda text: (
+        text[:k] + digit + text[k + 1 :] for k in _digits(text) for digit in digits
+    ),
+    "digit inserted": lambda text: (
+        text[:end] + digit + text[end:]
+        for end in sorted({end for k in _digits(text) for end in (k, k + 1)})
+        for digit in digits
+    ),
+}  # fmt: skip
+NUMBER_EDITS = tuple(_EDITS)
+"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
+
+
+def equation_edits(
+    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
+) -> Iterator[tuple[str, str]]:
+    r"""Every equation one edit away, with the kind of the edit.
+
+    `written` maps what the report writes to a symbol's name; a symbol is mistaken for another of
+    the same dimension.
+
+    >>> from reference.ledger import load
+    >>> ledger = load()
+    >>> [text for text, kind in equation_edits("D = 2R", ledger.written, ledger.dimensions)
+    ...  if kind == "number dropped"]
+    ['D = R']
+    """
+    edits: dict[str, str] = {}
+    symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
+    tokens = re.compile(
+        rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
+    )
+    for match in tokens.finditer(text):
+        token, mistaken = match[0], []
+        if match["number"]:
+            mistaken = [("", "number dropped")]
+        elif token in _OPPOSITE:
+            kind = "sign changed" if match["sign"] else "function changed"
+            mistaken = [(_OPPOSITE[token], kind)]
+        elif match["symbol"]:
+            own = written[token]
+            mistaken = [(symbol, "symbol changed") for symbol, name in written.items()
+                        if name != own and dimensions[name] == dimensions[own]]  # fmt: skip
+        for instead, kind in mistaken:
+            edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
+    for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
+        turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
+        edits.setdefault(turned, "fraction turned over")
+    edits.pop(text, None)
+    return iter(edits.items())
+
+
+_OPPOSITE = {"+": "-", "-": "+", r"\ln": r"\log", r"\log": r"\ln"}

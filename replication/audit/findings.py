@@ -1,33 +1,37 @@
-"""The evidence of every finding, computed anew from the ledger, the verdicts and the models."""
+"""The findings: the evidence of each, computed anew from the ledger, the verdicts and the models.
+
+What arithmetic gives is a formula of `reference/report/findings.toml`; here is what takes a proof,
+a model or a search: for each finding a function of the same name.
+"""
 
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from statistics import NormalDist
 from typing import Any
 
 from reference import findings as asserted
-from reference.arithmetic import Number
+from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
+from reference.entries import Source
+from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
-from reference.printed import Interval
 from reference.units import to_si
 from replication.audit import record as r
 from replication.audit import wording
 from replication.audit.explain import Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
-from replication.models import crater, depth, frank_zook, resistance, sheet, stream
+from replication.models import crater, depth, frank_zook, sheet
 from replication.models.impact import Impact
 
-Evidence = Mapping[str, Fraction | float | bool]
-"""Evidence by name, in SI units."""
+Value = Fraction | float | bool
+"""Of a piece of evidence: a number in SI units, or whether something was proven."""
 
 _DENSITY = INFERRED + "target-density"
-_DERIVED = "derived from Eqs. 14 and 15"
-_MEAN_DEVIATION = math.sqrt(2 / math.pi)
-"""Mean absolute deviation of a normal distribution over its standard deviation."""
+_READINGS = {"computed": "", "derived": "derived from Eqs. 14 and 15"}
+_DERIVED = _READINGS["derived"]
 
 
 class Known:
@@ -40,6 +44,7 @@ class Known:
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)
+        self.admitted = cache(self._admitted)
 
     def _assess(self, claim: Claim) -> Assessment:
         """The verdict on one claim, and why."""
@@ -68,15 +73,25 @@ class Known:
 
     def sources(self, claim: Claim) -> list[r.SourceRecord]:
         """The public sources for a claim, and whether each agrees with it."""
-        return [
-            r.filled(r.SourceRecord, source, agrees=claim.target().meets(source.interval))
-            for source in self.ledger.sources.values()
-            if claim.id in source.claims
-        ]
 
-    def target(self, claim: str) -> Interval:
-        """What agrees with a claim, in SI."""
-        return self.ledger.claims[claim].target()
+        def outcome(source: Source) -> str:
+            return "agrees" if claim.target().meets(source.interval) else "differs"
+
+        return self._sources(claim.id, outcome)
+
+    def _admitted(self, name: str) -> list[r.SourceRecord]:
+        """The public sources for an inferred input, and what its evidence says of each."""
+        admits = self.judge.inference(name).admits
+        return self._sources(name, lambda s: f"is {admits(s.value, s.interval)}")
+
+    def _sources(self, name: str, outcome: Callable[[Source], str]) -> list[r.SourceRecord]:
+        agreeing = ("agrees", "is admitted")
+        return [
+            r.filled(r.SourceRecord, source, agrees=said in agreeing, outcome=said)
+            for source in self.ledger.sources.values()
+            if name in source.claims
+            for said in [outcome(source)]
+        ]
 
     def exact(self, name: str) -> Fraction:
         """A claim as printed, an inferred input as assumed, or a source's number, in SI."""
@@ -94,12 +109,8 @@ class Known:
                 return reading
         raise ArithmeticError(f"{claim} has no value")
 
-    def computed(self, claim: str, reading: str = "") -> float:
-        """What a reading makes of a claim, in SI."""
-        return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
 
-
-def case(known: Known, beta: int, **changed: float) -> Impact:
+def case(known: Known, beta: int, /, **changed: float) -> Impact:
     """One of the report's two cases, with some inputs changed (SI)."""
     inputs = {name: known[claim] for name, claim in claims_of_case(beta).items()}
     if "resistance" in changed:
@@ -112,15 +123,99 @@ def exact_ratio(impact: Impact) -> float:
     return depth.final_depth(**impact.motion) / impact.radius
 
 
-def _headline(known: Known) -> Evidence:
+class Evidence:
+    """The evidence of one finding, each piece computed when it is asked for."""
+
+    def __init__(self, known: Known, finding: asserted.Finding) -> None:
+        self.known, self.finding = known, finding
+        self.value = cache(self._value)
+
+    @cached_property
+    def proven(self) -> Mapping[str, Value]:
+        """What the function of the finding's name computes."""
+        compute: Callable[[Evidence], Mapping[str, Value]]
+        compute = globals()[f"_{self.finding.id.replace('-', '_')}"]
+        return compute(self)
+
+    def __getitem__(self, name: str) -> float:
+        """A value by its name in a formula, as a double."""
+        return float(self.value(name))
+
+    def _value(self, name: str) -> Value:
+        """What stands for a name: evidence, an entry, an end of its print, what a reading gives."""
+        known, assertion = self.known, self.finding.evidence.get(name)
+        entry, _, part = name.partition(".")
+        if assertion is not None and assertion.formula:
+            return self.calculated(assertion.formula)
+        if assertion is not None and assertion.exact:
+            changed = {key: float(self.calculated(x)) for key, x in assertion.exact.items()}
+            return exact_ratio(case(known, 5, **changed))
+        if assertion is not None and assertion.words:
+            return Fraction(" ".join(known.ledger.text.split()).count(assertion.words))
+        if part in _READINGS:
+            reading = known.reading(entry, _READINGS[part])
+            return reading.computed * float(known.ledger.claims[entry].si)
+        if part:
+            ends = known.ledger.claims[entry].target().ends
+            return ends[("least", "greatest").index(part)]
+        is_entry = assertion is None and (name in known.ledger.claims or INFERRED in name)
+        return known.exact(name) if is_entry or name in known.ledger.sources else self.proven[name]
+
+    def calculated(self, formula: str) -> Fraction | float:
+        """The value of a formula, exact until a logarithm or a root is taken."""
+        node, names = asserted.expression(formula)
+        value: Fraction | float = evaluate(
+            node, _Exact(), {name: self.value(name) for name in names}
+        )
+        return value
+
+    def record(self) -> r.FindingRecord:
+        """The finding with its evidence, as asserted and as computed."""
+        evidence = [self._piece(name, own) for name, own in self.finding.evidence.items()]
+        return r.filled(
+            r.FindingRecord,
+            self.finding,
+            claims=list(self.finding.claims),
+            holds=all(piece.holds for piece in evidence) and all(self.finding.steps.values()),
+            evidence=evidence,
+        )
+
+    def _piece(self, name: str, assertion: asserted.Assertion) -> r.EvidenceRecord:
+        value: Value | None
+        try:
+            value = self.value(name)
+            if not isinstance(value, bool):
+                value = Fraction(value) / to_si(assertion.unit)
+        except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
+            value = None
+        return r.filled(
+            r.EvidenceRecord,
+            assertion,
+            name=name,
+            asserted=assertion.says,
+            computed=float(value) if isinstance(value, Fraction) else value,
+            holds=value is not None and assertion.holds(value),
+        )
+
+
+class _Exact(Arithmetic):
+    """Fractions until a logarithm or a root is taken, then doubles."""
+
+    pi, number = math.pi, Fraction
+    log, power = staticmethod(math.log), staticmethod(math.pow)
+
+
+def _headline(own: Evidence) -> Mapping[str, Value]:
+    known = own.known
     claims = known.ledger.claims
     model = [c for c in claims.values() if c.cell and c.computation and not c.computation.restates]
     model += [claims[f"{what}-beta-{beta}"] for what in ("depth", "ratio") for beta in (3, 5)]
     pair = [claims[f"frank-zook-{name}"] for name in ("rha", "stainless")]
+    greatest = own.value("frank-zook-stainless.greatest") / own.value("frank-zook-rha.least")
     return {
         "model": all(known.assessment(c).verdict is Verdict.REPRODUCED for c in model),
         "pair": all(known.assessment(c).verdict is Verdict.NOT_REPRODUCED for c in pair),
-        "together": _least_ratio(known, choices_exact=False) <= _printed_ratio(known)[1],
+        "together": _least_ratio(known, choices_exact=False) <= greatest,
         "factor": _factor(known),
     }
 
@@ -132,34 +227,6 @@ def _factor(known: Known) -> Fraction:
     """Derived right side of Eq. 16 over the printed one; 0 where that is no number."""
     factor = known.equation("eq16").factor
     return Fraction(0) if factor is None else 1 / factor
-
-
-def _drag(known: Known) -> float:
-    """k_t rho_t V^2 [Pa] at the inputs as printed."""
-    return known["fz-kt"] * known[_DENSITY] * known["a1-initial-velocity"] ** 2
-
-
-def _inertia(known: Known) -> float:
-    """L/D rho_p/rho_t + k_1 [1]."""
-    ratio = known["sphere-length-ratio"] * known["a1-density"] / known[_DENSITY]
-    return ratio + known["fz-k1"]
-
-
-def _derived(known: Known, strength: float, length_ratio: float | None = None) -> float:
-    """X/R [1] from Eqs. 14 and 15."""
-    ratio = known["sphere-length-ratio"] if length_ratio is None else length_ratio
-    particle, target, k_1, k_t = (
-        known[name] for name in ("a1-density", _DENSITY, "fz-k1", "fz-kt")
-    )
-    velocity = known["a1-initial-velocity"]
-    return frank_zook.depth_derived(ratio, particle, target, k_1, k_t, strength, velocity)
-
-
-def _printed_ratio(known: Known) -> tuple[Fraction, Fraction]:
-    """Least and greatest ratio of two numbers that print like the report's pair."""
-    low, high = known.target("frank-zook-rha").ends
-    least, greatest = known.target("frank-zook-stainless").ends
-    return least / high, greatest / low
 
 
 def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
@@ -187,71 +254,47 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     return enclose(ratio, box).ends[0]
 
 
-def _frank_zook_pair(known: Known) -> Evidence:
-    z = _drag(known)
-    armor, stainless = (known[f"fz-resistance-{name}"] for name in ("rha", "stainless"))
-    nominal = math.log1p(z / stainless) / math.log1p(z / armor)
-    printed = known.exact("frank-zook-stainless") / known.exact("frank-zook-rha")
+def _frank_zook_pair(own: Evidence) -> Mapping[str, Value]:
     return {
-        "falls": 1 - known.exact("fz-resistance-stainless") / known.exact("fz-resistance-rha"),
-        "least": _least_ratio(known, choices_exact=True) - 1,
-        "least_rounded": _least_ratio(known, choices_exact=False) - 1,
-        "nominal": nominal - 1,
-        "printed": printed - 1,
-        "most": _printed_ratio(known)[1] - 1,
-        "z": z,
+        "least": _least_ratio(own.known, choices_exact=True) - 1,
+        "least_rounded": _least_ratio(own.known, choices_exact=False) - 1,
     }
 
 
-def _equation_16(known: Known) -> Evidence:
-    (must,) = known.equation("eq16").constants["eq16-denominator"].needed
-    ratios = {
-        f"{form}_{name}": known.computed(f"frank-zook-{name}", reading)
-        for form, reading in (("printed", ""), ("derived", _DERIVED))
-        for name in ("rha", "stainless")
-    }
-    observed = known["observed-depth-ratio"]
-    return ratios | {
-        "factor": _factor(known),
-        "must": Fraction(must),
-        "above_rha": known["frank-zook-rha"] / ratios["derived_rha"] - 1,
-        "below_stainless": 1 - known["frank-zook-stainless"] / ratios["derived_stainless"],
-        "far_printed": observed - ratios["printed_rha"],
-        "far_cth": known.exact("cth-ratio") - known.exact("observed-depth-ratio"),
-        "far_derived": observed - ratios["derived_rha"],
-    }
+def _equation_16(own: Evidence) -> Mapping[str, Value]:
+    (must,) = own.known.equation("eq16").constants["eq16-denominator"].needed
+    return {"factor": _factor(own.known), "must": Fraction(must)}
 
 
-def _frank_zook_values(known: Known) -> Evidence:
-    rha, strength = (
-        known.ledger.claims[name] for name in ("frank-zook-rha", "fz-resistance-stainless")
+def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
+    known = own.known
+    rha, stainless, strength = (
+        known.ledger.claims[name]
+        for name in ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
     )
     exact, rounded = (
-        [j for j in known.reading("frank-zook-stainless", _DERIVED).judgements
+        [j for j in known.reading(stainless.id, _DERIVED).judgements
          if j.convention.choices_exact is choices_exact]
         for choices_exact in (True, False)
     )  # fmt: skip
-    assert strength.printed is not None
-    grid = strength.printed.quantum * strength.si
-    nearest = min(
-        (grid * k for k in range(1, 200)),
-        key=lambda r_t: abs(_derived(known, float(r_t)) - known["observed-depth-ratio"]),
-    )
-    derived = known.computed("frank-zook-stainless", _DERIVED)
+    inputs = {key: known[name] for key, (name,) in stainless.inputs.items()}
+
+    def distance(resistance: Fraction) -> float:
+        depth = frank_zook.depth_derived(**{**inputs, "resistance": float(resistance)})
+        return abs(depth - known["observed-depth-ratio"])
+
+    grid = strength.number.quantum * strength.si
+    exponent = round(own["derived"], 3) * known["fz-kt"] / own["inertia"]
     return {
-        "derived": derived,
-        "off": derived / known["frank-zook-stainless"] - 1,
         "least_exact": min(j.lower for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
-        "needed": _needed(known, "stainless", "fz-resistance-stainless"),
+        "needed": _needed(known, stainless, strength.id),
         "grid": grid,
-        "nearest": nearest,
-        "next": _derived(known, float(nearest)),
+        "nearest": min((grid * k for k in range(1, 200)), key=distance),
         "least_admitted": _least_admitted(known),
-        "back": _resistance_for(known, derived, 3),
-        "rha_resistance": _needed(known, "rha", "fz-resistance-rha"),
-        "rha_velocity": _needed(known, "rha", "a1-initial-velocity"),
-        "rha_derived": known.computed("frank-zook-rha", _DERIVED),
+        "back": own["z"] / math.expm1(exponent),
+        "rha_resistance": _needed(known, rha, "fz-resistance-rha"),
+        "rha_velocity": _needed(known, rha, "a1-initial-velocity"),
         "never": all(
             j.verdict is Verdict.NOT_REPRODUCED
             for reading in known.assessment(rha).readings
@@ -259,8 +302,6 @@ def _frank_zook_values(known: Known) -> Evidence:
             if j.convention.choices_exact
         ),
         "slips": not any(slip.fits for slip in known.explainer.slips(rha)),
-        "inertia": _inertia(known),
-        "z": _drag(known),
     }
 
 
@@ -276,101 +317,54 @@ def _least_admitted(known: Known) -> Fraction:
     return enclose(known.ledger.function(claim, reading=_DERIVED), box).ends[0]
 
 
-def _resistance_for(known: Known, ratio: float, digits: int) -> float:
-    """R_t [Pa] at which Eqs. 14 and 15 give a depth X/R, rounded to some decimals."""
-    exponent = round(ratio, digits) * known["fz-kt"] / _inertia(known)
-    return _drag(known) / math.expm1(exponent)
-
-
-def _needed(known: Known, which: str, entry: str) -> float:
+def _needed(known: Known, claim: Claim, entry: str) -> float:
     """The middle of the values of an entry with which the derived form gives the number."""
-    claim = known.ledger.claims[f"frank-zook-{which}"]
     inner = known.explainer.solutions(claim, _DERIVED, entry).inner
     if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
     return float(sum(inner[0])) / 2
 
 
-def _two_resistances(known: Known) -> Evidence:
-    low, high = (case(known, beta).target_resistance for beta in (3, 5))
-    return {
-        "fz_low": _derived(known, low),
-        "fz_high": _derived(known, high),
-        "low": low,
-        "high": high,
-        "model_stainless": exact_ratio(case(known, 5, resistance=known["fz-resistance-stainless"])),
-        "model_rha": exact_ratio(case(known, 5, resistance=known["fz-resistance-rha"])),
-        "inertia": _inertia(known),
-        "z": _drag(known),
-    }
-
-
-def _sphere_equivalent(known: Known) -> Evidence:
-    long = known["circumscribed-length-ratio"]
-    return {
-        "ratio": known.exact("sphere-length-ratio") / known.exact("circumscribed-length-ratio"),
-        "long_rha": _derived(known, known["fz-resistance-rha"], long),
-        "long_stainless": _derived(known, known["fz-resistance-stainless"], long),
-    }
-
-
 # The sheet
 
 
-def _target_density(known: Known) -> Evidence:
+def _target_density(own: Evidence) -> Mapping[str, Value]:
+    known = own.known
     inference = known.judge.inference(_DENSITY)
-    (least, greatest), (possible_least, possible_greatest) = (
-        interval.ends for interval in (inference.inner, inference.admitted(Convention())[1])
-    )
-    centered = known.judge.inference(_DENSITY, centered=True).inner.ends
-    sources = known.ledger.sources
-    said = {name: inference.admits(sources[name].value, sources[name].interval)
-            for name in ("304-density-793", "304-density-mill", "304-density-kinslow",
-                         "carbon-steel-density")}  # fmt: skip
+    centered = known.judge.inference(_DENSITY, centered=True)
+    ranges = {
+        "": inference.inner,
+        "possible_": inference.admitted(Convention())[1],
+        "centered_": centered.inner,
+    }
+    ends = {f"{name}{which}": end
+            for name, interval in ranges.items()
+            for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
+    said = {source.id: source.outcome.removeprefix("is ") for source in known.admitted(_DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
-    return {
-        "least": least,
-        "greatest": greatest,
-        "possible_least": possible_least,
-        "possible_greatest": possible_greatest,
-        "centered_least": centered[0],
-        "centered_greatest": centered[1],
+    return ends | {
         "mass_greatest": inference.with_mass.ends[1],
-        "assumed": known.exact(_DENSITY),
-        "edge": known.target("a1-deceleration-1").ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
         "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",
         "kinslow": said["304-density-kinslow"] == "admitted only if the other inputs are rounded",
         "depths": all(reading.verdict is Verdict.REPRODUCED for reading in depths),
-        "mass": case(known, 5).mass,
         "all": not inference.odd,
     }
 
 
-def _two_schemes(known: Known) -> Evidence:
-    evidence: dict[str, float | bool] = {}
-    steps = {"fine": known["a-step"], "coarse": known["coarse-step"]}
+def _two_schemes(own: Evidence) -> Mapping[str, Value]:
+    known = own.known
+    evidence: dict[str, Value] = {}
     for beta in (3, 5):
-        exact = depth.final_depth(**case(known, beta).motion)
-        middle, plain = (
-            {size: sheet.run(case(known, beta, step=step), scheme).final_depth
-             for size, step in steps.items()}
-            for scheme in ("centered", "published")
-        )  # fmt: skip
-        evidence |= {f"middle_{size}_{beta}": value for size, value in middle.items()}
-        evidence |= {f"plain_{size}_{beta}": value for size, value in plain.items()}
-        evidence |= {
-            f"exact_{beta}": exact,
-            f"short_{beta}": exact - plain["fine"],
-            f"coarse_short_{beta}": exact - plain["coarse"],
-            f"nm_{beta}": plain["fine"] - plain["coarse"],
-            f"change_{beta}": 1 - plain["coarse"] / plain["fine"],
-        }
+        evidence[f"exact_{beta}"] = depth.final_depth(**case(known, beta).motion)
+        for size, step in (("fine", known["a-step"]), ("coarse", known["coarse-step"])):
+            for name, scheme in (("plain", "published"), ("middle", "centered")):
+                run = sheet.run(case(known, beta, step=step), scheme)
+                evidence[f"{name}_{size}_{beta}"] = run.final_depth
     row, row_plain, row_middle = _first_difference(known)
     table = [c for c in known.ledger.claims.values() if c.cell and c.by_scheme]
     return evidence | {
-        "middle_change_5": 1 - middle["coarse"] / middle["fine"],
-        "reprinted": Fraction(f"{plain['coarse']:.2e}"),
+        "reprinted": Fraction(f"{evidence['plain_coarse_5']:.2e}"),
         "middle_density": _middle_density(known),
         "row": Fraction(row),
         "row_plain": row_plain,
@@ -424,116 +418,34 @@ def _order(known: Known, scheme: str) -> float:
     return math.log2(errors[0] / errors[1])
 
 
-def _table_columns(known: Known) -> Evidence:
-    x, v = 0.0, known["a1-initial-velocity"]
-    impact = case(known, 5)
+def _table_columns(own: Evidence) -> Mapping[str, Value]:
+    impact = case(own.known, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
+    x, v = 0.0, impact.velocity
     for row in range(3):
         x += v * impact.step * (1 if row else 0.5)
         v += sheet.deceleration(x, v, *fixed) * impact.step
-    return {
-        "exact": known["a1-initial-velocity"] * known["a1-time-1"],
-        "plus": v,
-        "minus": known.computed("a1-velocity-final-3"),
-    }
+    return {"plus": v}
 
 
 # Strengths
 
 
-def _pressure_for(known: Known, y: float) -> float:
+def _observed_beta(own: Evidence) -> Mapping[str, Value]:
     """p = rho_t V^2 / 2 R_t at which the exact X/R is y <= 1: y^2 - y^3/3 = c."""
-    return math.expm1(crater.volume_ratio(y) * known[_DENSITY] / known["a1-density"])
+    density = own[_DENSITY] / own["a1-density"]
+    depths = {"p": "observed-ratio", "p_least": "observed-ratio.least",
+              "p_greatest": "observed-ratio.greatest"}  # fmt: skip
+    return {p: math.expm1(crater.volume_ratio(own[y]) * density) for p, y in depths.items()}
 
 
-def _dynamic_pressure(known: Known) -> float:
-    return known[_DENSITY] * known["a1-initial-velocity"] ** 2 / 2
+def _strengths(own: Evidence) -> Mapping[str, Value]:
+    between = own["strength-clear"] < own["flow-stress"] < own["strength-feathery"]
+    return {"between": between, "ksi": to_si("ksi")}
 
 
-def _observed_beta(known: Known) -> Evidence:
-    y, (least, greatest) = known["observed-ratio"], known.target("observed-ratio").ends
-    shallow, needed, deep = (
-        _dynamic_pressure(known) / _pressure_for(known, x)
-        for x in (float(least), y, float(greatest))
-    )
-    return {
-        "beta": needed / known["flow-stress"],
-        "resistance": needed,
-        "beta_least": deep / known["flow-stress"],
-        "beta_greatest": shallow / known["flow-stress"],
-        "velocity": known["a1-initial-velocity"]
-        * math.sqrt(case(known, 5).target_resistance / needed),
-        "p": _pressure_for(known, y),
-        "left": y**2 - y**3 / 3,
-    }
-
-
-def _beta_and_flow_stress(known: Known) -> Evidence:
-    modulus, stress = known["elastic-modulus"], known["flow-stress"]
-    alpha = resistance.walker_anderson_alpha(modulus, stress)
-    beta = resistance.walker_anderson_beta(alpha)
-    return {
-        "alpha": alpha,
-        "beta": beta,
-        "resistance": beta * stress,
-        "ratio": exact_ratio(case(known, 5, resistance=beta * stress)),
-        "cavity_bulk": 2 / 3 + 2 * math.log(known.computed("walker-anderson-alpha")),
-        "cavity": 2 / 3 + 2 * math.log(alpha),
-        "cube": 2 * modulus / (3 * stress),
-    }
-
-
-def _strengths(known: Known) -> Evidence:
-    feathery, clear = known.exact("strength-feathery"), known.exact("strength-clear")
-    tensile = known.exact("a240-tensile")
-    return {
-        "feathery": feathery,
-        "clear": clear,
-        "choice": known.exact("flow-stress"),
-        "between": clear < known.exact("flow-stress") < feathery,
-        "like": clear / tensile,
-        "like_most": feathery / tensile,
-        "unlike": clear / known.exact("strength-bulk"),
-        "bulk": known.exact("strength-bulk"),
-        "ksi": to_si("ksi"),
-    }
-
-
-def _rigid_strength(known: Known) -> Evidence:
-    copper, pressure = known["copper-yield"], _dynamic_pressure(known)
-    sigma_3, sigma_5 = (
-        resistance.centerline_stress(
-            known[_DENSITY], known["a1-initial-velocity"], case(known, beta).target_resistance
-        )
-        for beta in (3, 5)
-    )
-    static = known["copper-johnson-cook"] + known["copper-johnson-cook-hardening"]
-    fast = static * (1 + known["copper-johnson-cook-rate"] * math.log(known["strain-rate"]))
-    return {
-        "sigma_5": sigma_5,
-        "sigma_3": sigma_3,
-        "multiple_5": sigma_5 / copper,
-        "multiple_3": sigma_3 / copper,
-        "pressure": pressure,
-        "fast": fast,
-        "short_5": sigma_5 / fast,
-        "short_3": sigma_3 / fast,
-    }
-
-
-def _inertia_term(known: Known) -> Evidence:
-    evidence: dict[str, float] = {}
-    for beta in (3, 5):
-        impact = case(known, beta)
-        evidence[f"pressed_{beta}"] = pressed = constant_pressure_ratio(impact)
-        evidence[f"exact_{beta}"] = exact = depth.normalized_depth(
-            impact.velocity, impact.particle_density, impact.target_density,
-            impact.target_resistance,
-        )  # fmt: skip
-        evidence[f"price_{beta}"] = 1 - exact / pressed
-    energy = known["a1-density"] * known["a1-initial-velocity"] ** 2 / 2
-    evidence["work"] = energy / case(known, 5).target_resistance
-    return evidence
+def _inertia_term(own: Evidence) -> Mapping[str, Value]:
+    return {f"pressed_{b}": constant_pressure_ratio(case(own.known, b)) for b in (3, 5)}
 
 
 def constant_pressure_ratio(impact: Impact) -> float:
@@ -546,92 +458,33 @@ def constant_pressure_ratio(impact: Impact) -> float:
     return crater.depth_from_volume_ratio(ratio) if ratio <= 0.5 else (1 + 4 * ratio) / 3
 
 
-def _unlike_strengths(known: Known) -> Evidence:
-    steel, code = known["autodyne-steel-yield"], known["autodyne-ratio"]
-    evidence: dict[str, float] = {}
-    for name, beta in (("low", 3), ("high", 5)):
-        ratio = exact_ratio(case(known, 5, resistance=known[f"depth-beta-{beta}-beta"] * steel))
-        evidence |= {name: ratio, f"times_{name}": ratio / code}
-    return evidence
+def _cth_pressure(own: Evidence) -> Mapping[str, Value]:
+    def pressure(name: str, density: str, u: float) -> float:
+        return (
+            own[density] * (own[f"{name}-hugoniot-speed"] + own[f"{name}-hugoniot-slope"] * u) * u
+        )
 
-
-def _autodyne_cells(known: Known) -> Evidence:
-    cell = known.exact("autodyne-least-length") / (known.exact("autodyne-diameter") / 2)
-    return {"cell": cell, "cells": known.exact("autodyne-ratio") / cell}
-
-
-def _cth_pressure(known: Known) -> Evidence:
-    speeds = {name: known[f"{name}-hugoniot-speed"] for name in ("copper", "304")}
-    slopes = {name: known[f"{name}-hugoniot-slope"] for name in ("copper", "304")}
-    densities = {"copper": known["a1-density"], "304": known["304-density-kinslow"]}
-
-    def pressure(name: str, u: float) -> float:
-        return densities[name] * (speeds[name] + slopes[name] * u) * u
-
-    low, high = 0.0, known["cth-velocity"]
+    low, high = 0.0, own["cth-velocity"]
     for _ in range(60):
         middle = (low + high) / 2
-        stiffer = pressure("304", middle) < pressure("copper", known["cth-velocity"] - middle)
+        steel = pressure("304", "304-density-kinslow", middle)
+        stiffer = steel < pressure("copper", "a1-density", own["cth-velocity"] - middle)
         low, high = (middle, high) if stiffer else (low, middle)
-    radius = known["cth-diameter"] / 2
-    return {
-        "shock": pressure("304", low),
-        "interface": low,
-        "times": pressure("304", low) / known["cth-pressure"],
-        "time": radius / speeds["copper"],
-        "flow_low": _dynamic_pressure(known) + case(known, 3).target_resistance,
-        "flow_high": _dynamic_pressure(known) + case(known, 5).target_resistance,
-    }
+    return {"shock": pressure("304", "304-density-kinslow", low), "interface": low}
 
 
 # Craters and the stream
 
 
-def _compared_velocity(known: Known) -> Evidence:
-    speeds = {"first": "velocity-521", "second": "velocity-606", "least": "velocity-403"}
-    return {
-        name: exact_ratio(case(known, 5, velocity=known[claim])) for name, claim in speeds.items()
-    } | {
-        "volume_high": crater.volume_ratio(known["ratio-beta-5"]),
-        "volume_low": crater.volume_ratio(known["ratio-beta-3"]),
-    }
+def _observed_digits(own: Evidence) -> Mapping[str, Value]:
+    ratios = {"line": "volume-ratio-line", "least": "volume-ratio.least",
+              "greatest": "volume-ratio.greatest"}  # fmt: skip
+    return {name: crater.depth_from_volume_ratio(own[ratio]) for name, ratio in ratios.items()}
 
 
-def _observed_digits(known: Known) -> Evidence:
-    line = crater.depth_from_volume_ratio(known["volume-ratio-line"])
-    least, greatest = known.target("volume-ratio").ends
-    depth_ratio = known["profile-depth"] / (known["mean-diameter"] / 2)
-    return {
-        "line": line,
-        "line_depth": line * known["observed-depth-diameter"] / 2,
-        "least": crater.depth_from_volume_ratio(float(least)),
-        "greatest": crater.depth_from_volume_ratio(float(greatest)),
-        "profile": depth_ratio,
-        "profile_volume": crater.volume_ratio(depth_ratio),
-    }
-
-
-def _equation_1_scatter(known: Known) -> Evidence:
-    relative = known["diameter-deviation"] / known["mean-diameter"]
-    velocity = known["a1-initial-velocity"]
-    power = 3 * known.exact("eq1-power")  # the mass goes with the cube of the diameter
-    drag = Fraction(1, 2)  # area over mass goes with one over the diameter
-    ends = {"fast": "particle-size-least", "slow": "particle-size-greatest"}
-    mean = known["mean-diameter"]
-    return {
-        "power": power,
-        "drag_power": drag,
-        "eq1_standard": float(power) * relative * velocity,
-        "eq1_mean": float(power) * relative * velocity * _MEAN_DEVIATION,
-        "drag_standard": float(drag) * relative * velocity,
-        "drag_mean": float(drag) * relative * velocity * _MEAN_DEVIATION,
-        "gaussian": _MEAN_DEVIATION,
-        "drag_exact": _mean_deviation(float(drag), relative) * velocity,
-        **{
-            name: stream.particle_velocity(known["figure-1-velocity"], known[d] ** 3, mean**3)
-            for name, d in ends.items()
-        },
-    }
+def _equation_1_scatter(own: Evidence) -> Mapping[str, Value]:
+    relative = own["diameter-deviation"] / own["mean-diameter"]
+    return {"drag_exact": _mean_deviation(0.5, relative) * own["a1-initial-velocity"]}
 
 
 def _mean_deviation(power: float, relative: float) -> float:
@@ -644,41 +497,14 @@ def _mean_deviation(power: float, relative: float) -> float:
     return float(total / math.fsum(weights))
 
 
-def _faster_particles(known: Known) -> Evidence:
-    deviation = known["velocity-deviation"]
-    above = known["stream-velocity-450"] - known["velocity-403"]
+def _faster_particles(own: Evidence) -> Mapping[str, Value]:
+    """If the deviation that the report states is the standard one, and if it is the mean one."""
+    mean = own["ratio"] * math.sqrt(2 / math.pi)
+    return {"standard": NormalDist().cdf(-own["ratio"]), "mean": NormalDist().cdf(-mean)}
+
+
+def _wrong_reference(own: Evidence) -> Mapping[str, Value]:
     return {
-        "standard": NormalDist(0, deviation).cdf(-above),
-        "mean": NormalDist(0, deviation / _MEAN_DEVIATION).cdf(-above),
-        "ratio": above / deviation,
+        "stress": "Sigma" in own.known.ledger.printed_text("eq1"),
+        "follows": own.known.equation("eq6").verdict is Verdict.REPRODUCED,
     }
-
-
-# Words
-
-
-def _times(known: Known, words: str) -> Fraction:
-    """How often the report says so, line breaks aside."""
-    return Fraction(" ".join(known.ledger.text.split()).count(words))
-
-
-def _minimum_velocity(known: Known) -> Evidence:
-    return {
-        "section_2": _times(known, "be higher than 403 m/s, but less than 521 m/s"),
-        "section_4": _times(known, "suggesting that only faster-than-average particles were"),
-    }
-
-
-def _wrong_reference(known: Known) -> Evidence:
-    return {
-        "stress": "Sigma" in known.ledger.printed_text("eq1"),
-        "follows": known.equation("eq6").verdict is Verdict.REPRODUCED,
-        "times": _times(known, "equation 1 reduces"),
-        "caption": _times(known, "500-m/s steel"),
-    }
-
-
-EVIDENCE: Mapping[str, Callable[[Known], Evidence]] = {
-    finding: globals()[f"_{finding.replace('-', '_')}"] for finding in asserted.load()
-}
-"""The evidence of every finding: of `equation-16`, what the function `_equation_16` computes."""

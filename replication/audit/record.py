@@ -9,6 +9,8 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from reference.entries import Report
+
 SCHEMA = "coldspray-audit-2"
 """Name and version of the record's keys."""
 
@@ -67,7 +69,6 @@ class BackSolvedRecord(_Part, frozen=True):
     search: tuple[float, float]
     search_reason: str
     proof: str
-    prints_alike: bool
 
 
 class RepairRecord(_Part, frozen=True):
@@ -92,7 +93,7 @@ class SlipRecord(_Part, frozen=True):
 
 
 class SourceRecord(_Part, frozen=True):
-    """A public source beside a claim."""
+    """A public source beside a claim, or an inferred input, and what comes of comparing."""
 
     id: str
     title: str
@@ -101,7 +102,8 @@ class SourceRecord(_Part, frozen=True):
     says: str
     unit: str
     applies: str
-    agrees: bool | None
+    agrees: bool
+    outcome: str
 
 
 class Figure(_Part, frozen=True):
@@ -164,13 +166,6 @@ class ClaimRecord(_Part, frozen=True):
     workbook: str | None
 
 
-class CheckRecord(_Part, frozen=True):
-    """One check of an equation."""
-
-    says: str
-    holds: bool
-
-
 class ConstantRecord(_Part, frozen=True):
     """A constant of an equation: the verdict, and the values that would pass every check."""
 
@@ -192,7 +187,6 @@ class EquationRecord(_Part, frozen=True):
     follows_from: str
     verdict: str
     factor: str | None
-    checks: list[CheckRecord]
     constants: list[ConstantRecord]
     explanation: str
     repairs: list[RepairRecord]
@@ -227,13 +221,6 @@ class FindingRecord(_Part, frozen=True):
     evidence: list[EvidenceRecord]
 
 
-class HandbookRecord(_Part, frozen=True):
-    """What the evidence says of a public value of an inferred input."""
-
-    source: SourceRecord
-    verdict: str
-
-
 class InferredRecord(_Part, frozen=True):
     """An input that the report never prints, and what its evidence admits; in `unit`."""
 
@@ -246,18 +233,10 @@ class InferredRecord(_Part, frozen=True):
     interval: tuple[float, float]
     interval_exact: tuple[str, str]
     with_printed_mass: tuple[float, float]
-    attained_with_rounded_inputs: tuple[float, float] | None
     possible_with_rounded_inputs: tuple[float, float] | None
     evidence: list[str]
     odd: list[str]
-    sources: list[HandbookRecord]
-
-
-class CulpritRecord(_Part, frozen=True):
-    """One misprint that would explain everything that fails."""
-
-    repair: RepairRecord
-    explains: list[str]
+    sources: list[SourceRecord]
 
 
 class Approach(_Part, frozen=True):
@@ -287,25 +266,21 @@ class Sensitivity(_Part, frozen=True):
     beta: float
     depth: float
     elasticities: dict[str, float]
-    ten_percent: list[Effect]
     stated: list[Effect]
 
 
-class ScatterPoint(_Part, frozen=True):
-    """Velocity and X/R that so many of the particles do not exceed."""
-
-    share: float
-    velocity: float
-    ratio: float
-
-
 class Scatter(_Part, frozen=True):
-    """The stream by one law; deviations of the velocity to first order."""
+    """The stream by one law; deviations of the velocity to first order.
+
+    Velocity and X/R are those that so large shares of the particles do not exceed.
+    """
 
     law: str
     standard_deviation: float
     mean_deviation: float
-    points: list[ScatterPoint]
+    shares: list[float]
+    velocities: list[float]
+    ratios: list[float]
 
 
 class Curve(_Part, frozen=True):
@@ -339,7 +314,7 @@ class Level(_Part, frozen=True):
 
 
 class Counts(_Part, frozen=True):
-    """How many there are: printed numbers, of them computed anew, equations, blank cells.
+    """How many there are: printed numbers, of them computed anew, equations.
 
     `calculations` counts the distinct ones among the reproduced numbers: a value that the report
     prints five times is one of them.
@@ -352,26 +327,22 @@ class Counts(_Part, frozen=True):
     failing: int
     equations: int
     equations_derived: int
-    blank_cells: int
-
-
-class ReportRecord(_Part, frozen=True):
-    """The report that was audited."""
-
-    title: str
-    author: str
-    year: int
 
 
 class Record(_Part, frozen=True):
-    """The finished audit."""
+    """The finished audit.
+
+    `failing`: the claims and equations that contradict what the report prints; `culprit`: the one
+    misprint that would explain all of them, if there is one.
+    """
 
     schema: str
     headline: str
-    report: ReportRecord
+    report: Report
     summary: dict[str, int]
     counts: Counts
-    culprit: CulpritRecord | None
+    culprit: RepairRecord | None
+    failing: list[str]
     claims: list[ClaimRecord]
     equations: list[EquationRecord]
     findings: list[FindingRecord]

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from itertools import product
+from itertools import islice, product
 from math import prod
 from typing import Any
 
-from reference.arithmetic import InexactError, Number, Rationals, Reals
+from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, enclose, explore
 from reference.entries import Equation
 from reference.equations import EquationError, Sides, dimension
@@ -167,51 +167,44 @@ class Judge:
         return Assessment(readings[0].verdict, readings=readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
+        computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
         judgements = tuple(self._judgements(claim, name))
-        reference = self.reference(claim, name) / _REALS.number(claim.si)
-        # With a misprint planted in an equation, the models, which have it right, do not serve.
-        computed = float(reference) if self.ledger.misprinted else self._replica(claim, name)
-        summary = claim.computations[name].summary
+        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
+        reference /= _REALS.number(claim.si)
+        if self.ledger.misprinted:
+            # With a misprint planted in an equation, the models, which have it right, do not serve.
+            computed = float(reference)
+        else:
+            inputs = {key: float(prod(map(self.value, own))) for key, own in claim.inputs.items()}
+            settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
+            if computation.by_scheme:
+                settings["scheme"] = "published"
+            answer = replica(computation.name, inputs, **settings)
+            computed = float(Fraction(answer) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
-        return Reading(name, summary, computed, digits, judgements)
-
-    def reference(self, claim: Claim, name: str = "", *, centered: bool = False) -> Number:
-        """The value of a claim's computation in SI, to 50 digits."""
-        function = self.ledger.function(claim, reading=name, centered=centered)
-        result = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
-        return _REALS.number(result) if isinstance(result, Fraction) else result
-
-    def _replica(self, claim: Claim, name: str) -> float:
-        computation = claim.computations[name]
-        settings: dict[str, object] = {}
-        if computation.by_row:
-            settings["row"] = claim.row
-        if computation.by_scheme:
-            settings["scheme"] = "published"
-        inputs = {
-            key: float(prod(map(self.value, entries))) for key, entries in claim.inputs.items()
-        }
-        return float(Fraction(replica(computation.name, inputs, **settings)) / claim.si)
+        return Reading(name, computation.summary, computed, digits, judgements)
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
+        """Under every convention, or under the usual one only."""
+        every = self._under_every_convention(claim, name)
+        return every if self.every_convention else islice(every, 1)
+
+    def _under_every_convention(self, claim: Claim, name: str) -> Iterator[Judgement]:
         searched: dict[Convention, Judgement] = {}
         for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
             convention = Convention(rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
             if judgement is not None:
                 yield judgement
-            else:
-                for rounded in _input_conventions(self.ledger, claim, convention):
-                    # A search does not ask how ties go.
-                    even = rounding is Rounding.EVEN
-                    key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
-                    if key not in searched:
-                        searched[key] = self._search(claim, name, key)
-                    yield replace(searched[key], convention=rounded)
-                    if not self.every_convention:
-                        return
-            if not self.every_convention:
-                return
+                continue
+            for rounded in _input_conventions(self.ledger, claim, convention):
+                # A search does not ask how ties go.
+                even = rounding is Rounding.EVEN
+                key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
+                if key not in searched:
+                    searched[key] = self._search(claim, name, key)
+                yield replace(searched[key], convention=rounded)
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -235,22 +228,25 @@ class Judge:
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
-        inside, around = _without_and_with_ends(claim, convention.rounding)
+        target = claim.target(convention.rounding)
+        inside = around = target
+        if convention.rounding is not Rounding.CUT and target != claim.target(Rounding.CUT):
+            # A search does not ask how ties go: without, and with, the ends on which they decide.
+            inside, around = Interval(*target.ends, False, False), Interval(*target.ends)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
         whole_sheet = claim.by_scheme and claim.row is None
         budget = _BUDGET // 10 if whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
             search = explore(function, box, inside, budget)
-            if search.inside is not None and self._evidence_holds(claim, convention, search.inside):
+            witness = search.inside
+            if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
                 ends = enclose(function, whole).ends
-                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, search.inside)
-        if search.inside is not None:
+                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
+        if witness is not None:
             never = any(
-                self.inference(entry, centered=convention.centered).excludes(
-                    function, around, convention, whole, budget
-                )
-                for entry in claim.inferred
+                own.excludes(function, around, convention, whole, budget) for own in inferences
             )
         else:
             never = search.never and (
@@ -258,7 +254,7 @@ class Judge:
             )
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         judgement = _judgement(claim, convention, verdict, search.ends)
-        return replace(judgement, against_evidence=never and search.inside is not None)
+        return replace(judgement, against_evidence=never and witness is not None)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
@@ -283,21 +279,12 @@ class Judge:
             whole[entry] = inference.admitted(convention)[1].ends
         return narrow, whole
 
-    def _evidence_holds(
-        self, claim: Claim, convention: Convention, witness: Mapping[str, Fraction]
-    ) -> bool:
-        """Whether the witness reproduces the evidence of the inferred inputs, too."""
-        inferences = (self.inference(e, centered=convention.centered) for e in claim.inferred)
-        return all(inference.holds_at(witness, convention) for inference in inferences)
-
     def _range(
         self, claim: Claim, name: str, convention: Convention, box: Box
     ) -> tuple[Fraction, Fraction]:
         computation = claim.computations[name]
-        key = (
-            computation.name, claim.row, convention.centered,
-            tuple(sorted(claim.inputs.items())), tuple(sorted(box.items())),
-        )  # fmt: skip
+        what = computation.name, claim.row, str(claim.inputs)
+        key = what, convention.centered, tuple(box.items())
         if key not in self._ranges:
             function = self.ledger.function(claim, reading=name, centered=convention.centered)
             range_ = enclose(function, box)
@@ -338,14 +325,6 @@ def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
 
 _BUDGET = 100
 """Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
-
-
-def _without_and_with_ends(claim: Claim, rounding: Rounding) -> tuple[Interval, Interval]:
-    """A print without and with the ends on which ties decide: a search does not ask how they go."""
-    own = claim.target(rounding)
-    if rounding is Rounding.CUT or own == claim.target(Rounding.CUT):
-        return own, own
-    return Interval(*own.ends, False, False), Interval(*own.ends)
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:
@@ -399,40 +378,33 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     >>> assess_equation(load(), "eq16").factor
     Fraction(1, 2)
     """
-    equation = ledger.equations[name]
-    try:
-        ledger.read(ledger.printed_text(name))
-    except EquationError as error:
-        check = Check(str(error), holds=False)
-        return EquationAssessment(equation, Verdict.NOT_REPRODUCED, (check,), {})
-    sides = ledger.sides
-    checks = (_dimensions(ledger, name, sides), *_derivation(ledger, name, sides))
+    equation, checks = ledger.equations[name], tuple(_checks(ledger, name, ledger.sides))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.kind]
-    judged = _constants(ledger, name, sides, holds) if constants else {}
+    judged = _constants(ledger, name, holds) if constants else {}
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def follows(ledger: Ledger, name: str) -> bool:
-    """Whether an equation passes every check: no more of its verdict, in less time."""
+def follows(ledger: Ledger, name: str, sides: Sides | None = None) -> bool:
+    """Whether an equation, or these sides in its place, pass every check."""
+    return all(check.holds for check in _checks(ledger, name, sides or ledger.sides))
+
+
+def _checks(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
+    """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
-    except EquationError:
-        return False
-    return _follows(ledger, name, ledger.sides)
-
-
-def _follows(ledger: Ledger, name: str, sides: Sides) -> bool:
-    """The same for these sides. Dimensions come last: seldom is nothing else wrong."""
-    derived = all(check.holds for check in _derivation(ledger, name, sides))
-    return derived and _dimensions(ledger, name, sides).holds
-
-
-def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
+    except EquationError as error:
+        yield Check(str(error), holds=False)
+        return
+    try:
+        yield from derive(ledger.equations[name], sides, ledger.written, ledger.symbols)
+    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
+        yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
         key: ledger.value(symbol.value)
         for key, symbol in ledger.symbols.items()
@@ -441,19 +413,12 @@ def _dimensions(ledger: Ledger, name: str, sides: Sides) -> Check:
     says = "both sides have the same dimensions"
     try:
         own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+        yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
-        return Check(f"{says}: {error}", holds=False)
-    return Check(says, all(unit == own[0] for unit in own))
+        yield Check(f"{says}: {error}", holds=False)
 
 
-def _derivation(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
-    try:
-        yield from derive(ledger.equations[name], sides, ledger.written, ledger.symbols)
-    except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
-        yield Check(f"it can be derived: {error}", holds=False)
-
-
-def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str, ConstantRecord]:
+def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
     claims = ledger.constants_of(name)
 
     def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
@@ -467,7 +432,7 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
 
     def follows_with(constants: Mapping[str, Fraction]) -> bool:
         read = ledger.read(ledger.printed_text(name, constants))
-        return _follows(ledger, name, {**sides, name: read})
+        return follows(ledger, name, {**ledger.sides, name: read})
 
     needed = {claim: passing(claim, {}) for claim in claims}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
@@ -478,14 +443,10 @@ def _constants(ledger: Ledger, name: str, sides: Sides, holds: bool) -> dict[str
         needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
     constants = {}
     for claim, values in needed.items():
-        if values == (ledger.value(claim),):
-            verdict = Verdict.REPRODUCED
-        elif values and ledger.value(claim) not in values:
-            verdict = Verdict.NOT_REPRODUCED
-        elif not values:
-            verdict = Verdict.UNDECIDED
-        else:
-            verdict = Verdict.NOT_CHECKABLE
+        fits, alone = ledger.value(claim) in values, len(values) == 1
+        verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
+        if fits:
+            verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
         texts = [str(value) for value in values]
         constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
     return constants

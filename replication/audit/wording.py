@@ -1,32 +1,20 @@
 """The sentences of the record: why a verdict is what it is, and what it takes for granted."""
 
 from collections.abc import Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 
 from reference.ledger import Claim, Convention, Ledger
-from reference.printed import Interval, Rounding
-from reference.units import to_si, written
+from reference.printed import Rounding
+from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord
 from replication.audit.verdict import (
     Assessment,
     EquationAssessment,
     Judge,
-    Judgement,
     Reading,
     Verdict,
 )
-from replication.text import inward, number, outward, rounded
-
-
-def quantity(text: str, unit: str) -> str:
-    """Text with its unit, as a page shows it.
-
-    >>> quantity("7.67", "um"), quantity("0.70", "1")
-    ('7.67 µm', '0.70')
-    """
-    return f"{text} {written(unit)}".strip()
-
+from replication.text import between, number, quantity
 
 REMARK = "A remark, no number: the figures below are what it can be judged by."
 
@@ -36,93 +24,61 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     if assessed.reason:
         return f"With the numbers as printed it cannot be computed: {assessed.reason}."
     if not assessed.readings:
-        return _restated(judge.ledger, claim, assessed.verdict)
+        if "value" not in claim.inputs:
+            return f"The report lists {len(claim.inputs)}."
+        restated = judge.ledger.claims[claim.inputs["value"][0]]
+        but = "" if assessed.verdict is Verdict.CONSISTENT else ", which does not agree"
+        shown = quantity(restated.shown, restated.unit)
+        return f"It repeats or compares with {shown} ({restated.title}){but}."
     first, *others = assessed.readings
-    sentences = [_value(claim, first), *_reason(judge, claim, first)]
-    sentences += [_other(claim, reading) for reading in others]
-    return " ".join(sentences)
-
-
-def _restated(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
-    if "value" not in claim.inputs:
-        return f"The report lists {len(claim.inputs)}."
-    restated = ledger.claims[claim.inputs["value"][0]]
-    but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
-    shown = f"{quantity(restated.shown, restated.unit)} ({restated.title})"
-    return f"It repeats or compares with {shown}{but}."
+    what, interval = first.summary[:1].upper() + first.summary[1:], claim.interval()
+    inside = "" if first.verdict is Verdict.REPRODUCED else "not "
+    relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")
+    value = quantity(number(first.computed), claim.unit)
+    sentences = [f"{what}: {value}, {inside}{relation} {shown}.", _reason(judge, claim, first)]
+    for reading in others:
+        value = quantity(number(reading.computed), claim.unit)
+        proven = between((reading.judgements[0].lower, reading.judgements[0].upper), 6)
+        sentences.append(
+            f"Read as {reading.name}: {value}, {reading.verdict}; proven range {proven}."
+        )
+    return " ".join(filter(None, sentences))
 
 
 def chosen(shown: Shown | None) -> str:
     """What is known of a number that the author chose."""
     if shown is None:
         return "The author's choice; what is computed from it does not come out as printed."
-    low, high = map(Fraction, shown.interval)
-    ends = f"{rounded(low, 4, ROUND_CEILING)} to {rounded(high, 4, ROUND_FLOOR)}"
-    text = quantity(ends, shown.unit)
+    text = quantity(between(shown.interval, 4, inward=True), shown.unit)
     return f"The author's choice; what is computed from it comes out as printed for {text}."
 
 
-def _value(claim: Claim, reading: Reading) -> str:
-    what = reading.summary[:1].upper() + reading.summary[1:]
-    value = quantity(number(reading.computed), claim.unit)
-    inside = reading.verdict is Verdict.REPRODUCED
-    interval = claim.interval()
-    relation = "as" if interval.is_point else "in"
-    shown = str(interval).replace("E", "e")
-    return f"{what}: {value}, {'' if inside else 'not '}{relation} {shown}."
-
-
-def _reason(judge: Judge, claim: Claim, reading: Reading) -> list[str]:
-    judgement = reading.judgements[0]
-    low, high = judgement.lower, judgement.upper
+def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
+    judgement, ledger = reading.judgements[0], judge.ledger
+    proven = between((judgement.lower, judgement.upper), 6)
     match judgement.verdict:
+        case Verdict.REPRODUCED if claim.inferred:
+            return f"So for every target density that Table A-1 admits: {proven}."
         case Verdict.REPRODUCED:
-            if claim.inferred:
-                return [f"So for every target density that Table A-1 admits: {outward(low, high)}."]
-            return []
+            return ""
         case Verdict.WITHIN_ROUNDING:
-            inputs = _inputs(judge, judgement)
-            return [f"Inputs that print like the report's give it, for instance {inputs}."]
-        case Verdict.NOT_REPRODUCED if low == high:
-            return ["No rounded input enters, so none could change it."]
+            inputs = []
+            for name, si in (judgement.witness or {}).items():
+                value = number(si / to_si(ledger.unit(name)), 8)
+                inputs.append(f"{ledger.title(name)} {quantity(value, ledger.unit(name))}")
+            return f"Inputs that print like the report's give it, for instance {', '.join(inputs)}."
+        case Verdict.NOT_REPRODUCED if judgement.lower == judgement.upper:
+            return "No rounded input enters, so none could change it."
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:
-            titles = " and ".join(judge.ledger.title(name) for name in claim.inferred)
-            return [
-                f"Proven for inputs that print like the report's: it lies in {outward(low, high)}, "
+            titles = " and ".join(ledger.title(name) for name in claim.inferred)
+            return (
+                f"Proven for inputs that print like the report's: its range is {proven}, "
                 "part of which rounds to the print, but no inputs that give this number also give "
                 f"the numbers from which the {titles} is inferred."
-            ]
+            )
         case Verdict.NOT_REPRODUCED:
-            side = _side(claim.interval(), low, high)
-            proven = f"it lies in {outward(low, high)}, {side}"
-            return [f"Proven for all inputs that print like the report's: {proven}."]
-    return [f"The proven range {outward(low, high)} is too wide to tell."]
-
-
-def _inputs(judge: Judge, judgement: Judgement) -> str:
-    ledger = judge.ledger
-    return ", ".join(
-        f"{ledger.title(name)} "
-        + quantity(number(value / to_si(ledger.unit(name)), 8), ledger.unit(name))
-        for name, value in (judgement.witness or {}).items()
-    )
-
-
-def _side(interval: Interval, low: Fraction, high: Fraction) -> str:
-    if interval.lower is not None and high <= interval.lower:
-        return "all of it below"
-    if interval.upper is not None and low >= interval.upper:
-        return "all of it above"
-    return "none of it inside"
-
-
-def _other(claim: Claim, reading: Reading) -> str:
-    judgement = reading.judgements[0]
-    value = quantity(number(reading.computed), claim.unit)
-    text = f"Read as {reading.name}: {value}, {reading.verdict}"
-    if judgement.lower != judgement.upper:
-        text += f"; proven range {outward(judgement.lower, judgement.upper)}"
-    return text + "."
+            return f"Proven for all inputs that print like the report's: {proven}, none inside."
+    return f"The proven range {proven} is too wide to tell."
 
 
 # Conventions
@@ -130,47 +86,34 @@ def _other(claim: Claim, reading: Reading) -> str:
 
 def holds(claim: Claim, reading: Reading) -> str:
     """Under which conventions the verdict holds, and which would change it."""
-    scope = "every convention of rounding"
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
-    varied = ["choices"] if len({c.choices_exact for c in usual}) > 1 else []
-    varied += ["header"] if len({c.header_exact for c in usual}) > 1 else []
+    varied = [word for word in ("choices", "header")
+              if len({getattr(c, f"{word}_exact") for c in usual}) > 1]  # fmt: skip
+    scope = "every convention of rounding"
     scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
         exceptions.setdefault(judgement.verdict, []).append(_conditions(judgement.convention))
-    if not exceptions:
-        return f"The same under {scope}."
-    parts = [
-        f"{verdict} {', or '.join(_merged(conditions))}"
-        for verdict, conditions in exceptions.items()
-    ]
-    return f"The same under {scope}, except: {', and '.join(parts)}."
+    parts = []
+    for verdict, conditions in exceptions.items():
+        # A condition that contains another says nothing more.
+        kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
+        parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
+    return f"The same under {scope}{', except: ' * bool(parts)}{', and '.join(parts)}."
 
 
 def _conditions(convention: Convention) -> tuple[str, ...]:
     """What a convention does otherwise than the usual one."""
+    rounding = {Rounding.AWAY: "", Rounding.EVEN: "ties go to even"}
     parts = (
-        _ROUNDINGS[convention.rounding],
+        rounding.get(convention.rounding, "digits are cut off"),
         "" if convention.choices_exact else "what the author chose is rounded, too",
         "the header of Table A-1 is exact" if convention.header_exact else "",
         "the drag is taken at the middle velocity" if convention.centered else "",
     )
-    return tuple(part for part in parts if part)
-
-
-_ROUNDINGS = {
-    Rounding.AWAY: "",
-    Rounding.EVEN: "ties go to even",
-    Rounding.CUT: "digits are cut off",
-}
-
-
-def _merged(conditions: list[tuple[str, ...]]) -> list[str]:
-    """Conditions as clauses; one that contains another is left out."""
-    kept = [c for c in dict.fromkeys(conditions) if not any(set(o) < set(c) for o in conditions)]
-    return [f"if {' and '.join(condition)}" for condition in kept]
+    return tuple(filter(None, parts))
 
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
@@ -178,7 +121,7 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
     assumed = [] if claim.assumes is None else [claim.assumes]
     for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
-        admitted = inward(*judge.inference(name).inner.ends)
+        admitted = between(judge.inference(name).inner.ends, 6, inward=True)
         assumed.append(
             f"{judge.ledger.title(name)} {value}, inferred: Table A-1 as printed admits {admitted}"
         )

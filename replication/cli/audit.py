@@ -31,10 +31,10 @@ def run(options: argparse.Namespace) -> int:
 
         shared.print_json(schema())
         return 0
-    from replication.report import render
+    from replication import report
     from spreadsheets import emit
 
-    render.check(options.out)
+    report.check(options.out)
     workbook = options.out / "workbook.xlsx"
     if workbook.exists():
         emit.check(workbook, force=options.force)
@@ -50,12 +50,12 @@ def run(options: argparse.Namespace) -> int:
             "workbook.xlsx": build(record=record).to_bytes(),
             "hard-cases.txt": hard_cases.text(outcomes, random).encode(),
         }
-        written = render.write(record, options.out, beside)
+        written = report.write(record, options.out, beside)
     finally:
         gc.enable()
     if options.json:
         sys.stdout.write(written["audit.json"].decode())
     elif not options.quiet:
-        print(render.summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
+        print(report.summary(record, shared.width(), shared.may_emphasize()), end="\n\n")
         print(f"Written to {name_of(options.out)}/; start with audit.html")
     return 1 if options.exit_code and record.counts.failing else 0

@@ -5,7 +5,7 @@ from typing import Any
 
 from replication.cli import options as shared
 from replication.reading import quoted
-from replication.text import columns
+from replication.text import columns, quantity
 
 HELP = "list the claims, or prove one"
 
@@ -20,8 +20,6 @@ def run(options: argparse.Namespace) -> int:
 
     ledger = load()
     if options.id is None:
-        from replication.audit.wording import quantity
-
         claims = ledger.claims.values()
         rows = [(c.id, quantity(c.shown, c.unit), c.kind, str(c.place)) for c in claims]
         record = [_listed(claim) for claim in claims]
@@ -32,24 +30,16 @@ def run(options: argparse.Namespace) -> int:
         near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
         hint = f"near it: {near}" if near else "`coldspray claims` lists them"
         raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
-    from replication.audit.audit import audit_claim
-    from replication.report.render import proof
+    from replication.audit.audit import Audit
+    from replication.report import proof
 
-    claim, strong = audit_claim(options.id), shared.may_emphasize()
+    claim, strong = Audit(ledger).claim(ledger.claims[options.id]), shared.may_emphasize()
     return shared.put(options, claim, lambda: proof(claim, ledger, shared.width(), strong))
 
 
 def _listed(claim: Any) -> dict[str, Any]:
     """What the ledger says of a claim, without a verdict."""
-    return {
-        "id": claim.id,
-        "title": claim.title,
-        "where": str(claim.place),
-        "line": claim.place.line,
-        "section": claim.place.section,
-        "cell": claim.place.cell,
-        "quote": " ".join(claim.quote.split()),
-        "printed": claim.text,
-        "unit": claim.unit,
-        "kind": claim.kind,
-    }
+    own = {name: getattr(claim, name) for name in ("id", "title", "unit", "kind")}
+    place = {name: getattr(claim.place, name) for name in ("line", "section", "cell")}
+    quote = " ".join(claim.quote.split())
+    return {**own, **place, "where": str(claim.place), "quote": quote, "printed": claim.text}

@@ -1,1 +1,247 @@
-"""The finished record as files: the page, Markdown, JSON, CSV and figures. Nothing is computed."""
+"""The finished record as files, written all or none, and as a terminal shows it.
+
+Nothing is computed here.
+"""
+
+import re
+from base64 import b64encode
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from hashlib import sha256
+from importlib import resources
+from pathlib import Path
+from string import ascii_lowercase
+from textwrap import fill
+from typing import Any
+
+import msgspec
+
+from reference import findings as asserted
+from reference.ledger import INFERRED, Ledger
+from replication.audit.record import ClaimRecord, Record
+from replication.audit.verdict import Verdict
+from replication.power import measured
+from replication.report import words as told
+from replication.report.figures import draw
+from replication.report.words import Named, Prose, quoted
+from replication.text import Table, columns, json_text, number, quantity, rows_csv
+from spreadsheets.safely import check_folder, write_folder
+
+
+def check(folder: Path) -> None:
+    """Raise OSError, naming the path, where the audit's files could not be written."""
+    names = ("audit.html", "audit.md", "audit.json", "audit.csv", "workbook.xlsx", "figures/x.svg")
+    check_folder(folder, names)
+
+
+def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Write the record, and the files `beside` it by name, into a folder that is made if needed.
+
+    All or none. Returns what was written. Raises OSError, naming the file.
+    """
+    files = contents(record, beside)
+    write_folder(folder, files)
+    return files
+
+
+def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Every file of the folder by its name; the record names the hashes of those beside it."""
+    hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
+    provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
+    record = msgspec.structs.replace(record, provenance=provenance)
+    drawings = draw(record)
+    texts = {
+        "audit.html": page(record, drawings),
+        "audit.md": markdown(record),
+        "audit.csv": _csv(record),
+        **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
+    }
+    files = {name: text.encode() for name, text in texts.items()}
+    return {**beside, **files, "audit.json": json_text(record).encode()}
+
+
+_COLUMNS = (
+    "id", "where", "printed", "unit", "kind", "interval_lower", "interval_upper", "computed",
+    "enclosure_lower", "enclosure_upper", "verdict", "error_in_last_digit", "title", "explanation",
+    "holds", "restates",
+)  # fmt: skip
+
+
+def _csv(record: Record) -> str:
+    """A line for each claim; what does not apply is empty."""
+    rows = []
+    for claim in record.claims:
+        ends = {f"{name}_{end}": value
+                for name in ("interval", "enclosure")
+                for end, value in zip(("lower", "upper"), getattr(claim, name) or (None, None),
+                                      strict=True)}  # fmt: skip
+        rows.append({n: ends[n] if n in ends else getattr(claim, n) for n in _COLUMNS})
+    return rows_csv(rows)
+
+
+# Page and Markdown: one arrangement, two templates
+
+
+def page(record: Record, drawings: Mapping[str, str]) -> str:
+    """The page: no script, nothing from outside, its style named in its content policy by hash."""
+    style = (resources.files("replication.report") / "page.css").read_text("utf-8")
+    digest = b64encode(sha256(style.encode()).digest()).decode()
+    more = {"drawings": drawings, "style": style, "style_hash": digest}
+    prose = Prose(record.symbols, told.names_of(record))
+    return _filled("page.html.j2", prose.html, _parts(record) | more).lstrip()
+
+
+def markdown(record: Record) -> str:
+    """The same as Markdown, without the figures."""
+    prose = Prose(record.symbols, told.names_of(record))
+    return _filled("page.md.j2", prose.markdown, _parts(record)).lstrip()
+
+
+def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
+    """One of the templates beside this file, filled; at most one empty line stands in a row."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader("replication.report", ""),
+        autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (all HTML there is)
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        optimized=False,  # nothing in the templates could be computed before they are filled
+    )
+    environment.filters |= {
+        "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
+        "number": number,
+        "printed": told.printed,
+        "prose": cache(lambda sentence: prose(str(sentence))),  # of a macro it is markup
+        "quoted": quoted,
+        "slug": lambda text: text.replace(",", "").replace(" ", "-"),
+    }
+    text = environment.get_template(name).render(parts)
+    return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
+
+
+def _parts(record: Record) -> dict[str, Any]:
+    """What both templates show: the record, and its parts in the order in which they stand."""
+    groups, names = _groups(record), told.names_of(record)
+    by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
+    concerned = {name for finding in record.findings for name in finding.claims}
+    sources = {claim.id: claim.sources for claim in record.claims}
+    sources |= {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
+    return {
+        "record": record,
+        "groups": groups,
+        "names": names,
+        "quantity": quantity,
+        "facts": lambda claim: told.facts(claim, names),
+        "tables": told,
+        "equation_of": {c.claim: e for e in record.equations for c in e.constants},
+        "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
+        "sources": {name: own for name, own in sources.items() if own},
+        "table": _table_a_1(groups["table-a-1"]),
+        "power": measured(),
+    }
+
+
+def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
+    """The claims by the section that shows them; each stands in one section only."""
+    constants = {c.claim for equation in record.equations for c in equation.constants}
+    by_verdict = {
+        Verdict.REPRODUCED: "computed", Verdict.CONSISTENT: "repeated", Verdict.AGREES: "sources",
+        Verdict.DIFFERS: "sources", Verdict.REMARK: "remarks", Verdict.NOT_CHECKABLE: "undecided",
+    }  # fmt: skip
+    names = ("open", "equations", "table-a-1", *dict.fromkeys(by_verdict.values()))
+    groups: dict[str, dict[str, ClaimRecord]] = {name: {} for name in names}
+    for claim in record.claims:
+        name = by_verdict.get(Verdict(claim.verdict), "open")
+        if name != "open" and claim.id in constants:
+            name = "equations"
+        elif name != "open" and claim.cell:
+            name = "table-a-1"
+        groups[name][claim.id] = claim
+    return groups
+
+
+def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
+    """Table A-1 as it stands in the report, and a letter for each verdict and its conventions."""
+    cells = {str(claim.cell): claim for claim in claims.values()}
+    said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
+    letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
+    below = [cell for cell in cells if not cell.startswith("B")]
+    columns = sorted({cell[0] for cell in below})
+    rows = sorted({int(cell[1:]) for cell in below})
+    return {
+        "header": [claim for cell, claim in cells.items() if cell.startswith("B")],
+        "rows": [[cells.get(f"{column}{row}") for column in columns] for row in rows],
+        "letters": letters,
+        "marks": {name: letters[text] for name, text in said.items()},
+        "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
+        "proven": told.proven(cells.values()),
+    }
+
+
+# For a terminal
+
+MAIN = (
+    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
+    "walker-anderson-beta",
+)  # fmt: skip
+"""The report's main results, by id."""
+
+FINDINGS = 3
+"""How many findings one screen has room for."""
+
+
+def summary(record: Record, width: int, strong: bool = False) -> str:
+    """The audit on one screen: what it found, the counts, all that fails, the main results."""
+    main = [
+        (c.title, told.printed(c), told.measured(c.computed, c.unit), c.verdict)
+        for c in record.claims
+        if c.id in MAIN and c.computed is not None
+    ]
+    failing = told.failing(record)
+    titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in failing.rows]
+    context = {
+        "record": record,
+        "failing": failing._replace(rows=titles),
+        "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
+        "shown": FINDINGS,
+    }
+    return _terminal(Prose(record.symbols, {}), context, width, strong)
+
+
+def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
+    """One claim with all that its verdict rests on; the ledger names what it refers to."""
+    names = (
+        {name: Named(e.title) for name, e in ledger.equations.items()}
+        | {f"{INFERRED}{name}": Named(e.title, "", told.measured(float(e.nominal), e.unit))
+           for name, e in ledger.inferred.items()}
+        | {name: Named(c.title, "", quantity(c.shown, c.unit))
+           for name, c in ledger.claims.items()}
+    )  # fmt: skip
+    findings = (f for f in asserted.load().values() if f.kind != "headline")
+    context = {
+        "record": None,
+        "claim": claim,
+        "printed": told.printed,
+        "facts": told.facts(claim, names),
+        "tables": told.tried(claim),
+        "findings": [finding.title for finding in findings if claim.id in finding.claims],
+    }
+    symbols = (symbol.shown for symbol in ledger.symbols.values())
+    return _terminal(Prose(symbols, names), context, width, strong)
+
+
+def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
+    def filled(text: str, indent: str = "") -> str:
+        return fill(
+            text, width, initial_indent=indent, subsequent_indent=indent + "  " * bool(indent),
+            break_on_hyphens=False, break_long_words=False,
+        )  # fmt: skip
+
+    def table(rows: Sequence[tuple[str, ...]]) -> str:
+        return columns([tuple(map(prose.text, row)) for row in rows], width)
+
+    bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
+    parts = {"fill": filled, "columns": table, "strong": bold.format}
+    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).strip("\n")

@@ -9,8 +9,8 @@ from html import escape
 from itertools import count
 from math import log10
 
-from replication.audit.record import Effect, Level, Record
-from replication.report.facts import shown_range
+from replication.audit.record import Record
+from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
 """The color of the text around, and two of Okabe and Ito's, which stand out from white and from
@@ -19,10 +19,6 @@ near-black, and from each other for the color-blind."""
 WIDTH = 440
 
 Points = Iterable[tuple[float, float]]
-
-
-_Figure = tuple[str, str, int, list[str]]
-"""Title, what it shows in words for those who do not see it, height, and elements."""
 
 
 def draw(record: Record) -> dict[str, str]:
@@ -34,38 +30,45 @@ def draw(record: Record) -> dict[str, str]:
         "figure-5": _figure_5,
         "convergence": _convergence,
     }
-    return {name: _svg(name, *figure(record)) for name, figure in figures.items()}
-
-
-def _svg(name: str, title: str, words: str, height: int, parts: list[str]) -> str:
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
-        f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
-        f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" '
-        f'aria-labelledby="{name}-title {name}-words">',
-        f'<title id="{name}-title">{escape(title)}</title>',
-        f'<desc id="{name}-words">{escape(words)}</desc>',
-        f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
-    )
-    return "\n".join((*head, *parts, "</svg>\n"))
+    return {name: figure(record).svg(name) for name, figure in figures.items()}
 
 
 # What a plot is made of
 
 
 class _Plot:
-    """A plot in a box of the figure, of given ranges (from left to right, from bottom to top)."""
+    """A plot in a box of a figure, of given ranges (from left to right, from bottom to top).
+
+    `words`: what it shows, for those who do not see it; `below`: how much stands under the box.
+    """
 
     def __init__(
         self,
+        title: str,
         box: tuple[float, float, float, float],
         x: tuple[float, float],
         y: tuple[float, float],
+        below: float = 42,
         logarithmic: bool = False,
     ) -> None:
+        self.title, self.words, self.below = title, "", below
         self.left, self.top, self.width, self.height = box
         self.x, self.y, self.logarithmic = x, y, logarithmic
         self.parts: list[str] = []
+
+    def svg(self, name: str) -> str:
+        """The figure."""
+        height = f"{self.top + self.height + self.below:.0f}"
+        head = (
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
+            f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
+            f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" '
+            f'aria-labelledby="{name}-title {name}-words">',
+            f'<title id="{name}-title">{escape(self.title)}</title>',
+            f'<desc id="{name}-words">{escape(self.words)}</desc>',
+            f'<rect class="paper" width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+        )
+        return "\n".join((*head, *self.parts, "</svg>\n"))
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Where a point lies in the figure."""
@@ -117,6 +120,17 @@ class _Plot:
             f'height="{_n(height)}" fill="{color}"/>'
         )
 
+    def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
+        """Words below each other, each with its mark (of a kind and a color) or line."""
+        for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
+            sample = [(x - 9, down), (x + 9, down)]
+            self.parts.append(
+                _line(sample, color, 1.0, "5 3" * kind.startswith("dashed"))
+                if kind.endswith("line")
+                else _mark(kind, color, x, down)
+            )
+            self.parts.append(_text(x + 15, down + 4, words))
+
 
 def _n(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
@@ -147,26 +161,16 @@ def _mark(kind: str, color: str, x: float, y: float) -> str:
     return f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}/>'
 
 
-def _legend(x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> list[str]:
-    """Words below each other, each with its mark (of a kind and a color) or line."""
-    parts = []
-    for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
-        dashes = "5 3" if kind == "dashed line" else ""
-        line = kind.endswith("line")
-        sample = [(x - 9, down), (x + 9, down)]
-        parts.append(_line(sample, color, 1.0, dashes) if line else _mark(kind, color, x, down))
-        parts.append(_text(x + 15, down + 4, words))
-    return parts
-
-
 # Normalized depth by every approach
 
 
-def _comparison(record: Record) -> _Figure:
+def _comparison(record: Record) -> _Plot:
     """A row for each approach: what is computed filled, what is printed or quoted hollow."""
     observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
     shown = [a for a in record.approaches if a.kind != "observed"]
-    plot = _Plot((190, 8, 240, 30 * len(shown)), (0, 1.1), (len(shown) - 0.5, -0.5))
+    title = "Normalized depth by every approach of the report"
+    height = 30 * len(shown)
+    plot = _Plot(title, (190, 8, 240, height), (0, 1.1), (len(shown) - 0.5, -0.5), below=115)
     plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, "#8c959f", plot.height)
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
     plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
@@ -176,76 +180,63 @@ def _comparison(record: Record) -> _Figure:
             plot.marks(*kind, [(float(a.printed), y)])
         if a.computed is not None:
             plot.marks("circle", BLUE, [(a.computed, y)])
-    bottom = plot.top + plot.height
-    legend = {
+    plot.legend(100, height + 60, {
         "computed in this audit": ("circle", BLUE),
         "printed by the report": ("hollow square", VERMILION),
         "quoted by the report, not recomputable": ("hollow diamond", INK),
         "observed": ("square", "#8c959f"),
-    }
+    })  # fmt: skip
     values = []
     for a in record.approaches:
         value = f"{a.printed}, quoted by the report and not recomputable"
         if a.computed is not None:
             value = f"{a.computed:.3f} computed" + (f", printed {a.printed}" if a.printed else "")
         values.append(f"{a.kind}, {a.name}: {value}")
-    words = f"{'; '.join(values)}.".replace("beta", "β")
-    title = "Normalized depth by every approach of the report"
-    parts = plot.parts + _legend(100, bottom + 52, legend)
-    return title, words, int(bottom + 115), parts
+    plot.words = f"{'; '.join(values)}.".replace("beta", "β")
+    return plot
 
 
 # What each input does
 
 
-def _sensitivity(record: Record) -> _Figure:
-    """Two panels of bars about the depth as printed, the longest on top."""
+def _sensitivity(record: Record) -> _Plot:
+    """A bar for each input about the depth as printed, the longest on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
-    at_rest = case.depth * 1e6
-    parts, words, top = [], [], 24.0
-    for title, stated, effects in (
-        ("each input ± 10 %", False, case.ten_percent),
-        ("its own stated range", True, case.stated),
-    ):
-        effects = sorted(effects, key=lambda e: -abs(e.depths[1] - e.depths[0]))
-        plot = _Plot((140, top, 240, 32 * len(effects)), (5.4, 10.6), (len(effects) - 0.5, -0.5))
-        parts.append(_text(260, top - 8, title, "middle"))
-        plot.axes(range(6, 11), [], "Depth X [µm]" if stated else "")
-        plot.rows([_input(e) + f"; {shown_range(e)}" * stated for e in effects])
-        for y, effect in enumerate(effects):
-            ends = [depth * 1e6 for depth in effect.depths]
-            for end, color in zip(ends, (VERMILION, BLUE), strict=True):
-                plot.bar(at_rest, end, y, color, 18)
-            changes = [f"{end - at_rest:+.3f}" for end in ends]
-            for k, change in enumerate(change for change in changes if float(change)):
-                _, down = plot.at(5.4, y)
-                parts.append(_text(434, down - 2 + 13 * k, change.replace("-", "−"), "end"))
-        plot.line([(at_rest, -0.5), (at_rest, len(effects) - 0.5)])
-        told = (
-            f"{_input(e)} {' to '.join(f'{x * 1e6:.2f}' for x in e.depths)} µm" for e in effects
-        )
-        words.append(f"{title.capitalize()}: {'; '.join(told)}.")
-        parts += plot.parts
-        top += plot.height + 52
-    legend = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
-    parts += [*_legend(150, top + 4, legend), _text(434, 16, "change [µm]", "end")]
-    title = f"What each input does to the exact penetration depth, β = {case.beta:g}"
-    return title, " ".join(words), int(top + 32), parts
-
-
-def _input(effect: Effect) -> str:
-    return effect.input.replace("_", " ").replace("beta", "β")
+    effects = sorted(case.stated, key=lambda e: -abs(e.depths[1] - e.depths[0]))
+    title = f"What each input's stated range does to the exact penetration depth, β = {case.beta:g}"
+    height, rows = 32 * len(effects), (len(effects) - 0.5, -0.5)
+    plot = _Plot(title, (140, 24, 240, height), (5.4, 10.6), rows, below=84)
+    plot.axes(range(6, 11), [], "Depth X [µm]")
+    names = [e.input.replace("_", " ").replace("beta", "β") for e in effects]
+    plot.rows([f"{name}; {shown_range(e)}" for name, e in zip(names, effects, strict=True)])
+    at_rest, told = case.depth * 1e6, []
+    for y, (name, effect) in enumerate(zip(names, effects, strict=True)):
+        ends = [depth * 1e6 for depth in effect.depths]
+        for end, color in zip(ends, (VERMILION, BLUE), strict=True):
+            plot.bar(at_rest, end, y, color, 18)
+        changes = [f"{end - at_rest:+.3f}" for end in ends]
+        for k, change in enumerate(change for change in changes if float(change)):
+            _, down = plot.at(5.4, y)
+            plot.parts.append(_text(434, down - 2 + 13 * k, change.replace("-", "−"), "end"))
+        told.append(f"{name} {' to '.join(f'{end:.2f}' for end in ends)} µm")
+    plot.line([(at_rest, y) for y in rows])
+    looks = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
+    plot.legend(150, height + 80, looks)
+    plot.parts.append(_text(434, 16, "change [µm]", "end"))
+    plot.words = f"{'; '.join(told)}."
+    return plot
 
 
 # Depth against time, and against velocity
 
 
-def _figure_3(record: Record) -> _Figure:
+def _figure_3(record: Record) -> _Plot:
     """Every eighth row of each sheet as a point, the exact motion as a line."""
-    plot = _Plot((44, 8, 386, 260), (0, 46), (0, 11.5))
+    title = "Penetration depth against time, as in Figure 3 of the report"
+    plot = _Plot(title, (44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
     legend, words, looks = {"exact": ("line", INK)}, [], (("circle", VERMILION), ("square", BLUE))
-    for curve, (kind, color) in zip(record.curves, looks, strict=True):
+    for curve, look in zip(record.curves, looks, strict=True):
         exact, sheet = (
             [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
             for times, depths in (
@@ -254,8 +245,8 @@ def _figure_3(record: Record) -> _Figure:
             )
         )
         plot.line(exact)
-        plot.marks(kind, color, sheet[::8])
-        legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = (kind, color)
+        plot.marks(*look, sheet[::8])
+        legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = look
         x, y = plot.at(*exact[-1])
         time, depth = sheet[-1]
         plot.parts.append(_text(x + 8, y, f"{depth:.4f} µm,"))
@@ -264,61 +255,64 @@ def _figure_3(record: Record) -> _Figure:
             f"for β = {curve.beta:g} the sheet stops at {depth:.4f} µm after {time:.1f} ns "
             f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
         )
-    told = f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
-    title = "Penetration depth against time, as in Figure 3 of the report"
-    return title, told, 310, plot.parts + _legend(205, 205, legend)
+    plot.words = (
+        f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
+    )
+    plot.legend(205, 205, legend)
+    return plot
 
 
-def _figure_5(record: Record) -> _Figure:
+def _figure_5(record: Record) -> _Plot:
     """The exact line, the sheet's points, and the observed level."""
     curve = record.velocity_curve
     low, high = curve.velocity[0], curve.velocity[-1]
-    plot = _Plot((44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
-    plot.axes(range(400, 501, 20), [k / 10 for k in range(9)], "Impact velocity [m/s]",
-              "Normalized depth X/R")  # fmt: skip
+    title = "Normalized depth against impact velocity, as in Figure 5 of the report"
+    plot = _Plot(title, (44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
+    levels = [k / 10 for k in range(9)]
+    plot.axes(range(400, 501, 20), levels, "Impact velocity [m/s]", "Normalized depth X/R")
     observed = next(
         float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed
     )
     plot.line(zip(curve.velocity, curve.exact, strict=True))
-    plot.line([(low - 5, observed), (high + 5, observed)], INK, "5 3")
+    plot.line([(x, observed) for x in plot.x], INK, "5 3")
     plot.marks("square", BLUE, list(zip(curve.velocity, curve.sheet, strict=True))[::2])
-    legend = {
+    plot.legend(290, 180, {
         "exact": ("line", INK),
         "the sheet, β = 5": ("square", BLUE),
         f"observed, {observed}": ("dashed line", INK),
-    }
-    words = (
+    })  # fmt: skip
+    plot.words = (
         f"For β = 5, X/R rises almost in proportion to the velocity, from {curve.exact[0]:.3f} at "
         f"{low:g} m/s to {curve.exact[-1]:.3f} at {high:g} m/s; the sheet's points lie on the "
         f"exact line. All of it is above the observed {observed:.3f}."
     )
-    title = "Normalized depth against impact velocity, as in Figure 5 of the report"
-    return title, words, 280, plot.parts + _legend(290, 180, legend)
+    return plot
 
 
 # The sheet's error against its time step
 
 
-def _convergence(record: Record) -> _Figure:
+def _convergence(record: Record) -> _Plot:
     """The error of the final depth over the time step, both axes logarithmic."""
-    ladders: dict[tuple[str, float], list[Level]] = {}
+    ladders: dict[tuple[str, float], list[tuple[float, float]]] = {}
     for level in record.ladders:
-        ladders.setdefault((level.scheme, level.beta), []).append(level)
-    plot = _Plot((44, 8, 386, 260), (0.04, 4), (0.01, 300), logarithmic=True)
+        point = level.step * 1e9, abs(level.error) * 1e9
+        ladders.setdefault((level.scheme, level.beta), []).append(point)
+    title = "Error of the sheet's final depth against its time step"
+    plot = _Plot(title, (44, 8, 386, 260), (0.04, 4), (0.01, 300), below=120, logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
     looks = {"published": ("initial", VERMILION, "circle"), "centered": ("middle", BLUE, "square")}
     legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
-    for (scheme, beta), levels in ladders.items():
+    for (scheme, beta), points in ladders.items():
         velocity, color, shape = looks[scheme]
         kind = shape if beta == greatest else f"hollow {shape}"
-        points = [(level.step * 1e9, abs(level.error) * 1e9) for level in levels]
         plot.line(points, color)
         plot.marks(kind, color, points)
         name = f"drag at the {velocity} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")
-    parts = plot.parts + _legend(140, 322, legend)
-    title = "Error of the sheet's final depth against its time step"
-    return title, "; ".join(words), 388, parts
+    plot.legend(140, 322, legend)
+    plot.words = "; ".join(words)
+    return plot

@@ -6,8 +6,7 @@ import pytest
 
 from reference.formulas import derive
 from reference.ledger import Ledger, load
-from replication.audit.edits import equation_edits
-from replication.audit.explain import Screen
+from replication.audit.explain import Screen, equation_edits
 from replication.audit.verdict import assess_equation, follows
 
 LEDGER = load()

@@ -11,8 +11,13 @@ from reference.enclosure import Solutions
 from reference.equations import EquationError
 from reference.ledger import Ledger, load
 from replication.audit.audit import audit
-from replication.audit.edits import EQUATION_EDITS, NUMBER_EDITS, edits, equation_edits
-from replication.audit.explain import Explainer
+from replication.audit.explain import (
+    EQUATION_EDITS,
+    NUMBER_EDITS,
+    Explainer,
+    edits,
+    equation_edits,
+)
 from replication.audit.replica import replica
 from replication.audit.verdict import Judge
 
@@ -185,8 +190,8 @@ def test_a_report_without_its_faults_has_none_and_one_fault_is_found_as_the_culp
     assert sound.headline == "0 numbers fail.", "the usual one has lost its evidence"
     spoiled = audit(repaired().misprint("fz-kt", "1.406"))
     assert spoiled.culprit is not None
-    assert (spoiled.culprit.repair.entry, spoiled.culprit.repair.text) == ("fz-kt", "1.046")
-    assert set(spoiled.culprit.explains) == set(PAIR)
+    assert (spoiled.culprit.entry, spoiled.culprit.text) == ("fz-kt", "1.046")
+    assert set(spoiled.failing) == set(PAIR)
 
 
 # Slips

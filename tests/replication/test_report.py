@@ -21,14 +21,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from replication import report
 from replication import text as texts
 from replication.audit.record import Record
 from replication.audit.verdict import OPEN
-from replication.report import render
-from replication.report.facts import between
+from replication.report import check, contents, page, write
 from replication.report.figures import draw
-from replication.report.prose import Named, Prose
-from replication.report.render import check, contents, page, write
+from replication.report.words import Named, Prose
 
 HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
@@ -130,7 +129,7 @@ def test_the_answer_comes_first_everywhere(
     root: ET.Element, files: dict[str, bytes], record: Record
 ) -> None:
     start = words(next(root.iter(f"{HTML}header"))).replace("’", "'").replace("\xa0", " ")
-    for text in (start, files["audit.md"].decode(), render.summary(record, 1000)):
+    for text in (start, files["audit.md"].decode(), report.summary(record, 1000)):
         assert record.headline in text[:400]
         assert text.index(record.headline) < text.index(f"{record.counts.calculations} ")
 
@@ -140,7 +139,7 @@ def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: 
         if element.tag in (f"{HTML}q", f"{HTML}code"):  # sources as they print; names of cells
             element.clear()
     (body,) = root.iter(f"{HTML}body")
-    for text in (words(body), files["audit.md"].decode(), render.summary(record, 80)):
+    for text in (words(body), files["audit.md"].decode(), report.summary(record, 80)):
         assert "\\" not in text
         plain = re.sub(r"`[^`]*`", "", text)
         assert not re.search(r"\b(?:rho|beta|alpha|Sigma)\b|[A-Za-z]_[a-z1]\b|\^\d| \* ", plain)
@@ -216,11 +215,11 @@ def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -
 
 @pytest.mark.parametrize("width", [50, 80, 120])
 def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: int) -> None:
-    text = render.summary(record, width)
+    text = report.summary(record, width)
     assert max(map(len, text.splitlines())) <= width
     flat = " ".join(text.split())
     prose = Prose(record.symbols, {})
-    assert all(prose.text(f.title) in flat for f in record.findings[: render.FINDINGS])
+    assert all(prose.text(f.title) in flat for f in record.findings[: report.FINDINGS])
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
@@ -251,14 +250,14 @@ def ends_of(text: str) -> Sequence[float]:
 def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
     low, high = sorted((first, another))
     slack = 1e-14 * max(abs(low), abs(high))
-    outer = ends_of(between((low, high), digits))
+    outer = ends_of(texts.between((low, high), digits))
     if low < high:
         assert outer[0] <= low + slack
         assert outer[1] >= high - slack
-        inner = ends_of(between((low, high), digits, inward=True))
+        inner = ends_of(texts.between((low, high), digits, inward=True))
         assert inner[0] >= low - slack
         assert inner[1] <= high + slack
-    assert between((low, nextafter(low, inf)), 12).count(" to ") <= 1
+    assert texts.between((low, nextafter(low, inf)), 12).count(" to ") <= 1
 
 
 @given(st.text())

@@ -1,0 +1,421 @@
+"""What is said of a record and its claims: each fact once, for page, Markdown and terminal alike.
+
+Texts are sentences for `Prose`, which sets Greek letters, subscripts, powers and references: ids
+stand between backticks.
+"""
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
+from fractions import Fraction
+from html import escape
+from typing import TYPE_CHECKING, NamedTuple
+
+from reference.ledger import shown
+from reference.units import superscript
+from replication.audit import record as r
+from replication.audit.comparison import SHARES
+from replication.audit.verdict import OPEN
+from replication.cases import INPUTS
+from replication.text import Table, between, number, powers_of_ten, quantity, rounded
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+
+class Named(NamedTuple):
+    """What an id between backticks names, where a page shows it, and its value as printed."""
+
+    title: str
+    anchor: str = ""
+    value: str = ""
+
+
+def printed(claim: r.ClaimRecord) -> str:
+    """What the report prints, with its unit; the words of a remark as they are."""
+    return quantity(shown(claim.printed), claim.unit)
+
+
+def measured(value: float | None, unit: str, digits: int = 6) -> str:
+    """A number with its unit; nothing where there is none.
+
+    >>> measured(7.669556888793411, "um"), measured(None, "um")
+    ('7.66956 µm', '')
+    """
+    return "" if value is None else quantity(number(value, digits), unit)
+
+
+_SCALES = {"radius": (1e6, "um"), "flow_stress": (1e-6, "MPa")}
+
+
+def shown_range(effect: r.Effect) -> str:
+    """The range of an effect's input in the unit that a reader wants.
+
+    >>> effect = r.Effect(input="radius", low=8.2e-6, high=1.38e-5, ratios=[], depths=[], why="")
+    >>> shown_range(effect)
+    '8.2 to 13.8 µm'
+    """
+    scale, unit = _SCALES.get(effect.input, (1.0, INPUTS[effect.input]))
+    return quantity(between((effect.low * scale, effect.high * scale), 4), unit)
+
+
+def names_of(record: r.Record) -> dict[str, Named]:
+    """What the ids of a record name, and where the page shows it."""
+    equations = {
+        e.id: Named(f"Eq. {e.number}" if e.number else e.title, f"equation-{e.id}")
+        for e in record.equations
+    }
+    inferred = {
+        f"inferred:{i.id}": Named(i.title, f"inferred-{i.id}", measured(i.assumed, i.unit))
+        for i in record.inferred
+    }
+    claims = {c.id: Named(c.title, f"claim-{c.id}", printed(c)) for c in record.claims}
+    return equations | inferred | claims
+
+
+def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
+    """Label and text of all that is known of a claim beside its verdict and explanation."""
+    unit, off, still = claim.unit, claim.error_in_last_digit, claim.shown_by
+    inputs = (
+        " × ".join(f"`{name}` {names[name].value}" for name in entries)
+        for entries in claim.rests_on.values()
+    )
+    readings = (
+        f"{reading.name}: {measured(reading.computed, unit, 10)}, {reading.verdict}, "
+        f"proven range {between(reading.enclosure)}. {reading.holds}"
+        + (f" For instance (SI) {_values(reading.witness)}." if reading.witness else "")
+        for reading in claim.readings
+    )
+    sources = (
+        f"{s.title}, {s.address}, prints {quantity(s.says, s.unit)} ({s.applies})"
+        for s in claim.sources
+    )
+    told = {
+        "rounds to it": quantity((claim.interval_text or "").replace("E", "e"), unit),
+        "computed": measured(claim.computed, unit, 10),
+        "to 25 digits": claim.reference,
+        "proven range": claim.enclosure and between(claim.enclosure),
+        "off by": off is not None
+        and claim.verdict in OPEN
+        and f"{number(off, 3)} units of the last printed digit",
+        "from": claim.computed is not None and ", ".join(inputs),
+        "for instance (SI)": claim.witness and _values(claim.witness),
+        "read otherwise": "; ".join(readings),
+        "assumed": "; ".join(claim.assumes),
+        "would still agree": still
+        and f"{quantity(between(still.interval, 6, inward=True), still.unit)}, by "
+        + ", ".join(f"`{name}`" for name in still.claims),
+        "public sources": "; ".join(sources),
+        "workbook cell": claim.workbook and f"`{claim.workbook}`",
+    }
+    return [(label, text) for label, text in told.items() if text]
+
+
+def _values(values: Mapping[str, float]) -> str:
+    return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
+
+
+# Tables
+
+
+def failing(record: r.Record) -> Table:
+    """The claims that do not come out as printed: what is printed, and what follows instead."""
+    claims = [claim for claim in record.claims if claim.verdict in OPEN]
+    needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
+    names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
+    rows = []
+    for claim in claims:
+        values = {"": claim.computed} | {own.name: own.computed for own in claim.readings}
+        texts = {name: f"{value:#.{significant(claim.printed)}g}"
+                 for name, value in values.items() if value is not None}  # fmt: skip
+        if claim.id in needed:
+            texts[""] = f"derived: {' or '.join(needed[claim.id])}"
+        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(name, "") for name in names)))
+    heads = ("number", "printed", "computed as printed", *list(names)[1:])
+    return Table("What does not come out as printed", heads, rows)
+
+
+def significant(text: str) -> int:
+    """How many significant digits a printed number has.
+
+    >>> significant("0.0550"), significant(">= 2680"), significant("7.6E9")
+    (3, 4, 2)
+    """
+    mantissa = re.split(r"[eE×\\]", text)[0]
+    return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
+
+
+def tried(claim: r.ClaimRecord) -> list[Table]:
+    """What was tried to explain a claim that fails, and the figures that a remark is judged by."""
+    figures = [(f.means, measured(f.value, f.unit, 5)) for f in claim.figures]
+    slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
+    tables = (
+        Table("The figures", ("what", "computed"), figures),
+        _back_solved(claim.back_solved),
+        repairs(claim.repairs, claim.id),
+        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
+    )
+    return [shown for shown in tables if shown.rows]
+
+
+def _back_solved(solved: Sequence[r.BackSolvedRecord]) -> Table:
+    """A row for each input, a column for each reading."""
+    rows = []
+    for entry in dict.fromkeys(item.entry for item in solved):
+        own = [item for item in solved if item.entry == entry]
+        value = measured(own[0].printed, own[0].unit)
+        search = f"{between(own[0].search, 4)}: {own[0].search_reason}"
+        rows.append((f"`{entry}`", value, *map(_needed, own), search))
+    readings = dict.fromkeys(item.reading for item in solved)
+    heads = (f"needed, {reading or 'as printed'}" for reading in readings)
+    caption = "One input changed, all others as printed: proven values that would give the number"
+    return Table(caption, ("input", "printed", *heads, "searched"), rows)
+
+
+def _needed(solved: r.BackSolvedRecord) -> str:
+    if not solved.intervals:
+        return "undecided" if solved.proof == "undecided" else "none"
+    ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
+    beyond = " or beyond" if "end of the range" in solved.proof else ""
+    return quantity(ends, solved.unit) + beyond
+
+
+def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
+    """The misprints that would explain a failure, of the claim with the id `own` if it is one.
+
+    Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
+    """
+    rows = []
+    for repair in records:
+        failing = ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing"
+        texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
+        rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
+    heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
+    return Table("Misprints, one edit of the text, that would explain it", heads, rows)
+
+
+def evidence(finding: r.FindingRecord) -> Table:
+    """The numbers of a finding, as asserted and as computed."""
+    rows = [
+        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
+        for x in finding.evidence
+    ]
+    return Table("The finding's numbers, computed anew", ("what", "stated", "computed"), rows)
+
+
+def computed(piece: r.EvidenceRecord) -> str:
+    """What was computed for a finding, to two digits more than asserted; a bound, safely rounded.
+
+    >>> piece = r.EvidenceRecord(
+    ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
+    ... )
+    >>> computed(piece)
+    '1.14756'
+    """
+    if piece.computed is None:
+        return "no value"
+    if isinstance(piece.computed, bool):
+        return "yes" if piece.computed else "no"
+    safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)
+    digits = significant(piece.asserted) + 2
+    return quantity(rounded(Fraction(piece.computed), digits, safe), piece.unit)
+
+
+def proven(claims: Iterable[r.ClaimRecord]) -> Table:
+    """The cells of Table A-1 that are computed, with all digits that matter."""
+    rows = [
+        (c.title, c.cell or "", measured(c.computed, c.unit, 10), between(c.enclosure))
+        for c in claims
+        if c.enclosure is not None
+    ]
+    return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
+
+
+def approaches(record: r.Record) -> Table:
+    """Every approach to X/R."""
+    rows = [
+        (f"{a.kind}: {a.name}",
+         "not recomputable" if a.computed is None else number(a.computed, 5),
+         f"{a.printed} `{a.claim}`" if a.claim else "")
+        for a in record.approaches
+    ]  # fmt: skip
+    return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
+
+
+def ladders(record: r.Record) -> Table:
+    """The sheet at other time steps: a row for each, a column for each case and scheme."""
+    schemes = {"published": "initial", "centered": "middle"}
+    columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
+    rows: dict[float, list[str]] = {}
+    for level in record.ladders:
+        text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
+        rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
+    heads = (f"beta = {beta:g}, {schemes[scheme]} velocity" for beta, scheme in columns)
+    caption = "Final depth of the sheet [um], its error [nm], by the velocity that the drag takes"
+    return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
+
+
+def sensitivity(case: r.Sensitivity) -> Table:
+    """What the inputs' own ranges do to the depth of a case."""
+    rows = [
+        (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
+         " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
+         " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)), e.why)
+        for e in case.stated
+    ]  # fmt: skip
+    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
+    return Table(f"Derivatives and stated ranges, beta = {case.beta:g}", heads, rows)
+
+
+def scatter(record: r.Record) -> Table:
+    """The stream of particles by three laws."""
+    shares = [f"V and X/R that {number(100 * share)} % do not exceed" for share in SHARES]
+    rows = []
+    for law in record.scatter:
+        pairs = zip(law.velocities, law.ratios, strict=True)
+        quantiles = (f"{v:.0f} m/s, {ratio:.3f}" for v, ratio in pairs)
+        deviations = (f"{x:.1f} m/s" for x in (law.standard_deviation, law.mean_deviation))
+        rows.append((law.law, *deviations, *quantiles))
+    caption = "Velocity and X/R over the particles of the stream"
+    return Table(caption, ("law", "standard deviation", "mean deviation", *shares), rows)
+
+
+# How a sentence is set
+
+
+_LOWERED = str.maketrans("0123456789aehklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
+_SIGNS = {
+    "<=": "≤", ">=": "≥", " * ": " · ", " - ": " − ", "-": "−", "inf": "∞", "um": "µm",
+}  # fmt: skip
+_SIGN = re.compile(r"<=|>=| [*-] |(?<![\w)\]])-(?=\d|\(|inf\b)|\binf\b|\bum\b|\^(?:-?\d+|n\b)")
+_POWER = re.compile(r"\^(\(([^()]*)\))")
+
+
+class Prose:
+    """Turns the record's plain sentences into HTML, Markdown or text for a terminal.
+
+    `symbols` are written as "ρ_t"; in a sentence the Greek letter may be spelled out. An id stands
+    between backticks, and `names` tells what it names.
+
+    >>> prose = Prose(["ρ_t", "V"], {"a1-density": Named("particle density", "claim-a1-density")})
+    >>> prose.text("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
+    'particle density (a1-density): ρₜ V² is 2×10⁹ Pa, −8 %'
+    >>> print(prose.html("rho_t < `a1-density`"))
+    ρ<sub>t</sub> &lt; <a href="#claim-a1-density">particle density</a>
+    """
+
+    def __init__(self, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
+        self.names = names
+        spelled: dict[str, tuple[str, str]] = {}
+        for symbol in symbols:
+            base, _, below = symbol.partition("_")
+            greek = not base.isascii() and len(base) == 1
+            if below or greek:
+                words = (_word(base), _word(base).capitalize()) if greek else (base,)
+                for word in (base, *words):
+                    spelled.setdefault(f"{word}_{below}".rstrip("_"), (base, below))
+        longest_first = sorted(spelled, key=lambda name: (-len(name), name))
+        self._spelled = spelled
+        self._pattern = re.compile(
+            rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?!\w)"
+        )
+
+    def text(self, sentence: str) -> str:
+        """For a terminal: subscripts and powers in Unicode."""
+        return self._set(sentence, _TERMINAL)
+
+    def markdown(self, sentence: str) -> str:
+        """For Markdown, where a bar would end a table's cell."""
+        return self._set(sentence, _MARKDOWN)
+
+    def html(self, sentence: str) -> "Markup":
+        """For a page: subscripts, powers and links as elements."""
+        from markupsafe import Markup
+
+        return Markup(self._set(sentence, _HTML))  # noqa: S704  (every part is escaped)
+
+    def _set(self, sentence: str, form: "_Form") -> str:
+        def symbol(match: re.Match[str]) -> str:
+            base, below = self._spelled[match[1]]
+            return form.lowered(base, below) if below else base
+
+        def part(k: int, text: str) -> str:
+            if k % 2:
+                return self._reference(text, form)
+            text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
+            text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
+            return _POWER.sub(form.power, text)
+
+        return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
+
+    def _reference(self, name: str, form: "_Form") -> str:
+        code = form.code.format(escape(name))
+        if name not in self.names:
+            return code
+        title, anchor, _ = self.names[name]
+        return form.known.format(title=self._set(title, form), code=code, anchor=anchor)
+
+
+def _word(letter: str) -> str:
+    """The name of a Greek letter, as a sentence spells it."""
+    word = unicodedata.name(letter).rpartition(" ")[2]
+    return word.capitalize() if letter.isupper() else word.lower()
+
+
+def _typographic(text: str) -> str:
+    """Escaped for HTML, with curly quotes and with numbers that stay with their names and units."""
+    text = escape(re.sub('"([^"]*)"', r"“\1”", text).replace("'", "’"), quote=False)
+    return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
+
+
+_TOGETHER = re.compile(
+    r"(?:(?<=\bEq\.)|(?<=\bEqs\.)|(?<=\bTable)|(?<=\bFigure)) (?=[\dA])"
+    r"|(?<=\d) (?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
+)
+
+
+class _Form(NamedTuple):
+    """How a text is escaped, a subscript and a power in brackets set, an id and what it names."""
+
+    escaped: Callable[[str], str]
+    lowered: Callable[[str, str], str]
+    power: str
+    code: str
+    known: str
+
+
+_TERMINAL = _Form(
+    str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
+)
+_MARKDOWN = _TERMINAL._replace(
+    escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
+)
+_HTML = _Form(
+    _typographic, "{}<sub>{}</sub>".format, r"<sup>\2</sup>", "<code>{}</code>",
+    '<a href="#{anchor}">{title}</a>',
+)  # fmt: skip
+
+
+def quoted(text: str) -> str:
+    r"""Words of the report without the marks of LaTeX in which they were read.
+
+    >>> quoted(r"then $\beta = ⟦3^2⟧$, where $k_t\rho_t \leq \ln(2)$")
+    'then β = ⟦3²⟧, where k_t ρ_t ≤ ln(2)'
+    """
+    text = re.sub(r"(?<=\w)(?=\\)", " ", shown(text))
+    text = re.sub(r"\\([A-Za-z]+)", lambda command: _command(command[1]), text)
+    return " ".join(re.sub(r"[$&]", "", text).split())
+
+
+def _command(name: str) -> str:
+    if name in _COMMANDS:
+        return _COMMANDS[name]
+    size = "CAPITAL" if name[0].isupper() else "SMALL"
+    try:
+        return unicodedata.lookup(f"GREEK {size} LETTER {name}")
+    except KeyError:  # a function, such as ln
+        return name
+
+
+_COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
