@@ -163,8 +163,7 @@ class Dual(Operators):
         return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value + other, self.slopes)
+        other = _dual(other)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
@@ -175,18 +174,20 @@ class Dual(Operators):
         return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
-        if not isinstance(other, Dual):
-            return Dual(self.value / other, {name: x / other for name, x in self.slopes.items()})
+        other = _dual(other)
         quotient = self.value / other.value
         slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __rtruediv__(self, other: Any) -> "Dual":
-        quotient = other / self.value
-        return self.scaled(quotient, -(quotient / self.value))
+        return Dual(other) / self
 
     def __pow__(self, exponent: int) -> "Dual":
         return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
+
+
+def _dual(number: Any) -> Dual:
+    return number if isinstance(number, Dual) else Dual(number)
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
@@ -333,7 +334,7 @@ class Ratios:
         return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
 
     def log(self, x: Ratio) -> Ratio:
-        return self._other(None, x)
+        return self.number(0) if x == 1 else self._other(None, x)
 
     def power(self, x: Ratio, exponent: Fraction) -> Ratio:
         if exponent.denominator == 1:

@@ -136,33 +136,20 @@ def explore(function: Function, box: Box, target: Interval, budget: int = 250) -
     """Decide whether values over the box fall inside the target interval.
 
     Where every input acts in one direction, the way from the least to the greatest value is
-    searched; other boxes are cut in halves along the relatively widest side, the largest first. It
-    ends with a point that is proven inside, when every part is proven outside, or after `budget`
-    parts.
+    searched; other boxes are cut in halves, of which at most `budget` are looked at.
 
     >>> box = {"x": (Fraction(0), Fraction(1))}
     >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
     True
     """
-    whole, scales = enclose(function, box), _scales(box)
-    queue, closed = deque([(box, whole)]), list[Ends]()
-    inside, undecided = None, False
-    while queue and inside is None and budget > 0:
-        (part, range_), budget = queue.popleft(), budget - 1
-        if target.encloses(*range_.ends):
-            inside = _middle(part)
-        elif range_.is_monotone and not target.excludes(*range_.ends):
-            inside = _on_the_way(function, part, range_, target) if range_.signs else None
-            undecided |= inside is None
-        elif not target.excludes(*range_.ends):
-            middle = _middle(part)
-            inside = middle if target.encloses(*_plain(function, _points(middle))) else None
-            queue += [(half, enclose(function, half)) for half in _halves(part, scales)]
-            continue
-        closed.append(range_.ends)
-    lows, highs = zip(*closed, *(range_.ends for _, range_ in queue), strict=True)
-    ends = max(whole.ends[0], min(lows)), min(whole.ends[1], max(highs))
-    return Exploration(ends, inside, never=not queue and inside is None and not undecided)
+    whole = enclose(function, box)
+    if target.excludes(*whole.ends):
+        return Exploration(whole.ends, None, never=True)
+    if whole.is_monotone:
+        inside = _on_the_way(function, box, whole, target) if whole.signs else None
+        return Exploration(whole.ends, inside)
+    outcome, inside = satisfying([(function, target)], box, budget)
+    return Exploration(whole.ends, inside, never=outcome is False)
 
 
 _STEPS = 80
@@ -197,14 +184,13 @@ def _middle(box: Box) -> dict[str, Fraction]:
     return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
-def _scales(box: Box) -> dict[str, Fraction]:
-    """What an input's width is measured by, so that unlike quantities can be compared."""
-    sizes = {name: max(abs(low), abs(high)) for name, (low, high) in box.items()}
-    return {name: size or Fraction(1) for name, size in sizes.items()}
+def _halves(part: Box, whole: Box) -> list[Box]:
+    """A part cut across the side that is widest beside the numbers of that input in the whole."""
 
+    def width(name: str) -> Fraction:
+        return (part[name][1] - part[name][0]) / (max(map(abs, whole[name])) or 1)
 
-def _halves(part: Box, scales: Mapping[str, Fraction]) -> list[Box]:
-    name = max(part, key=lambda key: (part[key][1] - part[key][0]) / scales[key])
+    name = max(part, key=width)
     low, high = part[name]
     middle = (low + high) / 2
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
@@ -415,7 +401,7 @@ def satisfying(
     None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
     ones first save time. In each box one point is tried, where the constraints' tangents aim.
     """
-    queue, scales = deque([(box, list(constraints))]), _scales(box)
+    queue = deque([(box, list(constraints))])
     for _ in range(budget):
         if not queue:
             return False, None
@@ -426,7 +412,7 @@ def satisfying(
         point = _aimed(undecided, part)
         if not undecided or _undecided(undecided, _points(point)) == []:
             return True, point
-        queue += [(half, undecided) for half in _halves(part, scales)]
+        queue += [(half, undecided) for half in _halves(part, box)]
     return None, None
 
 

@@ -4,22 +4,15 @@ What each key means is said at the head of its file.
 """
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any, Literal
+from typing import Literal
 
 import msgspec
 
 from reference.printed import Interval, Printed, parse
 from reference.units import to_si
-
-
-class LedgerError(ValueError):
-    """Something in the ledger is wrong; the message names the entry and what would be right."""
-
 
 Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
@@ -28,41 +21,8 @@ Kind = Literal[
 Relation = Literal["<", "<=", ">", ">="]
 
 
-class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A table of a file, which may hold no keys but its own."""
-
-
-class ClaimEntry(Entry, frozen=True):
-    """A [[claim]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Kind
-    unit: str = "1"
-    computed_by: str | None = None
-    rests_on: dict[str, str] = {}
-    readings: dict[str, str] = {}
-    given: str | None = None
-    shown_by: list[str] = []
-    relation: Relation | None = None
-    against: str | None = None
-    assumes: str | None = None
-    exact: bool = False
-    cell: str | None = None
-    row: int | None = None
-    quantity: str | None = None
-    workbook: str | None = None
-
-
-class EquationEntry(Entry, frozen=True):
-    """An [[equation]]."""
-
-    id: str
-    title: str
-    quote: str
-    kind: Literal["derived", "definition", "taken over"]
-    follows_from: str
 
 
 class Inferred(Entry, frozen=True):
@@ -154,71 +114,16 @@ class Report(Entry, frozen=True):
     year: int
 
 
-class Furniture(Entry, frozen=True):
-    """Digits and number words of the text that are no quantities."""
-
-    pattern: str
-    reason: str
-
-
-class Document(Entry, frozen=True):
-    """The whole of ledger.toml."""
-
-    report: Report
-    reasons: dict[str, str]
-    table: dict[Literal["blank"], list[str]]
-    groups: dict[str, dict[str, str]]
-    inferred: dict[str, Inferred]
-    symbols: dict[str, Symbol]
-    quantities: dict[str, Quantity]
-    furniture: list[Furniture]
-    equation_entries: list[EquationEntry] = msgspec.field(name="equation")
-    claim_entries: list[ClaimEntry] = msgspec.field(name="claim")
-    slips: list[Slip] = msgspec.field(name="slip", default=[])
-
-
-def converted(document: Any, kind: Any, file: str) -> Any:
-    """Parsed TOML as structs. Raises LedgerError where it does not fit them."""
-
-    def named(place: re.Match[str]) -> str:
-        """An entry by its id or name, where it has one, instead of by its number."""
-        entry = (document[place[1]] if place[1] else document)[int(place[2])]
-        return f"{place[1] or 'entry'} {entry.get('id') or entry.get('name') or place[2]!r}"
-
-    try:
-        return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
-    except msgspec.ValidationError as error:
-        says = re.sub(r"\$(?:\.(\w+))?\[(\d+)\]", named, str(error))
-        raise LedgerError(f"{file}: {says}") from error
-
-
-@contextmanager
-def naming(who: str) -> Iterator[None]:
-    """What is wrong with an entry is told with its name before it."""
-    try:
-        yield
-    except (ValueError, ArithmeticError) as error:
-        raise LedgerError(f"{who}: {error}") from error
-
-
-# Places in the text
-
-
 @dataclass(frozen=True, slots=True)
 class Place:
     """Where something stands: characters and line of the text, section, equation, table cell."""
 
-    start: int
-    end: int
-    line: int
-    section: str
-    equation: str | None
-    cell: str | None
-
-    @property
-    def order(self) -> tuple[bool, int, str]:
-        """By place in the text; the table, which ends it, cell by cell."""
-        return (True, int(self.cell[1:]), self.cell) if self.cell else (False, self.start, "")
+    start: int = 0
+    end: int = 0
+    line: int = 0
+    section: str = ""
+    equation: str | None = None
+    cell: str | None = None
 
     def __str__(self) -> str:
         if self.cell:
@@ -229,17 +134,15 @@ class Place:
 
 def place_of(text: str, quote: str, cell: str | None = None) -> Place:
     """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
-    match = re.fullmatch("(.*?)⟦(.*?)⟧(.*)", quote, re.DOTALL)
-    if match is None:
-        raise ValueError("its quote needs the printed text between ⟦ and ⟧")
-    words = "".join(match.groups())
+    before, own, after = re.split("[⟦⟧]", quote)
+    words = before + own + after
     if (times := text.count(words)) != 1:
         raise ValueError(f"the report has {words!r} {times} times, not once")
-    start = text.index(words) + len(match[1])
+    start = text.index(words) + len(before)
     section = next(name for at, name in reversed(_sections(text)) if at <= start)
     equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
     line = text.count("\n", 0, start) + 1
-    return Place(start, start + len(match[2]), line, section, equation, cell)
+    return Place(start, start + len(own), line, section, equation, cell)
 
 
 @cache
@@ -255,3 +158,63 @@ def _displays(text: str) -> list[tuple[int, int, str]]:
     """Where the numbered equations stand, and their numbers."""
     numbered = r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)"
     return [(*match.span(), match[1]) for match in re.finditer(numbered, text, re.DOTALL)]
+
+
+# Equations and formulas
+
+
+class Side(Entry, frozen=True, kw_only=True):
+    """A side of an equation, or its slope by a symbol, with something put in for its symbols."""
+
+    side: int = -1
+    put: dict[str, str] = {}
+    slope: str | None = None
+
+
+class Premise(Side, frozen=True):
+    """What another equation is derived from."""
+
+    equation: str
+
+
+class Condition(Side, frozen=True):
+    """What must hold of an equation, so that it follows from its premises."""
+
+    says: str
+    equals: str
+
+
+class Equation(Entry, frozen=True, eq=False):
+    """An [[equation]], and where it stands."""
+
+    id: str
+    title: str
+    quote: str
+    kind: Literal["derived", "definition", "taken over"]
+    follows_from: str
+    checks: list[Condition] = []
+    premises: dict[str, Premise] = {}
+    place: Place = Place()
+
+
+class Computation(Entry, frozen=True, eq=False):
+    """A [[computation]]: what it computes, and its formula in the report's notation.
+
+    Without a formula it is the function of its name in reference/formulas.py. What `restates` only
+    repeats or counts what the report prints elsewhere. `by_row`: it takes the number of a row of
+    the sheet (1 is the first time step); `by_scheme`: it runs the sheet, in either of the two
+    schemes that fit the report's words.
+    """
+
+    name: str
+    summary: str
+    formula: str | None = None
+    premises: dict[str, Premise] = {}
+    restates: bool = False
+    by_row: bool = False
+    by_scheme: bool = False
+
+    @property
+    def equations(self) -> list[str]:
+        """The printed equations that it evaluates."""
+        return [premise.equation for premise in self.premises.values()]

@@ -10,12 +10,12 @@ space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, reduce
+from functools import cache, lru_cache, reduce
 from operator import add, mul
-from typing import Any, NamedTuple
+from typing import Any
 
 from reference.arithmetic import InexactError, Rationals
 from reference.units import Dimension, DimensionError
@@ -39,12 +39,8 @@ class Node:
     value: Fraction = Fraction(0)
 
 
-class _Token(NamedTuple):
-    kind: str
-    text: str
-    start: int
-    spaced: bool
-    """Whether a space stands before it."""
+Sides = Mapping[str, tuple[Node, ...]]
+"""The sides of every printed equation, by the equation's id."""
 
 
 @cache
@@ -62,15 +58,6 @@ def _token(written: tuple[str, ...]) -> re.Pattern[str]:
     )
 
 
-def _tokens(text: str, symbols: Mapping[str, str]) -> Iterator[_Token]:
-    for match in _token(tuple(symbols)).finditer(text):
-        kind = str(match.lastgroup)
-        if kind == "other":
-            rest = text[match.start() :].strip()
-            raise EquationError(f"cannot read {rest!r} in the equation {text!r}")
-        yield _Token(kind, match[kind], match.start(kind), bool(match["space"]))
-
-
 _BINDING = {"+": 1, "-": 1, "/": 2, " ": 2, "": 3, "^": 4}
 """How tightly operators bind; " " and "" are products written with and without a space."""
 _KINDS = {"+": "sum", "-": "sum", "/": "quotient", " ": "product", "": "product", "^": "power"}
@@ -81,12 +68,24 @@ class _Reader:
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
         self.text, self.symbols = text, symbols
-        self.tokens = list(_tokens(text, symbols))
+        self.tokens = list(_token(tuple(symbols)).finditer(text))
         self.at = 0
 
     @property
-    def next(self) -> _Token:
-        return self.tokens[self.at]
+    def next(self) -> tuple[str, str, bool]:
+        """The kind and the text of what comes next, and whether a space stands before it."""
+        token = self.tokens[self.at]
+        kind = str(token.lastgroup)
+        return kind, token[kind], bool(token["space"])
+
+    def error(self) -> EquationError:
+        """That what comes next has no place there."""
+        token = self.tokens[self.at]
+        rest = self.text[token.start(str(token.lastgroup)) :]
+        what = (
+            f"cannot read {rest!r} at the end of" if rest else "something is missing at the end of"
+        )
+        return EquationError(f"{what} {self.text!r}")
 
     def take(self, sign: str) -> bool:
         """Whether this sign comes next; it is then taken."""
@@ -96,7 +95,7 @@ class _Reader:
 
     def expect(self, sign: str) -> None:
         if not self.take(sign):
-            raise EquationError(f"{sign!r} is missing in the equation {self.text!r}")
+            raise EquationError(f"{sign!r} is missing in {self.text!r}")
 
     def expression(self, binding: int = 0) -> Node:
         """What follows, as far as its operators bind more tightly than `binding`."""
@@ -117,15 +116,17 @@ class _Reader:
 
     def operator(self) -> str | None:
         """The operator that comes next, a product where a factor does; None at the end."""
-        kind, text, _, spaced = self.next
+        kind, text, spaced = self.next
         if kind in ("number", "symbol", "function", "fraction") or text == "(":
             return " " if spaced else ""
         return text if text in ("+", "-", "/") or (text == "^" and not spaced) else None
 
     def operand(self) -> Node:
-        kind, text, *_ = self.next
+        kind, text, _ = self.next
         if text == "(":
             return self.within("(", ")")
+        if kind not in ("number", "symbol", "function", "fraction"):
+            raise self.error()
         self.at += 1
         if kind == "number":
             return Node("number", value=Fraction(text))
@@ -133,14 +134,13 @@ class _Reader:
             return Node("symbol", name=self.symbols[text])
         if kind == "function":
             return Node(text[1:], (self.expression(_BINDING[""]),))
-        if kind == "fraction":
-            return Node("quotient", (self.within("{", "}"), self.within("{", "}")))
-        raise EquationError(f"the equation {self.text!r} breaks off or has {text!r} out of place")
+        return Node("quotient", (self.within("{", "}"), self.within("{", "}")))
 
     def exponent(self) -> Node:
-        if self.next.spaced:
-            raise EquationError(f"an exponent is missing in the equation {self.text!r}")
-        return self.within("{", "}") if self.next.text == "{" else self.operand()
+        _, text, spaced = self.next
+        if spaced:
+            raise self.error()
+        return self.within("{", "}") if text == "{" else self.operand()
 
     def within(self, opening: str, closing: str) -> Node:
         self.expect(opening)
@@ -157,11 +157,16 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
     >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
     '(2 E)/(3 Y)'
     """
-    reader = _Reader(text, symbols)
+    return _read(text, tuple(symbols.items()))
+
+
+@lru_cache(2048)
+def _read(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
+    """Each text once: the same misprint of an equation is tried for all that rests on it."""
+    reader = _Reader(text, dict(symbols))
     node = reader.expression()
-    if reader.next.kind != "end":
-        rest = text[reader.next.start :]
-        raise EquationError(f"cannot read {rest!r} at the end of {text!r}")
+    if reader.next[0] != "end":
+        raise reader.error()
     return node
 
 

@@ -7,21 +7,19 @@ no longer agrees, the finding says so.
 
 import operator
 import re
-import tomllib
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
-from importlib import resources
 from string import ascii_uppercase
-from typing import Any, Literal
+from typing import Literal
 
 import msgspec
 
 from reference.arithmetic import Reals
-from reference.entries import Entry, LedgerError, converted, naming
+from reference.entries import Entry
 from reference.equations import Node, evaluate, read_expression
-from reference.ledger import Ledger
 from reference.ledger import load as load_ledger
+from reference.ledger import tables
 from reference.printed import decimal_text, parse
 from reference.units import to_si
 
@@ -102,40 +100,16 @@ def load() -> Mapping[str, Finding]:
     >>> list(load())[:2]
     ['headline', 'frank-zook-pair']
     """
-    source = resources.files("reference.report") / "findings.toml"
-    return read(tomllib.loads(source.read_text("utf-8")), load_ledger())
+    entries = tables("findings.toml", dict[Literal["finding"], list[Finding]])["finding"]
+    return {entry.id: filled(entry) for entry in entries}
 
 
-def read(document: Mapping[str, Any], ledger: Ledger) -> Mapping[str, Finding]:
-    """Build and check the findings from parsed TOML; LedgerError names what is wrong."""
-    findings: dict[str, Finding] = {}
-    for entry in converted(document.get("finding", []), list[Finding], "findings.toml"):
-        with naming(f"finding {entry.id!r}"):
-            if entry.id in findings:
-                raise ValueError("it stands there twice")
-            findings[entry.id] = _finding(entry, ledger)
-    if not findings:
-        raise LedgerError("there are no findings: the file has no [[finding]]")
-    return findings
-
-
-def _finding(entry: Finding, ledger: Ledger) -> Finding:
-    for name in entry.claims:
-        if name not in ledger.claims and name not in ledger.equations:
-            raise ValueError(f"there is no claim {name!r}")
-    for name, assertion in entry.evidence.items():
-        to_si(assertion.unit)
-        if assertion.relation not in ("", *_RELATIONS):
-            raise ValueError(f"evidence {name!r}: {assertion.relation!r} is no relation")
-        if assertion.text not in ("yes", "no"):
-            parse(assertion.text)
-        for formula in filter(None, (assertion.formula, *assertion.exact.values())):
-            expression(formula)
-
+def filled(entry: Finding) -> Finding:
+    """A finding of the file with the numbers in its texts. Raises KeyError for an unknown name."""
     texts, steps = dict[str, str](), dict[str, bool]()
     for key in ("title", "statement", "by_hand", "settle"):
         text = " ".join(getattr(entry, key).split())
-        text = _PLACE.sub(lambda match: _number(match[1], match[2], entry, ledger), text)
+        text = _PLACE.sub(lambda match: _number(match[1], match[2], entry), text)
         steps |= {line: _holds(line) for line in re.findall("`(.*?)`", text)}
         texts[key] = text.replace("`", "")
     return msgspec.structs.replace(entry, **texts, steps=steps)
@@ -144,17 +118,14 @@ def _finding(entry: Finding, ledger: Ledger) -> Finding:
 _PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
 
 
-def _number(name: str, unit: str | None, entry: Finding, ledger: Ledger) -> str:
+def _number(name: str, unit: str | None, entry: Finding) -> str:
     """What stands for {evidence}, {claim}, {source}, or {claim:unit} in another unit."""
     if name in entry.evidence:
         return entry.evidence[name].text
-    if name in ledger.claims:
-        claim = ledger.claims[name]
-        return claim.shown if unit is None else decimal_text(claim.value / to_si(unit))
-    if name in ledger.sources:
-        source = ledger.sources[name]
-        return source.says if unit is None else decimal_text(source.value / to_si(unit))
-    raise ValueError(f"its texts name {{{name}}}, which is no evidence, claim or source")
+    claims, sources = load_ledger().claims, load_ledger().sources
+    if unit is not None:
+        return decimal_text((claims.get(name) or sources[name]).value / to_si(unit))
+    return claims[name].shown if name in claims else sources[name].says
 
 
 def _holds(text: str) -> bool:

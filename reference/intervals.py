@@ -8,7 +8,6 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -141,8 +140,6 @@ class Intervals(Arithmetic):
         return arb.pi()
 
     def number(self, value: Fraction | int) -> Number:
-        if value.denominator == 1:
-            return _integer(value.numerator)
         if ctx.prec == self._bits:
             return _ball(value)
         with self.working():
@@ -207,11 +204,6 @@ class Intervals(Arithmetic):
     def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return _between(_least(*lows), _greatest(*highs))
-
-
-@lru_cache(1000)
-def _integer(value: int) -> arb:
-    return arb(value)
 
 
 def _ball(value: Fraction | int) -> arb:

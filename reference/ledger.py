@@ -1,49 +1,46 @@
-"""The ledger: every number and equation that the report prints, placed in its text and checked.
+"""The ledger: every number and equation that the report prints, placed in its text.
 
-Everything that can be wrong with an entry is an error when the ledger is loaded: a quote that the
-report does not contain, a duplicate id, an unknown unit, text that is no number, a computation that
-does not exist or whose units do not fit, inputs that are missing or that go round in a circle.
+What each key of the files of `reference/report` means is said at their heads. Reading them checks
+what each entry must have and that its quote stands in the report once; that entries fit each other
+(names, units, kinds) is held by the tests of the shipped files.
 """
 
 import re
 import tomllib
-from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
-from functools import cache, cached_property, lru_cache, reduce
-from graphlib import CycleError, TopologicalSorter
+from functools import cache, cached_property, reduce
 from importlib import resources
 from operator import mul
-from typing import Any, TypeVar
+from typing import Any, Literal
 
-from msgspec.structs import asdict, replace
+import msgspec
+from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Number
-from reference.computations import COMPUTATIONS, EXPONENT, SAME, Computation, Formulas
-from reference.derivations import DERIVATIONS, Sides
 from reference.entries import (
-    ClaimEntry,
-    Document,
-    EquationEntry,
+    Computation,
+    Entry,
+    Equation,
     Inferred,
-    LedgerError,
+    Kind,
     Place,
+    Quantity,
+    Relation,
+    Report,
     Slip,
     Source,
-    converted,
-    naming,
+    Symbol,
     place_of,
 )
-from reference.equations import EquationError, Node, read_equation
+from reference.equations import EquationError, Node, Sides, read_equation
+from reference.formulas import compute
 from reference.printed import Interval, Printed, Rounding, parse
-from reference.units import Dimension, raised, same_dimension, to_si, unit_dimension
+from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
-
-Anything = TypeVar("Anything")
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
@@ -76,24 +73,47 @@ class Convention:
     centered: bool = False
 
 
-class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
-    """One printed number: its table of the file, and what follows from it.
+class Claim(Entry, frozen=True, dict=True, eq=False):
+    """A [[claim]]: one printed number, and what the ledger tells of it besides.
 
-    `computations` has the computation as printed under the name "", and each other reading;
-    `inputs` names for each input of them the entries whose product it is; `given` is the reason why
-    nothing in the report decides the number; `chosen` says that the author set it, here or where
-    this claim repeats it; `bound` is the number that a relation compares with; `within` the id of
-    the equation that the number is a constant of.
+    `given` is then the reason in words; `computations` has the computation as printed under the
+    name "", and each other reading; `inputs` names for each input of the computations the
+    entries whose product it is; `within` the equation that the number is a constant of; `chosen`
+    says that the author set it, here or where this claim repeats it; `bound` is the number that a
+    relation compares with.
     """
 
-    text: str
-    place: Place
-    printed: Printed | None
-    computations: Mapping[str, Computation]
-    inputs: Mapping[str, tuple[str, ...]]
-    within: str | None
-    chosen: bool
+    id: str
+    title: str
+    quote: str
+    kind: Kind
+    unit: str = "1"
+    computed_by: str | None = None
+    rests_on: Mapping[str, str] = {}
+    readings: Mapping[str, str] = {}
+    given: str | None = None
+    shown_by: Sequence[str] = ()
+    relation: Relation | None = None
+    against: str | None = None
+    assumes: str | None = None
+    exact: bool = False
+    cell: str | None = None
+    row: int | None = None
+    quantity: str | None = None
+    workbook: str | None = None
+
+    text: str = ""
+    place: Place = Place()
+    computations: Mapping[str, Computation] = {}
+    inputs: Mapping[str, tuple[str, ...]] = {}
+    within: str | None = None
+    chosen: bool = False
     bound: Fraction | None = None
+
+    @cached_property
+    def printed(self) -> Printed | None:
+        """What it prints, if that is a number."""
+        return None if self.kind in ("comparison", "remark") else parse(self.text)
 
     @property
     def shown(self) -> str:
@@ -107,14 +127,14 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     @property
     def number(self) -> Printed:
-        """What it prints. Raises LedgerError for a remark."""
+        """What it prints. Raises ValueError for a remark."""
         if self.printed is None:
-            raise LedgerError(f"claim {self.id!r} prints no number")
+            raise ValueError(f"claim {self.id!r} prints no number")
         return self.printed
 
     @cached_property
     def value(self) -> Fraction:
-        """The number as printed, in SI. Raises LedgerError for a remark."""
+        """The number as printed, in SI. Raises ValueError for a remark."""
         return self.number.value * self.si
 
     @property
@@ -123,7 +143,7 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """The values, in its unit, that agree with the claim. Raises LedgerError for a remark."""
+        """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
         if self.bound is not None:
             above, closed = self.relation in (">", ">="), self.relation in ("<=", ">=")
             low, high = (self.bound, None) if above else (None, self.bound)
@@ -189,27 +209,79 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return sorted({e for c in self.computations.values() for e in c.equations})
 
 
-class Equation(EquationEntry, frozen=True, kw_only=True, eq=False):
-    """One printed equation: its table of the file, and where it stands."""
+class Ledger(Entry, frozen=True, dict=True, eq=False):
+    """The whole of ledger.toml, with all claims and equations in the order of the report.
 
-    place: Place
-
-
-class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
-    """All claims and equations in the order of the report, the inferred inputs, and the text.
-
-    `constants` are the claims inside every equation, `blank` the cells that Table A-1 leaves blank,
-    `misprinted` the texts that stand in the place of the report's, by the id of the claim or
+    `misprinted` are the texts that stand in the place of the report's, by the id of the claim or
     equation.
     """
 
-    text: str
-    claims: dict[str, Claim]
-    equations: dict[str, Equation]
-    constants: dict[str, list[str]]
-    sources: dict[str, Source]
-    blank: tuple[str, ...]
+    report: Report
+    reasons: dict[str, str]
+    blank: list[str]
+    groups: dict[str, dict[str, str]]
+    inferred: dict[str, Inferred]
+    symbols: dict[str, Symbol]
+    quantities: dict[str, Quantity]
+    furniture: list[dict[Literal["pattern", "reason"], str]]
+    equation: list[Equation]
+    claim: list[Claim]
+    slip: list[Slip]
+    computation: list[Computation]
     misprinted: Mapping[str, str] = {}
+
+    @cached_property
+    def text(self) -> str:
+        """The report."""
+        return _file(self.report.text)
+
+    @cached_property
+    def sources(self) -> Mapping[str, Source]:
+        """The public sources, by id."""
+        sources = tables("sources.toml", dict[Literal["source"], list[Source]])["source"]
+        return {source.id: source for source in sources}
+
+    @cached_property
+    def computations(self) -> Mapping[str, Computation]:
+        """What computes claims, by name."""
+        return {computation.name: computation for computation in self.computation}
+
+    @cached_property
+    def equations(self) -> Mapping[str, Equation]:
+        """The printed equations, by id."""
+        placed = (replace(own, place=place_of(self.text, own.quote)) for own in self.equation)
+        return {equation.id: equation for equation in placed}
+
+    @cached_property
+    def claims(self) -> Mapping[str, Claim]:
+        """The claims, by id."""
+        placed = sorted(map(self._placed, self.claim), key=lambda claim: claim.place.start)
+        claims = {claim.id: claim for claim in placed}
+        return {
+            name: replace(claim, chosen=_is_chosen(claim, claims), bound=_bound(claim, claims))
+            for name, claim in claims.items()
+        }
+
+    def _placed(self, claim: Claim) -> Claim:
+        """A claim with its place, its inputs, and the reason why nothing decides it in words."""
+        computed_by = {"": claim.computed_by, **claim.readings}
+        place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
+        group = rests_on.pop("group", None)
+        inputs = {**self.groups[group], **rests_on} if group else rests_on
+        equations = ((equation.id, equation.place) for equation in self.equations.values())
+        around = (name for name, own in equations if own.start <= place.start < own.end)
+        return replace(
+            claim,
+            given=claim.given and self.reasons[claim.given],
+            text=self.text[place.start : place.end],
+            place=place,
+            computations={
+                key: self.computations[name] for key, name in computed_by.items() if name
+            },
+            inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
+            within=next(around, None),
+            chosen=claim.given == "choice",
+        )
 
     # The printed equations
 
@@ -225,7 +297,12 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        return [] if equation in self.misprinted else self.constants[equation]
+        return [] if equation in self.misprinted else self._constants[equation]
+
+    @cached_property
+    def _constants(self) -> Mapping[str, list[str]]:
+        within = [(claim.within, claim.id) for claim in self.claims.values()]
+        return {name: [own for e, own in within if e == name] for name in self.equations}
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
@@ -259,7 +336,7 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
-        return _read_equation(text, tuple(self.written.items()))
+        return read_equation(text, self.written)
 
     # The entries as inputs
 
@@ -273,12 +350,8 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
         return self._input(name).unit
 
     def _input(self, name: str) -> Claim | Inferred:
-        if name.startswith(INFERRED):
-            return _known("inferred input", name.removeprefix(INFERRED), self.inferred)
-        claim = _known("number", name, self.claims)
-        if claim.printed is None:
-            raise LedgerError(f"there is no number {name!r}: what it prints is in words")
-        return claim
+        unknown = name.startswith(INFERRED)
+        return self.inferred[name.removeprefix(INFERRED)] if unknown else self.claims[name]
 
     def value(self, name: str) -> Fraction:
         """An entry's value as printed, or the nominal one of an inferred input, in SI.
@@ -308,21 +381,19 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
         An entry that stands in several inputs is one variable.
         """
         computation, sides = claim.computations[reading], self.sides
-        settings: dict[str, Any] = {
-            key: self.value(claim.inputs[key][0])
-            for key, unit in computation.inputs.items()
-            if unit == EXPONENT
-        }
-        inputs = {key: names for key, names in claim.inputs.items() if key not in settings}
+        settings: dict[str, Any] = {}
         if computation.by_row:
             settings["row"] = claim.row
         if computation.by_scheme:
             settings["centered"] = centered
+        inputs = dict(claim.inputs)
+        if "power" in inputs:  # an exponent stays exact
+            settings["power"] = self.value(*inputs.pop("power"))
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
             own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return computation.function(Formulas(ar, sides), **own, **settings)
+            return compute(computation, ar, sides, {**own, **settings})
 
         return of_entries
 
@@ -333,26 +404,32 @@ class Ledger(Document, frozen=True, kw_only=True, dict=True, eq=False):
 
         Raises ValueError if a claim's text is no number.
         """
-        claims, equation = self.claims, name
+        copy = replace(self, misprinted={**self.misprinted, name: text})
+        copy.__dict__.update(self.__dict__)  # what the text does not decide is as it was
+        equation: str | None = name
         if name not in self.equations:
-            claims = dict(claims)
-            claims[name] = replace(claims[name], text=text, printed=parse(text))
+            claims = {**self.claims, name: replace(self.claims[name], text=text)}
+            parse(text)
             for claim in [c for c in claims.values() if name in (c.id, c.against)]:
                 claims[claim.id] = replace(claim, bound=_bound(claim, claims))
-            equation = claims[name].within or ""
-        misprinted = {**self.misprinted, name: text}
-        copy = replace(self, claims=claims, misprinted=misprinted)
-        # What no text decides, and all other equations, are as they were.
-        copy.__dict__.update(written=self.written, dimensions=self.dimensions)
-        again = {equation: copy._sides_of(self.equations[equation])} if equation else {}
-        copy.__dict__["sides"] = {**self.sides, **again}
+            copy.__dict__["claims"] = claims
+            equation = claims[name].within
+        if equation:
+            sides = copy._sides_of(self.equations[equation])
+            copy.__dict__["sides"] = {**self.sides, equation: sides}
         return copy
 
 
-@lru_cache(512)
-def _read_equation(text: str, written: tuple[tuple[str, str], ...]) -> tuple[Node, ...]:
-    """Each text once: the same misprint of an equation is tried for all that rests on it."""
-    return read_equation(text, dict(written))
+def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
+    """Whether the author set the number, here or where this claim repeats it."""
+    repeated = claim.stated if claim.computed_by == "same_as" else []
+    return claim.chosen or any(_is_chosen(claims[name], claims) for name in repeated)
+
+
+def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
+    """The number that a claim compares with, its own or another claim's."""
+    compared = claims[claim.against] if claim.against else claim
+    return compared.printed.value if claim.relation and compared.printed else None
 
 
 @cache
@@ -364,12 +441,18 @@ def load() -> Ledger:
     >>> claim.text, str(claim.interval()), claim.unit
     ('7.67', '[7.665, 7.675)', 'um')
     """
-    document, sources = (tomllib.loads(_file(name)) for name in ("ledger.toml", "sources.toml"))
-    return read(document, _file(document["report"]["text"]), sources["source"])
+    ledger: Ledger = tables("ledger.toml", Ledger)
+    return ledger
+
+
+def tables(file: str, kind: Any) -> Any:
+    """A file of `reference/report` as structs; msgspec.ValidationError where it does not fit."""
+    document = tomllib.loads(_file(file))
+    return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
 
 
 def _file(name: str) -> str:
-    return (resources.files("reference.report") / name).read_text("utf-8")
+    return (resources.files("reference") / "report" / name).read_text("utf-8")
 
 
 def claims_of_case(beta: int) -> dict[str, str]:
@@ -381,201 +464,3 @@ def claims_of_case(beta: int) -> dict[str, str]:
     # The target density is printed nowhere: the audit infers what Table A-1 admits.
     strength = {"beta": f"depth-beta-{beta}-beta", "flow_stress": "flow-stress"}
     return {**load().groups["impact"], **strength}
-
-
-def read(
-    document: Mapping[str, Any], text: str, sources: Sequence[Mapping[str, Any]] = ()
-) -> Ledger:
-    """Build and check a ledger from its parsed TOML, the report's text, and the public sources.
-
-    Raises LedgerError, which names the entry, what is wrong with it and what would be right.
-    """
-    tables = converted(document, Document, "ledger.toml")
-    if not tables.claim_entries:
-        raise LedgerError("the ledger is empty: it has no [[claim]]")
-    names = Counter(entry.id for entry in (*tables.equation_entries, *tables.claim_entries))
-    if twice := next((name for name, times in names.items() if times > 1), None):
-        raise LedgerError(f"{twice!r} stands in the ledger twice")
-    equations: dict[str, Equation] = {}
-    for equation in tables.equation_entries:
-        with naming(f"equation {equation.id!r}"):
-            if equation.kind == "derived" and equation.id not in DERIVATIONS:
-                raise ValueError("nothing in reference/derivations.py derives it")
-            place = place_of(text, equation.quote)
-            equations[equation.id] = Equation(**asdict(equation), place=place)
-    claims: dict[str, Claim] = {}
-    for entry in tables.claim_entries:
-        with naming(f"claim {entry.id!r}"):
-            claims[entry.id] = _claim(entry, tables, text, equations)
-    claims = dict(sorted(_completed(claims).items(), key=lambda item: item[1].place.order))
-    ledger = Ledger(
-        **{name: getattr(tables, name) for name in tables.__struct_fields__},
-        text=text,
-        claims=claims,
-        equations=equations,
-        constants={e: [c.id for c in claims.values() if c.within == e] for e in equations},
-        sources={source.id: source for source in converted(sources, list[Source], "sources.toml")},
-        blank=tuple(cell for cells in tables.table["blank"] for cell in _cells(cells)),
-    )
-    _check(ledger)
-    return ledger
-
-
-def _known(what: str, name: str, known: Mapping[str, Anything]) -> Anything:
-    """What the ledger calls by this name."""
-    if name not in known:
-        near = get_close_matches(name, known, 1)
-        hint = f"; is it {near[0]!r}?" if near else ""
-        raise LedgerError(f"there is no {what} {name!r}{hint}")
-    return known[name]
-
-
-def _cells(cells: str) -> Iterator[str]:
-    match = re.fullmatch(r"([A-F])(\d+):([A-F])(\d+)", cells)
-    if match is None:
-        raise LedgerError(f"[table] blank: {cells!r} is no range of cells such as C1:F6")
-    first, top, last, bottom = match.groups()
-    for row in range(int(top), int(bottom) + 1):
-        yield from (f"{column}{row}" for column in "ABCDEF" if first <= column <= last)
-
-
-# Claims
-
-
-def _claim(
-    entry: ClaimEntry, tables: Document, text: str, equations: Mapping[str, Equation]
-) -> Claim:
-    """One claim, as far as its own entry tells."""
-    place = place_of(text, entry.quote, entry.cell)
-    words = text[place.start : place.end]
-    around = (e.id for e in equations.values() if e.place.start <= place.start < e.place.end)
-    within = next(around, None)
-    to_si(entry.unit)
-    if entry.kind in ("bound", "order of magnitude", "comparison") and entry.relation is None:
-        raise ValueError(f"kind {entry.kind!r} needs a relation: <, <=, > or >=")
-    decided = (entry.computed_by is None) != (entry.given is None)
-    if not (decided or within or entry.kind == "remark"):
-        raise ValueError("needs either computed_by or given")
-    if entry.quantity is not None:
-        _known("quantity", entry.quantity, tables.quantities)
-    readings = {"": entry.computed_by, **entry.readings} if entry.computed_by else {}
-    rests_on = dict(entry.rests_on)
-    if (group := rests_on.pop("group", None)) is not None:
-        rests_on = {**_known("group", group, tables.groups), **rests_on}
-    if rests_on and not readings:
-        raise ValueError("rests_on needs computed_by")
-    given = None if entry.given is None else _known("reason", entry.given, tables.reasons)
-    return Claim(
-        **{**asdict(entry), "given": given},
-        text=words,
-        place=place,
-        printed=None if entry.kind in ("comparison", "remark") else parse(words),
-        computations={
-            key: _known("computation", name, COMPUTATIONS) for key, name in readings.items()
-        },
-        inputs={key: tuple(names.split(" * ")) for key, names in rests_on.items()},
-        within=within,
-        chosen=entry.given == "choice",
-    )
-
-
-def _completed(claims: Mapping[str, Claim]) -> dict[str, Claim]:
-    """Claims with what they take from others: the number compared with, whose choice it is."""
-    graph = TopologicalSorter({claim.id: claim.entries for claim in claims.values()})
-    try:
-        order = [claims[name] for name in graph.static_order() if name in claims]
-    except CycleError as error:
-        raise LedgerError(f"claims rest on each other: {' on '.join(error.args[1])}") from error
-    completed: dict[str, Claim] = {}
-    for claim in order:
-        repeated = claim.entries if claim.computation is COMPUTATIONS["same_as"] else []
-        chosen = any(completed[name].chosen for name in repeated if name in completed)
-        with naming(f"claim {claim.id!r}"):
-            bound = _bound(claim, claims)
-        completed[claim.id] = replace(claim, chosen=claim.chosen or chosen, bound=bound)
-    return completed
-
-
-def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
-    """The number that a claim compares with, its own or another claim's."""
-    compared, against = claim, claim.against
-    if against is not None:
-        compared = _known("number", against, claims)
-        if compared.printed is None:
-            raise ValueError(f"there is no number {against!r} to compare with")
-        if compared.unit != claim.unit:
-            raise ValueError(f"is in {claim.unit}, but {against} in {compared.unit}")
-    return None if claim.relation is None or compared.printed is None else compared.printed.value
-
-
-# What does not fit between entries
-
-
-def _check(ledger: Ledger) -> None:
-    for claim in ledger.claims.values():
-        for computation in claim.computations.values():
-            with naming(f"claim {claim.id!r}, {computation.name}"):
-                _check_computation(claim, computation, ledger)
-    slips = {slip.name: slip for slip in ledger.slips}
-    tables: Sequence[tuple[str, Mapping[str, Any], Callable[[Any, Ledger], object]]] = (
-        ("claim", ledger.claims, _check_shown),
-        ("inferred", ledger.inferred, _check_inferred),
-        ("source", ledger.sources, _check_source),
-        ("symbol", ledger.symbols, lambda symbol, _: to_si(symbol.unit)),
-        ("equation", ledger.equations, lambda own, _: ledger.read(ledger.printed_text(own.id))),
-        ("slip", slips, _check_slip),
-    )
-    for kind, entries, check in tables:
-        for name, entry in entries.items():
-            with naming(f"{kind} {name!r}"):
-                check(entry, ledger)
-
-
-def _check_shown(claim: Claim, ledger: Ledger) -> None:
-    for name in claim.shown_by:
-        if name not in ledger.claims or claim.id not in ledger.claims[name].entries:
-            raise ValueError(f"{name!r} does not rest on it")
-
-
-def _check_inferred(entry: Inferred, ledger: Ledger) -> None:
-    own = (entry.mass, entry.radius, entry.density)
-    for name in (*entry.evidence, *entry.header, *entry.results, *own):
-        _known("claim", name, ledger.claims)
-    _known("quantity", entry.quantity, ledger.quantities)
-
-
-def _check_source(source: Source, ledger: Ledger) -> None:
-    for name in source.claims:
-        if not same_dimension(ledger.unit(name), source.unit):
-            raise ValueError(f"{name} is not in {source.unit}")
-    if not 1 <= len(source.numbers) <= 2:
-        raise ValueError("its quote marks no number, and no two, with ⟦ and ⟧")
-
-
-def _check_slip(slip: Slip, ledger: Ledger) -> None:
-    _known("equation", slip.equation, ledger.equations)
-    if slip.text is not None:
-        ledger.read(slip.text)
-    for name in slip.inputs.values():
-        _known("number", name, ledger.claims)
-
-
-def _check_computation(claim: Claim, computation: Computation, ledger: Ledger) -> None:
-    """Its row, the names of its inputs, and their units."""
-    if computation.by_row != (claim.row is not None):
-        raise ValueError("needs a row" if computation.by_row else "takes no row")
-    expected = computation.inputs
-    if "each" in expected:
-        expected = dict.fromkeys(claim.inputs, expected["each"])
-    if set(expected) != set(claim.inputs):
-        raise ValueError(f"needs inputs {sorted(expected)}, not {sorted(claim.inputs)}")
-    shared = None
-    for name, unit in expected.items():
-        own = " ".join(ledger.unit(part) for part in claim.inputs[name])
-        if unit == SAME:
-            unit = shared = shared or own
-        if not same_dimension(own, "1" if unit == EXPONENT else unit):
-            raise ValueError(f"input {name} is in {own}, which does not measure what {unit} does")
-    result = computation.unit if computation.unit != SAME else shared or claim.unit
-    if not same_dimension(claim.unit, result):
-        raise ValueError(f"unit {claim.unit} does not measure what {result} does")

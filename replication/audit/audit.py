@@ -15,7 +15,6 @@ from typing import Any
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
-from reference.computations import SYMBOLS
 from reference.equations import MATHML, PLAIN, EquationError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.units import to_si
@@ -156,12 +155,14 @@ class Audit(Known):
             return nothing
         if computation is None or not computation.equations:
             return nothing
-        equation = computation.equations[-1]
+        *_, premise = computation.premises.values()
+        equation = premise.equation
         (left, right) = self.ledger.sides[equation]
+        inputs = {key: names for key, names in claim.inputs.items() if len(names) == 1}
         values = {
-            SYMBOLS[key]: self.judge.value(*names)
-            for key, names in claim.inputs.items()
-            if key in SYMBOLS and len(names) == 1
+            symbol: self.judge.value(*inputs[text])
+            for symbol, text in premise.put.items()
+            if text in inputs
         } | {"D": Fraction(1)}  # L is given in diameters
         at = {key: float(value) for key, value in values.items()}
         try:
@@ -318,7 +319,7 @@ _LIBRARIES = ("coldspray", "msgspec", "mpmath", "numpy", "python-flint", "XlsxWr
 
 def _provenance() -> dict[str, object]:
     """What the audit was made with, and of."""
-    folder = resources.files("reference.report")
+    folder = resources.files("reference") / "report"
     names: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
     return {
         "command": "coldspray audit",

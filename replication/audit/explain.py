@@ -8,7 +8,6 @@ from itertools import pairwise
 from string import digits
 
 from reference.arithmetic import Floats
-from reference.derivations import PREMISES
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
@@ -216,7 +215,8 @@ class Explainer:
     def _suspects(self, name: str) -> list[str]:
         """The claim or equation itself, its entries, and what its equations hold."""
         if name in self.ledger.equations:
-            equations = [name, *PREMISES.get(name, ())]
+            premises = self.ledger.equations[name].premises.values()
+            equations = dict.fromkeys([name, *(premise.equation for premise in premises)])
             return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
         claims = self.ledger.claims
         claim = claims[name]
@@ -310,7 +310,7 @@ class Explainer:
     def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
         """What the slips of the claim's equations make of it."""
         target, rounded = claim.target(), Convention(choices_exact=False)
-        for slip in (slip for slip in self.ledger.slips if slip.equation in claim.uses):
+        for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
             ledger = self.ledger
             if slip.text is not None:
                 ledger = ledger.misprint(slip.equation, slip.text)

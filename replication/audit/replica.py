@@ -1,6 +1,6 @@
 """The replica's answer to each computation that the ledger names, in IEEE doubles.
 
-The same names as `reference.computations`, answered by the models of this package: the two are
+The same names as the ledger's computations, answered by the models of this package: the two are
 written separately, and the audit compares them.
 """
 

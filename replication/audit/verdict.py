@@ -10,10 +10,11 @@ from math import prod
 from typing import Any
 
 from reference.arithmetic import InexactError, Rationals, Reals
-from reference.derivations import Check, Sides, derive
 from reference.enclosure import Box, enclose, explore
-from reference.equations import EquationError, dimension
-from reference.ledger import INFERRED, Claim, Convention, Equation, Function, Ledger
+from reference.entries import Equation
+from reference.equations import EquationError, Sides, dimension
+from reference.formulas import Check, derive
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
 from replication.audit.inference import Inference, infer
@@ -401,7 +402,7 @@ def _checks(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
         yield Check(str(error), holds=False)
         return
     try:
-        yield from derive(name, sides, ledger.symbols)
+        yield from derive(ledger.equations[name], sides, ledger.written, ledger.symbols)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     exponents = {

@@ -3,7 +3,6 @@
 import math
 import re
 from fractions import Fraction as F
-from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -30,20 +29,7 @@ VALUES = {
     name: F(7 + 3 * k, 5 + 2 * k) if name != "n" else F(2) for k, name in enumerate(LEDGER.symbols)
 }
 """A number above 1 for every symbol; n is an exponent."""
-AT = SimpleNamespace(**{name.replace("/", "_"): float(value) for name, value in VALUES.items()})
 PI = math.pi
-
-# What nothing derives, once more in Python, by hand from the printed page; of all others the
-# derivations tell whether they are read as they are meant.
-SIDES: dict[str, tuple[Any, ...]] = {
-    "eq1": (lambda s: s.V_p, lambda s: s.V * (s.m_o / s.m) ** 0.5),
-    "eq8": (lambda s: s.F_r, lambda s: s.q * (2 * s.a) ** 2),
-    "eq10": (lambda s: s.beta, lambda s: (7 / 3) * math.log(s.alpha)),
-    "eq14": (
-        lambda s: s.Y_p,
-        lambda s: s.k_t * s.rho_t * s.v**2 + s.R_t + s.k_1 * s.rho_t * s.D * s.dv_dt,
-    ),
-}
 
 
 def value(node: Node, **more: Any) -> float:
@@ -60,14 +46,6 @@ def test_no_equation_is_left_out() -> None:
     displays = {equation.place.equation for equation in LEDGER.equations.values()}
     # Eqs. 4 and 17 print numbers only: they are claims.
     assert displays == {None, *map(str, range(1, 17)), "A-1", "A-2", "A-3"} - {"4"}
-
-
-@pytest.mark.parametrize("name", SIDES)
-def test_a_printed_equation_is_read_as_it_is_meant(name: str) -> None:
-    sides = LEDGER.read(LEDGER.printed_text(name))
-    assert [value(side) for side in sides] == pytest.approx(
-        [side(AT) for side in SIDES[name]], rel=1e-14
-    )
 
 
 @pytest.mark.parametrize("name", LEDGER.equations)
@@ -143,15 +121,15 @@ def test_brackets_stand_where_they_are_needed_and_nowhere_else(text: str) -> Non
     ("text", "message"),
     [
         ("a + c", "cannot read 'c'"),
-        ("a +", "breaks off"),
+        ("a +", "something is missing"),
         ("(a + b", r"'\)' is missing"),
         ("a)", r"cannot read '\)' at the end"),
         (r"\frac{a}", "'{' is missing"),
-        (r"\ln", "breaks off"),
-        ("a^", "breaks off"),
+        (r"\ln", "something is missing"),
+        ("a^", "something is missing"),
         ("a ^2", r"cannot read '\^2' at the end"),
-        ("a^ 2", "exponent is missing"),
-        ("", "breaks off"),
+        ("a^ 2", "cannot read '2' at the end"),
+        ("", "something is missing"),
         (r"\lnx(a)", "cannot read"),
     ],
 )
@@ -212,12 +190,6 @@ def test_a_number_is_replaced_where_it_is_written() -> None:
 
 
 # Dimensions
-
-
-@pytest.mark.parametrize("name", LEDGER.equations)
-def test_the_report_is_right_in_its_dimensions(name: str) -> None:
-    sides = [dimension(side, LEDGER.dimensions, {"n": F(2)}) for side in LEDGER.sides[name]]
-    assert len(set(sides)) == 1
 
 
 @pytest.mark.parametrize(

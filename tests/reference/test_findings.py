@@ -1,18 +1,19 @@
-"""The findings as asserted: their words, and what is wrong with an entry when they are loaded."""
+"""The findings as asserted: their words, their numbers, and what they name."""
 
 import re
 import tomllib
 from importlib import resources
-from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
-from reference.entries import LedgerError
-from reference.findings import Assertion, load, read
+from reference.findings import Assertion, filled, load
 from reference.ledger import load as load_ledger
+from reference.printed import parse
+from reference.units import to_si
 
 LEDGER = load_ledger()
-RAW = tomllib.loads((resources.files("reference.report") / "findings.toml").read_text("utf-8"))
+RAW = tomllib.loads((resources.files("reference") / "report" / "findings.toml").read_text("utf-8"))
 TEXTS = {entry["id"]: entry for entry in RAW["finding"]}
 
 REFERENCE = re.compile(
@@ -60,54 +61,30 @@ def test_arithmetic_holds_and_texts_are_complete(name: str) -> None:
     assert finding.settle or finding.kind == "headline"
 
 
-# Entries
-
-GOOD = {
-    "id": "good",
-    "title": "A title",
-    "kind": "method",
-    "status": "open",
-    "claims": ["depth-beta-5", "eq16"],
-    "statement": "It is {depth} um, printed {depth-beta-5} or {depth-beta-5:mm}, {copper-density}.",
-    "settle": "`2/3 * 3 = 2.0`",
-    "evidence": {"depth": {"says": "7.67", "unit": "um", "means": "depth"}},
-}
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_finding_names_claims_and_asserts_what_can_be_compared(name: str) -> None:
+    finding = load()[name]
+    assert LEDGER.claims.keys() | LEDGER.equations.keys() >= set(finding.claims)
+    for assertion in finding.evidence.values():
+        assert to_si(assertion.unit)
+        assert assertion.holds(parse("7.67").value) in (True, False)
 
 
-def changed(**more: Any) -> dict[str, Any]:
-    return {"finding": [{**GOOD, **more}]}
+def test_no_finding_stands_there_twice() -> None:
+    assert len(load()) == len(RAW["finding"]) == len(TEXTS)
 
 
-def test_a_good_entry_is_read() -> None:
-    finding = read(changed(), LEDGER)["good"]
+def test_numbers_are_put_into_texts_and_arithmetic_is_calculated_again() -> None:
+    evidence = {"depth": Assertion(says="7.67", unit="um", means="depth")}
+    statement = "It is {depth} um, printed {depth-beta-5} or {depth-beta-5:mm}, {copper-density}."
+    settle = "`2/3 * 3 = 2.1`, `ln(1 + 1) = 0.69`"
+    known = replace(load()["headline"], statement=statement, settle=settle, evidence=evidence)
+    finding = filled(known)
     assert finding.statement == "It is 7.67 um, printed 7.67 or 0.00767, 8.89."
-    assert (finding.settle, finding.steps) == ("2/3 * 3 = 2.0", {"2/3 * 3 = 2.0": True})
-    wrong = read(changed(settle="`2/3 * 3 = 2.1`, `ln(1 + 1) = 0.69`"), LEDGER)["good"]
-    assert list(wrong.steps.values()) == [False, True]
-
-
-@pytest.mark.parametrize(
-    ("document", "message"),
-    [
-        ({}, "there are no findings"),
-        ({"finding": [GOOD, GOOD]}, "finding 'good': it stands there twice"),
-        (changed(kind="rumor"), "findings.toml: Invalid enum value 'rumor'"),
-        (changed(status="maybe"), "findings.toml: Invalid enum value 'maybe'"),
-        (changed(extra="x"), "findings.toml: Object contains unknown field `extra`"),
-        ({"finding": [{"id": "good"}]}, "findings.toml: Object missing required field"),
-        (changed(claims=["no-such"]), "finding 'good': there is no claim 'no-such'"),
-        (changed(statement="{width} um"), "its texts name {width}, which is no evidence"),
-        (changed(settle="`2 = `"), "finding 'good': "),
-        (changed(settle="`2/0 = 1`"), "finding 'good': "),
-        (changed(evidence={"d": {"says": "7.67"}}), "Object missing required field `means`"),
-        (changed(evidence={"d": {"says": "about 7", "means": "d"}}), "'about' is no relation"),
-        (changed(evidence={"d": {"says": "deep", "means": "d"}}), "cannot read 'deep'"),
-        (changed(evidence={"d": {"says": "7", "means": "d", "unit": "ell"}}), "unknown unit 'ell'"),
-    ],
-)
-def test_a_bad_entry_is_named(document: dict[str, Any], message: str) -> None:
-    with pytest.raises(LedgerError, match=re.escape(message)):
-        read(document, LEDGER)
+    assert finding.settle == "2/3 * 3 = 2.1, ln(1 + 1) = 0.69"
+    assert list(finding.steps.values()) == [False, True]
+    with pytest.raises(KeyError, match="width"):
+        filled(replace(known, statement="{width} um"))
 
 
 @pytest.mark.parametrize(

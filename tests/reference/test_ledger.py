@@ -1,20 +1,21 @@
-"""The report's ledger is complete and in place; a malformed one is refused by name."""
+"""The report's ledger is complete, in place, and its entries fit together."""
 
 import re
-import tomllib
 from collections import Counter
 from collections.abc import Iterable
-from copy import deepcopy
 from dataclasses import replace
 from fractions import Fraction as F
+from graphlib import TopologicalSorter
 from typing import Any, get_args
 
+import msgspec
 import pytest
 
 from reference.arithmetic import Reals
-from reference.entries import Kind, LedgerError
-from reference.ledger import Claim, Convention, Ledger, load, read, shown
+from reference.entries import Condition, Kind, place_of
+from reference.ledger import Claim, Convention, load, shown
 from reference.printed import Rounding
+from reference.units import same_dimension
 
 LEDGER = load()
 CLAIMS = list(LEDGER.claims.values())
@@ -43,7 +44,7 @@ def uncovered(
     ]
 
 
-FURNITURE = [piece.pattern for piece in LEDGER.furniture]
+FURNITURE = [piece["pattern"] for piece in LEDGER.furniture]
 
 
 def test_nothing_that_the_report_prints_is_left_out() -> None:
@@ -79,12 +80,12 @@ def test_no_two_claims_share_a_word_and_they_come_in_order() -> None:
     assert {claim.kind for claim in CLAIMS} == set(get_args(Kind))
 
 
-@pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece.pattern)
+@pytest.mark.parametrize("piece", LEDGER.furniture, ids=lambda piece: piece["pattern"])
 def test_every_piece_of_furniture_is_needed_and_hides_no_claim(piece: Any) -> None:
-    assert piece.reason
-    others = [pattern for pattern in FURNITURE if pattern != piece.pattern]
+    assert piece["reason"]
+    others = [pattern for pattern in FURNITURE if pattern != piece["pattern"]]
     assert uncovered(LEDGER.text, CLAIMS, others)
-    spans = [match.span() for match in re.finditer(piece.pattern, LEDGER.text)]
+    spans = [match.span() for match in re.finditer(piece["pattern"], LEDGER.text)]
     for claim in (c for c in CLAIMS if c.kind not in ("comparison", "remark")):
         assert all(claim.place.end <= a or b <= claim.place.start for a, b in spans), claim.id
 
@@ -146,10 +147,8 @@ def test_values_in_units_ranges_to_search_and_texts_to_show() -> None:
     assert LEDGER.search("initial-depth")[:2] == (-1, 1)
     assert shown(r"10^{-3}") == "10⁻³"
     assert LEDGER.claims["fz-resistance-rha"].shown == "9.13 × 10⁹"
-    with pytest.raises(LedgerError, match="no number 'coarse-step-remark'"):
+    with pytest.raises(ValueError, match="'coarse-step-remark' prints no number"):
         LEDGER.value("coarse-step-remark")
-    with pytest.raises(LedgerError, match="prints no number"):
-        _ = LEDGER.claims["coarse-step-remark"].value
 
 
 def test_inputs_come_from_products_groups_and_inference() -> None:
@@ -201,191 +200,55 @@ def test_a_misprinted_constant_is_in_its_equation_and_only_there() -> None:
     assert LEDGER.misprinted == {}
 
 
-# A small ledger, and what can be wrong with it
-
-TEXT = """ A Small Report
-
- 14. ABSTRACT About 3 things.
-
-1. Balls
-
-A ball is 22 mm wide, so its radius is 11 mm.
-
-$$ D = 2R, \\quad (1)$$
-
-Its volume is 5575 mm^3. Steps of 2 s make a time of 6 s in row three.
-
-It falls less than 40 m. It falls farther than that.
-
- Appendix. More
-
-R =\t11
-
-Its edge is 11 mm.
-"""
+# How the entries of the files fit together
 
 
-def claim(name: str, quote: str, kind: str = "input", unit: str = "mm", **more: Any) -> Any:
-    own = {} if "computed_by" in more or kind == "constant" else {"given": "choice"}
-    return {"id": name, "title": name, "quote": quote, "kind": kind, "unit": unit, **own, **more}
+def test_every_entry_has_a_name_of_its_own() -> None:
+    names = [entry.id for entry in (*LEDGER.claim, *LEDGER.equation)]
+    assert [name for name, times in Counter(names).items() if times > 1] == []
+    assert "" not in names
+    assert LEDGER.claims.keys() | LEDGER.equations.keys() == set(names)
 
 
-SMALL: dict[str, Any] = {
-    "report": {"text": "small.txt", "title": "A Small Report", "author": "Nobody", "year": 1999},
-    "reasons": {"choice": "chosen"},
-    "table": {"blank": ["C1:D2"]},
-    "groups": {"size": {"diameter": "width"}},
-    "inferred": {
-        "density": {
-            "title": "density", "symbol": "rho", "unit": "kg/m^3", "quantity": "density",
-            "search": ["1", "10"], "nominal": "5/2", "nominal_source": "guess", "mass": "volume",
-            "radius": "radius", "density": "volume", "header": ["volume"], "results": ["time"],
-            "evidence": ["volume"],
-        }
-    },
-    "symbols": {
-        name: {"written": [name], "shown": name, "unit": "m", "means": name} for name in "DR"
-    },
-    "quantities": {"density": {"unit": "kg/m^3", "search": ["1", "9"], "reason": "any"}},
-    "furniture": [{"pattern": r" 14\. ABSTRACT|1\. Balls|\(1\)|\^3", "reason": "heading"}],
-    "equation": [{"id": "diameter", "title": "d", "quote": "$$ ⟦D = 2R⟧, \\quad",
-                  "kind": "derived", "follows_from": "geometry"}],
-    "slip": [{"name": "off", "reason": "any", "equation": "diameter", "text": "D = 3R"}],
-    "claim": [
-        claim("width", "ball is ⟦22⟧ mm wide"),
-        claim("radius", "radius is ⟦11⟧ mm", "result", computed_by="half",
-              rests_on={"value": "width"}),
-        claim("volume", "is ⟦5575⟧ mm", "result", "mm^3", computed_by="sphere_volume",
-              rests_on={"group": "size"}),
-        claim("two", "D = ⟦2⟧R", "constant", "1"),
-        claim("step", "Steps of ⟦2⟧ s", unit="s"),
-        claim("time", "a time of ⟦6⟧ s", "result", "s", row=3, computed_by="row_time",
-              rests_on={"step": "step"}),
-        claim("row", "in row ⟦three⟧", "quoted", "1"),
-        claim("fall", "less than ⟦40⟧ m", "bound", "m", relation="<"),
-        claim("farther", "falls ⟦farther⟧ than", "comparison", "m", relation=">", against="fall",
-              computed_by="same_as", rests_on={"value": "fall"}),
-        claim("cell", "R =\t⟦11⟧", cell="B1", computed_by="same_as", rests_on={"value": "radius"}),
-        claim("edge", "edge is ⟦11⟧ mm", "approximation"),
-    ],
-    "source": [{"id": "book", "title": "t", "address": "a", "quote": "⟦2.5⟧", "unit": "kg/m^3",
-                "applies": "yes", "claims": ["inferred:density"]}],
-}  # fmt: skip
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
+def test_a_claim_has_what_its_kind_and_its_computations_need(claim: Claim) -> None:
+    decided = (claim.computed_by is None) != (claim.given is None)
+    assert decided or claim.within or claim.kind == "remark"
+    assert claim.computations or not claim.inputs
+    assert claim.relation or claim.kind not in ("bound", "order of magnitude", "comparison")
+    assert (claim.relation is None) == (claim.bound is None)
+    assert claim.against is None or LEDGER.claims[claim.against].unit == claim.unit
+    assert claim.quantity is None or claim.quantity in LEDGER.quantities
+    assert {computation.by_row for computation in claim.computations.values()} <= {
+        claim.row is not None
+    }
+    assert all(claim.id in LEDGER.claims[name].entries for name in claim.shown_by)
+    assert all(LEDGER.value(name) is not None for name in claim.entries)
 
 
-def change(table: Any, changes: dict[str, Any]) -> None:
-    for key, value in changes.items():
-        if isinstance(table, list):
-            change(next(own for own in table if key in (own.get("id"), own.get("name"))), value)
-        elif value == "":
-            del table[key]
-        elif isinstance(value, dict) and key in table:
-            change(table[key], value)
-        else:
-            table[key] = value
+def test_claims_do_not_rest_on_each_other_in_a_circle() -> None:
+    rests_on = {claim.id: claim.stated for claim in CLAIMS}
+    assert [*TopologicalSorter(rests_on).static_order()]
 
 
-def small(changes: str = "") -> Ledger:
-    """The small ledger, changed."""
-    document = deepcopy(SMALL)
-    change(document, tomllib.loads(changes))
-    return read(document, TEXT, document.pop("source"))
+def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> None:
+    assert all(own.checks for own in LEDGER.equations.values() if own.kind == "derived")
+    for entry in LEDGER.inferred.values():
+        own = (entry.mass, entry.radius, entry.density, *entry.header, *entry.results)
+        assert LEDGER.claims.keys() >= {*own, *entry.evidence}
+        assert LEDGER.quantities[entry.quantity].unit == entry.unit
+    for source in LEDGER.sources.values():
+        assert 1 <= len(source.numbers) <= 2
+        assert all(same_dimension(LEDGER.unit(name), source.unit) for name in source.claims)
+    for slip in LEDGER.slip:
+        assert slip.equation in LEDGER.equations
+        assert slip.text is None or LEDGER.read(slip.text)
+        assert LEDGER.claims.keys() >= set(slip.inputs.values())
 
 
-def test_the_small_ledger_is_read() -> None:
-    ledger = small()
-    assert list(ledger.claims) == [
-        *("width", "radius", "two", "volume", "step", "time", "row", "fall", "farther", "edge"),
-        "cell",
-    ]
-    assert uncovered(TEXT, ledger.claims.values(), [f.pattern for f in ledger.furniture]) == [
-        (3, "3")
-    ]
-    assert ledger.blank == ("C1", "D1", "C2", "D2")
-    assert ledger.claims["volume"].inputs == {"diameter": ("width",)}
-    assert str(ledger.claims["farther"].interval()) == "(40, inf)"
-    assert small('inferred.density.unit = "g/cm^3"').value("inferred:density") == 2500
-    own = small('claim.volume.rests_on.diameter = "edge"')
-    assert own.claims["volume"].inputs == {"diameter": ("edge",)}, "an entry goes before its group"
-
-
-REFUSED = """
-claim = []  # the ledger is empty
-claim.width.exakt = true  # ledger.toml: Object contains unknown field
-claim.width.title = ""  # ledger.toml: Object missing required field
-claim.width.kind = "guess"  # Invalid enum value 'guess' - at `claim 'width'.kind`
-claim.fall.relation = "=="  # ledger.toml: Invalid enum value '=='
-inferred.density.search = ["a", "b"]  # ledger.toml: Invalid literal
-claim.radius.id = "width"  # 'width' stands in the ledger twice
-claim.edge.id = "diameter"  # 'diameter' stands in the ledger twice
-claim.width.unit = "mmm"  # claim 'width': unknown unit 'mmm'
-claim.width.quote = "ball is ⟦23⟧ mm"
-# claim 'width': the report has 'ball is 23 mm' 0 times, not once
-claim.width.quote = "is ⟦11⟧ mm"  # claim 'width': the report has 'is 11 mm' 2 times, not once
-claim.width.quote = "is 22⟧ mm"  # claim 'width': its quote needs
-claim.width.quote = "is ⟦22"  # claim 'width': its quote needs
-claim.width.quote = "A ⟦ball⟧ is"  # claim 'width': cannot read 'ball'
-equation.diameter.quote = "⟦D = 3R⟧"
-# equation 'diameter': the report has 'D = 3R' 0 times, not once
-equation.diameter.id = "eq99"  # equation 'eq99': nothing in reference/derivations.py derives it
-symbols.R = ""  # equation 'diameter': cannot read 'R' in the equation
-symbols.R.unit = "ell"  # symbol 'R': unknown unit 'ell'
-slip.off.equation = "eq9"  # slip 'off': there is no equation 'eq9'
-slip.off.text = "D + 3R"  # slip 'off': 'D + 3R' has no equals sign
-slip.off.inputs.a = "b"  # slip 'off': there is no number 'b'
-claim.radius.computed_by = "halve"  # claim 'radius': there is no computation 'halve'
-claim.radius.readings.other = "halve"  # claim 'radius': there is no computation 'halve'
-claim.radius.readings.other = "sphere_volume"
-# claim 'radius', sphere_volume: needs inputs ['diameter'], not ['value']
-claim.radius.rests_on.value = ""  # claim 'radius', half: needs inputs
-claim.radius.rests_on.value = "width * breadth"
-# claim 'radius', half: there is no number 'breadth'
-claim.radius.rests_on.value = "inferred:width"
-# claim 'radius', half: there is no inferred input 'width'
-claim.radius.rests_on.value = "farther"
-# claim 'radius', half: there is no number 'farther': what it prints is in words
-claim.time.rests_on.step = "step * width"
-# claim 'time', row_time: input step is in s mm, which does not measure what s does
-claim.row.computed_by = "count"
-claim.row.given = ""
-claim.row.rests_on.a = "width"
-claim.row.rests_on.b = "step"
-# claim 'row', count: input b is in s, which does not measure what mm does
-claim.volume.unit = "mm^2"
-# claim 'volume', sphere_volume: unit mm^2 does not measure what m^3 does
-claim.radius.unit = "s"  # claim 'radius', half: unit s does not measure what mm does
-claim.width.given = ""
-claim.width.computed_by = "same_as"
-claim.width.rests_on.value = "cell"
-# claims rest on each other: width on radius on cell on width
-claim.volume.rests_on.group = "s"  # claim 'volume': there is no
-claim.radius.given = "choice"  # claim 'radius': needs either
-claim.width.given = ""  # claim 'width': needs either computed_by or given
-claim.width.rests_on.a = "edge"  # claim 'width': rests_on needs computed_by
-claim.width.given = "whim"  # claim 'width': there is no reason 'whim'
-claim.width.quantity = "q"  # claim 'width': there is no quantity 'q'
-claim.fall.relation = ""  # claim 'fall': kind 'bound' needs a
-claim.farther.against = "falls"  # claim 'farther': there is no number 'falls'; is it 'fall'?
-claim.farther.against = "width"  # claim 'farther': is in m, but width in mm
-claim.width.shown_by = ["time"]  # claim 'width': 'time' does not rest on it
-table.blank = ["C1"]  # [table] blank: 'C1' is no range of cells
-claim.time.row = ""  # claim 'time', row_time: needs a row
-claim.radius.row = 1  # claim 'radius', half: takes no row
-inferred.density.evidence = ["volumes"]  # inferred 'density': there is no claim 'volumes'
-inferred.density.quantity = "q"  # inferred 'density': there is no quantity 'q'
-claim.fall.row = "three"  # `claim 'fall'.row`
-slip.off.text = 7  # `slip 'off'.text`
-claim.width.id = ""  # `claim '0'`
-source.book.claims = ["width"]  # source 'book': width is not in kg/m^3
-source.book.claims = ["breadth"]  # source 'book': there is no number 'breadth'
-source.book.quote = "2.5"  # source 'book': its quote marks no number
-source.book.quote = "⟦1⟧ ⟦2⟧ ⟦3⟧"  # source 'book': its quote marks no number
-source.book.pages = "3"  # sources.toml: Object contains unknown field
-"""
-"""Changes of the small ledger, and what is said of it; "" takes a key away."""
-
-
-@pytest.mark.parametrize(("changes", "message"), re.findall("([^#]+)# ([^\n]+)\n", REFUSED))
-def test_a_malformed_ledger_is_refused_by_name(changes: str, message: str) -> None:
-    with pytest.raises(LedgerError, match=re.escape(message)):
-        small(changes)
+def test_a_misspelt_key_and_a_quote_that_is_not_there_once_are_refused() -> None:
+    with pytest.raises(msgspec.ValidationError, match="unknown field `reasons`"):
+        msgspec.convert({"says": "any", "equals": "R", "reasons": "any"}, Condition)
+    for quote, times in (("is ⟦23⟧", 0), ("is ⟦22⟧", 2)):
+        with pytest.raises(ValueError, match=f"{times} times, not once"):
+            place_of("It is 22. It is 22 again.", quote)

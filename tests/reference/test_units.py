@@ -4,7 +4,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from reference.units import UnitError, same_dimension, to_si, unit_dimension, written
+from reference.units import UnitError, to_si, unit_dimension
 
 POUND_FORCE, INCH = F("4.4482216152605"), F("0.0254")
 
@@ -49,19 +49,6 @@ def test_an_unknown_unit_is_named_and_the_units_that_there_are(unit: str) -> Non
     with pytest.raises(UnitError, match="take one such as um, ns") as caught:
         to_si(unit)
     assert len(str(caught.value)) < 200
-
-
-def test_same_dimension() -> None:
-    assert same_dimension("Pa", "kg/m/s^2")
-    assert same_dimension("1", "m/m")
-    assert not same_dimension("kg", "gram_force")
-    assert not same_dimension("m/s", "s/m")
-
-
-def test_units_for_a_page() -> None:
-    assert [written(unit) for unit in ("um^3", "kg/m^3", "percent", "m s^-1", "us", "1")] == [
-        "µm³", "kg/m³", "%", "m s⁻¹", "µs", "",
-    ]  # fmt: skip
 
 
 def test_prefixes_are_those_of_the_si() -> None:

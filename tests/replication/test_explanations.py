@@ -206,4 +206,4 @@ def test_a_slip_that_fits_is_said_to() -> None:
         ledger = LEDGER.misprint(PAIR[0], text)
         tried = Explainer(Judge(ledger)).slips(ledger.claims[PAIR[0]])
         assert next(t.fits for t in tried if t.name == "L/D = 1") == fits
-    assert all(slip.reason for slip in LEDGER.slips)
+    assert all(slip.reason for slip in LEDGER.slip)

@@ -162,9 +162,13 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 
 
 def test_a_wrong_address_is_refused() -> None:
-    claim = LEDGER.claims["depth-beta-5"]
-    moved = msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
-    wrong = msgspec.structs.replace(LEDGER, claims={**LEDGER.claims, claim.id: moved})
+    moved = [
+        msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
+        if claim.id == "depth-beta-5"
+        else claim
+        for claim in LEDGER.claim
+    ]
+    wrong = msgspec.structs.replace(LEDGER, claim=moved)
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
 
