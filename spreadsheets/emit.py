@@ -13,7 +13,6 @@ from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
-from textwrap import wrap
 from typing import Any
 
 from reference.units import written
@@ -117,6 +116,16 @@ def write(path: Path, content: bytes, *, force: bool = False) -> None:
 
 _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
 
+_CORRECTIONS = (
+    # XlsxWriter claims to be Excel, and gives dates, of which none is true.
+    ("docProps/app.xml", rb">Microsoft Excel<", rb">coldspray<"),
+    ("docProps/app.xml", rb"<AppVersion>.*?</AppVersion>", rb""),
+    ("docProps/core.xml", rb"<dcterms:(created|modified).*?</dcterms:\1>", rb""),
+    # Where nothing is said, LibreOffice draws a smooth curve through the points.
+    ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
+)
+"""What is changed in the parts of the file: the start of a part's name, a pattern, and a text."""
+
 
 def is_own(path: Path) -> bool:
     """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
@@ -126,37 +135,9 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        parts = _unpacked(content)
-        return _sealed(parts) == content
+        return _sealed(_unpacked(content)) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
-
-
-def _sealed(parts: dict[str, bytes]) -> bytes:
-    """The file of these parts, with their digest in the place of whatever stands there."""
-    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
-    digest = sha256()
-    for name, content in parts.items():
-        digest.update(b"%s\0%d\0" % (name.encode(), len(content)))
-        digest.update(content)
-    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.hexdigest().encode())
-    return _packed(parts)
-
-
-def _finished(content: bytes) -> bytes:
-    """The file with its seal, without XlsxWriter's claim to be Excel, and without dates."""
-    parts = _unpacked(content)
-    app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
-    app = app.replace(">Microsoft Excel<", ">coldspray<")
-    app = re.sub(r"<AppVersion>.*?</AppVersion>", "", app)
-    core = re.sub(r"<dcterms:(created|modified).*?</dcterms:\1>", "", core)
-    parts |= {"docProps/app.xml": app.encode(), "docProps/core.xml": core.encode()}
-    for name, part in parts.items():
-        if name.startswith("xl/charts/"):
-            # Where nothing is said, LibreOffice draws a smooth curve through the points.
-            straight = b'</c:yVal><c:smooth val="0"/>'
-            parts[name] = part.replace(b"</c:yVal>", straight)
-    return _sealed(parts)
 
 
 def _unpacked(content: bytes) -> dict[str, bytes]:
@@ -164,8 +145,11 @@ def _unpacked(content: bytes) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
-def _packed(parts: Mapping[str, bytes]) -> bytes:
-    """The archive of these parts, without the clock."""
+def _sealed(parts: dict[str, bytes]) -> bytes:
+    """The archive of these parts without the clock, their digest in place of the seal."""
+    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
+    digest = sha256(b"".join((*map(str.encode, parts), *parts.values()))).hexdigest()
+    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.encode())
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, part in parts.items():
@@ -193,9 +177,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
-    exact = _exact_worksheet()
+    worksheet = _worksheet()
     for sheet in plan.sheets:
-        page = book.add_worksheet(sheet.name, exact)
+        page = book.add_worksheet(sheet.name, worksheet)
         _set_up(page, sheet)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.number_format, cell.wrap)
@@ -213,23 +197,19 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         if sheet.chart:
             _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
     book.close()
-    return _finished(buffer.getvalue())
-
-
-_LINE = 13.5
-"""Height of a line of text in points, with some room."""
+    parts = _unpacked(buffer.getvalue())
+    for start, pattern, words in _CORRECTIONS:
+        parts |= {n: re.sub(pattern, words, parts[n]) for n in parts if n.startswith(start)}
+    return _sealed(parts)
 
 
 def _set_up(page: Any, sheet: SheetPlan) -> None:
     """Scrolling, column widths, row heights and print set-up."""
     page.hide_gridlines(2)
-    page.set_default_row(_LINE + 2)
     if sheet.frozen:
         page.freeze_panes(sheet.frozen)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width)
-    for row, lines in _lines(sheet).items():
-        page.set_row(row - 1, _LINE * lines + 2)
     page.set_landscape()
     page.set_paper(1)  # US Letter
     page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
@@ -251,19 +231,6 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.ignore_errors(dict.fromkeys(kinds, everywhere))
 
 
-def _lines(sheet: SheetPlan) -> dict[int, int]:
-    """Row -> how many lines its longest wrapped text takes."""
-    lines: dict[int, int] = {}
-    for address, cell in sheet.cells.items():
-        if cell.wrap:
-            column = address.rstrip("0123456789")
-            row = int(address.removeprefix(column))
-            # Letters are narrower than the digits by which widths are counted.
-            taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
-            lines[row] = max(taken, lines.get(row, 1))
-    return lines
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
     from xlsxwriter.utility import xl_cell_to_rowcol
 
@@ -277,7 +244,7 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         write = page.write_string if value else page.write_blank
         write(*place, value, style)
     else:
-        page.write_number(*place, value, style)
+        page.write_number(*place, _Exact(value), style)
     # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
         page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
@@ -298,36 +265,29 @@ def _absolute(sheet: str, cells: str) -> str:
     return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 
-def _exact_worksheet() -> type[Any]:
-    """A worksheet that stores numbers with all their digits, and "" as the text that it is.
+class _Exact(float):
+    """A number that XlsxWriter stores with all its digits; by itself, it writes 16 of them."""
 
-    XlsxWriter writes a plain number with 16 digits, which a quarter of all doubles do not survive,
-    and gives a formula whose value is "" no type, which makes the value a number without digits.
-    Formulas go the short way: to look in each for functions newer than Excel 2010, which ours do
-    not have, and for marks in its cell's address takes half of the time.
+    def __format__(self, _: str) -> str:
+        return float.__repr__(self)
+
+
+def _worksheet() -> type[Any]:
+    """A worksheet that stores a formula's value "" as the text that it is, not as a blank number.
+
+    It does not look in each formula for functions newer than Excel 2010, which ours do not have.
     """
-    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet
+    from xlsxwriter.worksheet import Worksheet
 
-    class ExactWorksheet(Worksheet):  # type: ignore[misc]
-        def _xml_number_element(self, number: float, attributes: Any = ()) -> None:
-            places = "".join(f' {key}="{value}"' for key, value in attributes)
-            self.fh.write(f"<c{places}><v>{float(number)!r}</v></c>")
-
-        def _write_formula(
-            self, row: int, column: int, formula: str, style: Any, value: Any
-        ) -> int:
-            self._check_dimensions(row, column)
-            self.table[row][column] = CellFormulaTuple(formula.removeprefix("="), style, value)
-            return 0
+    class Page(Worksheet):  # type: ignore[misc]
+        def _prepare_formula(self, formula: str, *_: bool) -> str:
+            return formula.removeprefix("=")
 
         def _xml_formula_element(self, formula: str, result: Any, attributes: Any = ()) -> None:
-            places = "".join(f' {key}="{value}"' for key, value in attributes)
-            if isinstance(result, str):
-                places += "" if result else ' t="str"'
-                result = self._escape_data(result)
-            self.fh.write(f"<c{places}><f>{self._escape_data(formula)}</f><v>{result}</v></c>")
+            typed = [("t", "str")] if result == "" else []
+            super()._xml_formula_element(formula, result, [*attributes, *typed])
 
-    return ExactWorksheet
+    return Page
 
 
 # Charts; XlsxWriter stores the charted values with them.
