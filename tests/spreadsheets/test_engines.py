@@ -1,4 +1,7 @@
-"""Every engine recalculates, gives exact values in one common shape, and fails in one line."""
+"""Every engine recalculates, gives exact values in one common shape, and fails in one line.
+
+And what is said of an engine that does, or does not, give the values that a workbook must have.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +10,23 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import xlsxwriter
 from workbooks import BY_NAME, Fake, usable
 
-from spreadsheets import engines
-from spreadsheets.engines import Engine, EngineError, Recalculated
+from spreadsheets import emit, engines
+from spreadsheets.engines import (
+    Difference,
+    Engine,
+    EngineCheck,
+    EngineError,
+    Recalculated,
+    compare,
+    verify,
+)
+from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
 
 WRONG = 12345
 """Stored beside every formula: to come back, a right value must have been computed."""
@@ -193,3 +206,116 @@ def test_libreoffice_may_want_a_restart(
     real, started = shutil.which("soffice"), tmp_path / "started"
     engine = office(f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81')
     assert engine.recalculate(workbook)["Formulas"]["B1"] == 0.1 + 0.2
+
+
+# What they make of a workbook whose values are known
+
+SMALL = 0.1 + 0.2 - 0.29
+CELLS = {
+    "A1": Cell(key="a"),
+    "B1": Cell(key="small", formula="=A1+0.2-0.29", column="like"),
+    "B2": Cell(key="half", formula="=5*A1", column="like"),
+    "B3": Cell(key="log", formula="=LN(A1)", transcendental=True),
+    "B4": Cell(key="alone", formula="=A1*3"),
+}
+PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Empty")), title="t")
+VALUES = {"a": 0.1, "small": SMALL, "half": 0.5, "log": math.log(0.1), "alone": 0.1 * 3}
+EXPECTED = emit.cell_values(PLAN, VALUES)
+BOUND = 1e-14
+"""Of half, the largest of its column, 5e-15: so much may SMALL be off, too."""
+
+
+@pytest.fixture
+def check(tmp_path: Path) -> Callable[..., EngineCheck]:
+    """What is said of an engine that gives what is right, but for the cells it is told to give."""
+    path = tmp_path / "w.xlsx"
+    path.write_bytes(emit.to_bytes(PLAN, VALUES))
+
+    def check(
+        told: dict[str, Any], expected: dict[str, Any] = EXPECTED, **more: Any
+    ) -> EngineCheck:
+        surplus = tuple(("S", address, told[address]) for address in told.keys() - CELLS.keys())
+        cells = {**EXPECTED["S"], **told}
+        engine = Fake(
+            lambda s, at, value: cells[at] if s == "S" else value,
+            **{"surplus": surplus, **more},
+        )
+        return verify(path, PLAN, expected, engine, long_doubles=BOUND)
+
+    return check
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        {"B2": 0.5 + 6e-15},
+        {"B1": SMALL + 6e-15},
+        {"B4": 0.3 + 4e-15},
+        {"B2": None},
+        {"B2": "0.5"},
+        {"B2": "#NUM!"},
+        {"A1": 0.1 + 2e-17},
+        {"Z9": 1.0},
+        {"B3": math.log(0.1) * (1 + 2e-14)},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("long_doubles", [False, True])
+def test_one_wrong_cell_is_enough(
+    check: Callable[..., EngineCheck], told: dict[str, Any], long_doubles: bool
+) -> None:
+    """Just beyond the bound, of another kind, an input, or a cell that nobody planned."""
+    result = check(told, long_doubles=long_doubles)
+    assert (result.outcome, result.passed, result.rounded) == ("differs", False, 0)
+    assert [left.cell for left in result.wrong] == list(told)
+
+
+@pytest.mark.parametrize(
+    ("told", "long_doubles", "outcome"),
+    [
+        ({}, False, "verified"),
+        ({"B2": math.nextafter(0.5, 1.0)}, False, "differs"),
+        ({"B3": math.nextafter(math.log(0.1), 0.0)}, False, "verified"),
+        ({"B1": SMALL + 4e-15, "B2": 0.5 - 4e-15}, True, "verified"),
+        ({"B4": 0.3 + 2e-15}, True, "verified"),
+        ({"B4": 0.3 + 2e-15}, False, "differs"),
+    ],
+)
+def test_functions_and_long_doubles_are_tolerated(
+    check: Callable[..., EngineCheck], told: dict[str, Any], long_doubles: bool, outcome: str
+) -> None:
+    """What is small for its column, or for itself; one ulp of any other cell is a difference."""
+    result = check(told, long_doubles=long_doubles)
+    assert (result.outcome, result.version, result.cells) == (outcome, "1.0", 4)
+    assert (result.rounded, len(result.wrong))[outcome == "differs"] == len(told)
+
+
+@pytest.mark.parametrize(
+    ("engine", "outcome", "passed", "reason"),
+    [
+        ({"told": lambda *_: 41.0}, "echoes", False, "It verifies nothing: it gives stored"),
+        ({"reason": "Install it."}, "missing", True, "Install it."),
+        ({"failure": "out of luck"}, "failed", False, "fake: out of luck"),
+    ],
+)
+def test_an_engine_that_gives_no_values(
+    tmp_path: Path, engine: dict[str, Any], outcome: str, passed: bool, reason: str
+) -> None:
+    (tmp_path / "w.xlsx").write_bytes(b"")
+    result = verify(tmp_path / "w.xlsx", PLAN, EXPECTED, Fake(**engine), long_doubles=BOUND)
+    assert (result.outcome, result.passed, result.cells) == (outcome, passed, 0)
+    assert (result.reason or "").startswith(reason)
+
+
+def test_a_sheet_that_is_lost_or_new_is_seen(check: Callable[..., EngineCheck]) -> None:
+    lost = {**EXPECTED, "Lost": {"A1": 1.0}}
+    assert check({}, lost).wrong == [Difference("Lost", "A1", 1.0, None)]
+    assert check({}, surplus=(("New", "A1", 1.0),)).wrong == [Difference("New", "A1", None, 1.0)]
+
+
+def test_empty_text_is_blank_and_only_named_cells_are_allowed_a_distance() -> None:
+    expected = {"S": {"A1": 10.0, "A2": 10.0, "A3": True}}
+    result = {"S": {"A1": 10.1, "A2": 10.1, "A3": True, "B1": ""}}
+    (left,) = compare(expected, result, {("S", "A1"): 0.2})
+    assert left == Difference("S", "A2", 10.0, 10.1)
+    assert len(compare(expected, result, {("S", "A1"): 0.05})) == 2  # it is not relative

@@ -30,10 +30,9 @@ from replication.models.impact import Impact
 from replication.models.sheet import run
 from replication.workbook import Workbook, findings_of, live_verdicts
 from spreadsheets import emit
-from spreadsheets.engines import Engine
+from spreadsheets.engines import OF_FUNCTIONS, Engine, compare, tolerances
 from spreadsheets.plan import Value
 from spreadsheets.sheets.inputs import INPUTS
-from spreadsheets.verify import OF_FUNCTIONS, compare, tolerances
 
 LEDGER = load()
 GIVEN = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
