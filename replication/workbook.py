@@ -7,7 +7,7 @@ the formula that must give it meet in one cell. The plan's `where` tells which c
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise, starmap
 from typing import TYPE_CHECKING, Any
@@ -201,8 +201,6 @@ class _Builder:
 
     def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
         """What the plan must know of a case's sheet, but for its length."""
-        beta = "3" if impact.beta == BETA_3.beta else "5"
-        own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
         # As spreadsheet programs join a number to a text.
         label = "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
         return steps.CaseSheet(
@@ -212,15 +210,14 @@ class _Builder:
             steps=0,
             rows=0,
             scheme=self.scheme,
-            beta_claim=f"depth-beta-{beta}-beta",
-            depth_claim=own and f"depth-beta-{own}",
-            ratio_claim=own and f"ratio-beta-{own}",
+            beta="3" if impact.beta == BETA_3.beta else "5",
+            is_reports=impact in (BETA_3, BETA_5),
             resistance_given=impact.resistance is not None,
         )
 
     def _to_type(self, entry: inputs.Input) -> float:
         """The number to type into an input's cell. Raises ValueError outside of its limits."""
-        name, limits = entry.name, entry.limits
+        name, (least, most) = entry.name, entry.limits
         if name in _CASE_INPUTS:
             case = next(iter(self.cases.values()))
             number = _typed(getattr(case, _CASE_INPUTS[name]), entry.unit)
@@ -228,22 +225,16 @@ class _Builder:
             number = self.cases[name.partition("_")[2] or "case"].beta or 0.0
         else:
             number = entry.of_report(self.ledger)
-        if not limits.least <= number <= limits.most:
+        if not least <= number <= most:
             what = entry.meaning or self.ledger.title(entry.source)
-            most = with_unit(f"{limits.most:,.10g}", entry.unit)
-            raise ValueError(
-                f"the workbook takes {limits.least:,.10g} to {most} for the {what}, not {number!r}"
-            )
+            span = with_unit(f"{least:,.10g} to {most:,.10g}", entry.unit)
+            raise ValueError(f"the workbook takes {span} for the {what}, not {number!r}")
         return number
 
     def workbook(self, findings: Findings | None) -> Workbook:
         """Plan and values."""
-        longer = [_flags(self.cases["case"])] if "case" in self.cases else []
-        longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
-        longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
-        command = " ".join(["coldspray workbook", *longer]) if self.rows < steps.MAX_ROWS else ""
         cases, coarse = (
-            [replace(p, steps=sheet.steps, rows=self.rows, longer=command) for p, sheet in runs]
+            [replace(page, steps=sheet.steps, rows=self.rows) for page, sheet in runs]
             for runs in (self.runs, self.coarse)
         )
         plan = workbook_plan(self.ledger, cases, coarse, findings)
@@ -468,8 +459,9 @@ def live_verdicts(
     Whether a live verdict is the proven one, a test asks.
     """
     live: dict[str, Value] = {}
+    keys = {place: cell.key for place, cell in plan.cells()}
     for claim in audit.computed_claims(ledger):
-        value = values[plan.cell(place_of(str(claim.workbook))).key]
+        value = values[keys[place_of(str(claim.workbook))]]
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
@@ -480,20 +472,9 @@ def live_verdicts(
             live[f"overview.{name}"] = live[f"audit.{name}.computed"]
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
-            value = values[plan.cell(("Table A-1", claim.place.cell)).key]
+            value = values[keys["Table A-1", claim.place.cell]]
             live |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
     return live
-
-
-def _flags(impact: Impact) -> str:
-    """The options of `coldspray workbook` for a case."""
-    name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
-    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
-    return f"--case {name}" + "".join(
-        f" --{key.replace('_', '-')} {value!r}"
-        for key, value in given.items()
-        if value is not None and value != getattr(base, key)
-    )
 
 
 def _of(thing: object, *names: str) -> dict[str, Any]:

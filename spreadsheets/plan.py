@@ -6,12 +6,11 @@ supplies the values never sees the formulas, so that the two can be compared.
 """
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from reference.ledger import Ledger
 from reference.units import written
@@ -29,13 +28,6 @@ Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
 
 
-class Limits(NamedTuple):
-    """The least and the greatest number that may be typed into an input, in its unit."""
-
-    least: float
-    most: float
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """One cell.
@@ -48,7 +40,8 @@ class Cell:
     LN, SIN, ASIN or a cube root, whose last digits depend on the program; all other values are the
     same double everywhere. column: names a set of cells of like size, such as the velocities of a
     sheet; their rounding errors are as large as the largest of them allows. link: where a click on
-    the text leads. limits, choices: what may be typed. wrap: long text takes several lines.
+    the text leads. limits, choices: what may be typed, the least and the greatest number in its
+    unit, or one of these texts. wrap: long text takes several lines.
     """
 
     text: str = ""
@@ -63,15 +56,9 @@ class Cell:
     transcendental: bool = False
     column: str = ""
     link: Place | None = None
-    limits: Limits | None = None
+    limits: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
     wrap: bool = False
-
-    def __post_init__(self) -> None:
-        if sum((bool(self.text), self.number is not None, bool(self.key))) > 1:
-            raise ValueError(f"a cell holds a text, a number or a key, one of them: {self!r}")
-        if self.formula and not (self.key and self.formula.startswith("=")):
-            raise ValueError(f"a formula starts with '=' and has a key: {self!r}")
 
 
 def text(words: str, style: str = "body", **more: Any) -> Cell:
@@ -103,8 +90,7 @@ def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
     return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rule:
+class Rule(NamedTuple):
     """A style that a range of cells takes while a formula, written for its first cell, is true."""
 
     cells: str
@@ -194,9 +180,9 @@ class SheetPlan:
     page_break: int | None = None
     filtered: str = ""
 
-    def put(self, **cells: Cell | None) -> None:
-        """One row, by column."""
-        self.cells |= {f"{column}{self.row}": cell for column, cell in cells.items() if cell}
+    def put(self, **cells: Cell | Literal[""] | None) -> None:
+        """One row, by column; where there is no cell, nothing."""
+        self.cells |= {f"{at}{self.row}": cell for at, cell in cells.items() if cell}
         self.row += 1
 
     def say(self, *texts: str, style: str = "note", width: int = 165) -> None:
@@ -235,7 +221,7 @@ class SheetPlan:
         """The style that each text has in these cells of one column."""
         first = cells.partition(":")[0]
         for words, style in styles.items():
-            self.rules.append(Rule(cells=cells, formula=f'=${first}="{words}"', style=style))
+            self.rules.append(Rule(cells, f'=${first}="{words}"', style))
 
     def lines(
         self, ledger: Ledger, part: str, lines: Sequence[Line | str], columns: str = "ABCDEF"
@@ -259,39 +245,29 @@ class SheetPlan:
             expression = line.formula.format_map(addresses)
             addresses[line.id] = f"{columns[2]}{self.row}"
             value = formula(
-                f"{part}.{line.key}",
-                guarded(expression) if line.guard else expression,
-                number_format=line.shown,
-                name=line.name,
-                unit=line.unit,
-                column=line.column,
+                f"{part}.{line.key}", guarded(expression) if line.guard else expression,
+                number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
                 transcendental=line.id in transcendental,
-            )
+            )  # fmt: skip
             source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
             cells = (
-                text(line.symbol, "text") if line.symbol else None,
-                text(line.meaning) if line.meaning else None,
+                line.symbol and text(line.symbol, "text"),
+                line.meaning and text(line.meaning),
                 value,
                 unit_text(line.unit),
-                printed(ledger, line.claim, line.unit) if line.claim else None,
-                text(source, "unit") if source else None,
+                line.claim and printed(ledger, line.claim, line.unit),
+                source and text(source, "unit"),
             )
             self.put(**dict(zip(columns, cells, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorkbookPlan:
-    """The sheets in order. Raises ValueError for a key or a defined name that stands twice."""
+    """The sheets in order. No key stands twice, nor does a defined name, in whatever case."""
 
     sheets: tuple[SheetPlan, ...]
     title: str
     properties: Mapping[str, str] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        cells = [cell for _, cell in self.cells()]
-        _require_unique("key", [cell.key for cell in cells if cell.key])
-        # Excel takes names that differ only in case as the same.
-        _require_unique("name", [cell.name.casefold() for cell in cells if cell.name])
 
     def cells(self) -> Iterator[tuple[Place, Cell]]:
         """Every cell with its place, sheet by sheet."""
@@ -304,11 +280,6 @@ class WorkbookPlan:
         """Key -> the place of the cell that holds it."""
         return {cell.key: place for place, cell in self.cells() if cell.key}
 
-    def cell(self, place: Place) -> Cell:
-        """The cell at a place. Raises KeyError where there is none."""
-        sheet, address = place
-        return next(each for each in self.sheets if each.name == sheet).cells[address]
-
 
 def place_of(text: str) -> Place:
     """A place that is written as in a formula, without quotes.
@@ -318,12 +289,6 @@ def place_of(text: str) -> Place:
     """
     sheet, _, address = text.rpartition("!")
     return sheet, address
-
-
-def _require_unique(what: str, items: list[str]) -> None:
-    twice = sorted(item for item, count in Counter(items).items() if count > 1)
-    if twice:
-        raise ValueError(f"{what} used twice in the workbook: {', '.join(twice)}")
 
 
 # Formulas

@@ -162,16 +162,16 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
                 there = f"'{case.name}'!"
                 shown = f'=IF({there}I2="","",{there}I1&": ")&{shown[1:]}'
             cells[column] = formula(f"overview.{case.slug}.{what}", shown, style, **more)
-        if case.depth_claim:
-            cells["C"] = printed(ledger, case.depth_claim, "um")
-            cells["E"] = printed(ledger, case.ratio_claim)
+        if case.is_reports:
+            cells["C"] = printed(ledger, case.claim("depth"), "um")
+            cells["E"] = printed(ledger, case.claim("ratio"))
         page.rules += case.rules(f"F{page.row}")
         page.put(**cells)
     for words, name in (
         ("Inputs that are not the report’s", "inputs_changed"),
         ("Inputs that cannot be used", "inputs_unusable"),
     ):
-        page.rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
+        page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
         page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
 

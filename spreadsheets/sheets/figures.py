@@ -91,7 +91,7 @@ def figure_5(case: CaseSheet) -> SheetPlan:
     missing = f"COUNT(T{first}:T{last})<{POINTS}"
     message = f'=IF({missing},"POINTS ARE MISSING: see the sheet Inputs.","{COMPLETE}")'
     page.cells["A3"] = formula("figure_5.message", message, "message")
-    page.rules = [Rule(cells="A3", formula=f"={missing}", style="warning")]
+    page.rules = [Rule("A3", f"={missing}", "warning")]
     page.row = first - 2
     words, units = ("Point", "Velocity", "p", "c", "X/R", "X"), ("", "m/s", "–", "–", "–", "µm")
     page.heads("PQRSTU", words, "PQRSTU", units)
@@ -156,7 +156,7 @@ def convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page = SheetPlan(
         name="Convergence",
         widths=dict.fromkeys("ABCDEFGHIJKL", 12.0),
-        rules=[Rule(cells="A3", formula=f'=$A$3="{STALE}"', style="warning")],
+        rules=[Rule("A3", f'=$A$3="{STALE}"', "warning")],
         print_area=f"A1:L{last + 4 + _CHART_ROWS}",
         page_break=last + 2,
     )

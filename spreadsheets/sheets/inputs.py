@@ -13,7 +13,6 @@ from reference.units import to_si
 from spreadsheets.plan import (
     NOT_COMPUTED,
     Cell,
-    Limits,
     Rule,
     SheetPlan,
     formula,
@@ -29,15 +28,15 @@ REPORT = "report"
 """What the switch says to take the report's inputs; with any other text, the user's are taken."""
 
 LIMITS = {
-    "m/s": Limits(1e-6, 1e6),
-    "um": Limits(1e-4, 1e6),
-    "ns": Limits(1e-6, 1e6),
-    "kg/m^3": Limits(25.0, 1e5),
-    "Pa": Limits(1e5, 1e15),
-    "MPa": Limits(1e-3, 1e6),
-    "GPa": Limits(1e-4, 1e5),
-    "ksi": Limits(1e-3, 1e5),
-    "1": Limits(1e-4, 1e4),
+    "m/s": (1e-6, 1e6),
+    "um": (1e-4, 1e6),
+    "ns": (1e-6, 1e6),
+    "kg/m^3": (25.0, 1e5),
+    "Pa": (1e5, 1e15),
+    "MPa": (1e-3, 1e6),
+    "GPa": (1e-4, 1e5),
+    "ksi": (1e-3, 1e5),
+    "1": (1e-4, 1e4),
 }
 """What may be typed, by unit: wide enough for any impact, and too narrow for a number in SI units
 where the sheet asks for another (2E-10 for 0.2 ns, 7E8 for 700 MPa, 8.9 for 8900 kg/m³)."""
@@ -54,11 +53,11 @@ class Input:
     symbol: str
     source: str
     unit: str = "1"
-    own_limits: Limits | None = None
+    own_limits: tuple[float, float] | None = None
     meaning: str = ""
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> tuple[float, float]:
         """Its own limits, or those of its unit."""
         return self.own_limits or LIMITS[self.unit]
 
@@ -75,7 +74,7 @@ class Input:
 COARSE = "dt_coarse"
 """The input that only the report's own workbook has."""
 
-_CAP = Limits(1e-4, 0.5)
+_CAP = (1e-4, 0.5)
 """A crater of at most half a sphere."""
 
 _BLOCKS = {
@@ -85,7 +84,7 @@ _BLOCKS = {
         Input("rho_p", "ρ_p", "a1-density", "kg/m^3"),
         Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3"),
         Input("dt_s", "Δt", "a-step", "ns"),
-        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", Limits(0.0, 1e6)),
+        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", (0.0, 1e6)),
         Input(COARSE, "Δt", "coarse-step", "ns"),
     ),
     "Target resistance": (Input("Y_t", "Y_t", "flow-stress", "MPa"),),
@@ -151,7 +150,12 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input
     else:
         meaning = "target resistance over flow stress, {}"
         blocks[resistance] += tuple(
-            Input(case.named("beta"), "β", case.beta_claim, meaning=meaning.format(case.name))
+            Input(
+                case.named("beta"),
+                "β",
+                f"depth-beta-{case.beta}-beta",
+                meaning=meaning.format(case.name),
+            )
             for case in cases
         )
     return blocks
@@ -192,9 +196,9 @@ def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan
     page.print_area = f"A1:J{page.row - 1}"
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     page.rules = [
-        Rule(cells=checks, formula=f"=OR({bad})", style="warning"),
-        Rule(cells=checks, formula=f'=$E{first}="{_YOURS}"', style="changed"),
-        Rule(cells="A7", formula="=inputs_unusable>0", style="warning"),
+        Rule(checks, f"=OR({bad})", "warning"),
+        Rule(checks, f'=$E{first}="{_YOURS}"', "changed"),
+        Rule("A7", "=inputs_unusable>0", "warning"),
     ]
     return page
 
@@ -241,8 +245,8 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "H": recorded(entry.of_report(ledger)),
         "I": text("nowhere", "recorded"),
         "J": text("inferred from Table A-1", "unit"),
-        "K": recorded(entry.limits.least),
-        "L": recorded(entry.limits.most),
+        "K": recorded(entry.limits[0]),
+        "L": recorded(entry.limits[1]),
         "M": text(entry.name, "unit"),
     }
     return cells if inferred else cells | _as_printed(ledger, entry.source, entry.unit)

@@ -32,10 +32,10 @@ class CaseSheet:
 
     slug: "low" or "high" where two cases stand side by side, "case" where one is alone; its keys
     and defined names carry it. label: what tells it from the other, as written ("β = 5"). steps,
-    rows: those in use and those prepared, after row 0. resistance_given: the target resistance is
-    an input and not the product of beta and the flow stress. beta_claim: where the report prints
-    its beta. depth_claim, ratio_claim: where it prints its results, if the case is the report's.
-    longer: the command that writes a longer workbook. coarse: with the step `dt_coarse`.
+    rows: those in use and those prepared, after row 0. beta: the beta, "3" or "5", of the report's
+    case beside which it stands. is_reports: it is that case. resistance_given: the target
+    resistance is an input and not the product of beta and the flow stress. coarse: with the step
+    `dt_coarse`.
     """
 
     name: str
@@ -44,12 +44,14 @@ class CaseSheet:
     steps: int
     rows: int
     scheme: str
-    beta_claim: str
-    depth_claim: str = ""
-    ratio_claim: str = ""
-    longer: str = ""
-    resistance_given: bool = False
+    beta: str
+    is_reports: bool
+    resistance_given: bool
     coarse: bool = False
+
+    def claim(self, what: str) -> str:
+        """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
+        return f"{what}-beta-{self.beta}" if self.is_reports else ""
 
     def named(self, symbol: str) -> str:
         """The defined name of this case's `symbol`: R_t_low beside R_t_high, or R_t alone."""
@@ -67,7 +69,7 @@ class CaseSheet:
     def rules(self, cells: str) -> list[Rule]:
         """How cells look that say whether the run can be trusted."""
         return [
-            Rule(cells=cells, formula=f"={self.result('trust')}={state}", style=style)
+            Rule(cells, f"={self.result('trust')}={state}", style)
             for state, style in ((0, "warning"), (1, "changed"))
         ]
 
@@ -138,8 +140,8 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (FIRST_ROW - 2, FIRST_ROW - 1)
     page.print_area = f"A1:M{last}"
     page.rules = [
-        Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
-        Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
+        Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
+        Rule("I2", "=ISTEXT($I$2)", "changed"),
         *case.rules("A3"),
     ]
     return page
@@ -147,7 +149,6 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
 
 def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
     """The title with the live β, the state of the run, notes, and the heads of the columns."""
-    more = f"; for more: {case.longer}" if case.longer else ", and no workbook takes more."
     page.title("Rigid-body penetration, row by row")
     state = formula(f"{case.part}.message", _message(case), "message", name=case.result("message"))
     page.put(A=state)
@@ -155,7 +156,8 @@ def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
         f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
         "The run stops with the first row below v_stop; printed pages end with the last row as "
-        f"written. {case.rows} rows are prepared{more}",
+        f"written. {case.rows} rows are prepared; coldspray workbook prepares N, up to {MAX_ROWS}, "
+        "with the same options and --rows N.",
         width=205,
     )
     page.cells["I1"] = text(case.label, "title")
@@ -275,7 +277,7 @@ def _results(case: CaseSheet) -> list[Line | str]:
         lines += [
             "Against the sheet with the step dt_s",
             Line("fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
-                 claim=case.depth_claim),
+                 claim=case.claim("depth")),
             Line("over_fine", "", "depth of this sheet over that", over,
                  claim="coarse-step-remark", shown="0.00%"),
         ]  # fmt: skip
@@ -307,7 +309,7 @@ def _result(case: CaseSheet) -> list[Line]:
     # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
     count = f"COUNT({cells('A')})"
     time, depth, velocity = (f"INDEX({cells(column)},{count})" for column in "BDF")
-    depth_claim, ratio_claim = ("", "") if case.coarse else (case.depth_claim, case.ratio_claim)
+    depth_claim, ratio_claim = ("" if case.coarse else case.claim(x) for x in ("depth", "ratio"))
     results = (
         ("final_depth", "X", "final penetration depth", depth, "m", "0.0000E+00", "", "depth"),
         ("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000", depth_claim,

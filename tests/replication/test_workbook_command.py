@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ from workbooks import Fake, stored
 
 from replication import workbook
 from spreadsheets.engines import Engine
-from spreadsheets.sheets import steps
 
 Run = Callable[..., tuple[int, str, str]]
 OWN = ("--step", "1 ns")
@@ -48,59 +46,16 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     assert path.read_bytes() == first
 
 
-def note(cells: dict[str, Any]) -> str:
-    """What stands above the rows of a sheet."""
-    return " ".join(str(cells.get(f"A{row}", "")) for row in range(4, 8)).strip()
-
-
-def test_rows_and_the_command_that_the_sheet_advises(run: Run, tmp_path: Path) -> None:
-    """A case of one's own is named in full; the command that is named writes a longer sheet."""
+def test_a_longer_sheet_as_the_sheet_advises(run: Run, tmp_path: Path) -> None:
     run(*OWN, "--beta", "4")
     cells = stored(tmp_path / "workbook.xlsx")["Sheet beta 4"]
-    (command,) = re.findall(r"for more: coldspray workbook (.*)$", note(cells))
-    assert command == "--case beta-5 --beta 4.0 --step 1e-09 --rows 2000"
-    status, _, _ = run(*command.split(), "-o", "longer.xlsx")
-    assert status == 0
+    said = " ".join(str(cells.get(f"A{row}", "")) for row in range(4, 8)).strip()
+    assert said.endswith("prepares N, up to 20000, with the same options and --rows N.")
+    assert run(*OWN, "--beta", "4", "--rows", "2000", "-o", "longer.xlsx")[0] == 0
     longer = tmp_path / "longer.xlsx"
     assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 2000 * 7
     depth = workbook.build(workbook.BETA_5).plan.where["case.depth_um"][1]
     assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
-
-
-def test_the_reports_workbook_advises_its_own_command(run: Run, tmp_path: Path) -> None:
-    assert run("--scheme", "centered", "-o", "r.xlsx")[0] == 0
-    values = stored(tmp_path / "r.xlsx")
-    for sheet in ("Sheet beta 3", "Sheet beta 5", "Sheet beta 5 coarse"):
-        assert note(values[sheet]).endswith(
-            "for more: coldspray workbook --scheme centered --rows 4000"
-        )
-    assert run("--scheme", "centered", "--rows", "400", "-o", "s.xlsx")[0] == 0
-    assert (tmp_path / "r.xlsx").read_bytes() == (tmp_path / "s.xlsx").read_bytes()
-
-
-def test_the_longest_command_is_advised_whole(run: Run, tmp_path: Path) -> None:
-    given = {
-        "velocity": 512.3456789012345,
-        "radius": 7.345678901234567e-06,
-        "particle-density": 8765.432109876543,
-        "target-density": 7654.321098765432,
-        "beta": 4.567890123456789,
-        "flow-stress": 765432109.8765432,
-        "step": 1.234567890123456e-09,
-        "stop-velocity": 2.345678901234567,
-    }
-    options = [f"--{name} {value!r}" for name, value in given.items()]
-    asked = ("--scheme", "centered", "--rows", "1234", "-o", "long.xlsx")
-    assert run(*" ".join(options).split(), *asked)[0] == 0
-    command = " ".join(["--case beta-5", *options, "--scheme centered --rows 12340"])
-    assert note(stored(tmp_path / "long.xlsx")["Sheet beta 4.568"]).endswith(f"workbook {command}")
-
-
-def test_a_sheet_of_the_most_rows_advises_no_longer_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(steps, "MAX_ROWS", 200)
-    book = workbook.build(replace(workbook.BETA_5, step=1e-9), rows=200)
-    said = note(book.cells["Sheet beta 5"])
-    assert said.endswith("200 rows are prepared, and no workbook takes more.")
 
 
 def test_json_without_verifying_has_the_warnings(run: Run) -> None:
