@@ -25,8 +25,17 @@ from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.plan import NOT_COMPUTED, Value, WorkbookPlan, place_of
-from spreadsheets.sheets import audit, figures, inputs, steps, table_a1, workbook_plan
-from spreadsheets.sheets.audit import Findings
+from spreadsheets.sheets import (
+    AS_PRINTED,
+    KINDS,
+    OTHERWISE,
+    Findings,
+    computed_claims,
+    figures,
+    inputs,
+    steps,
+    workbook_plan,
+)  # fmt: skip
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
@@ -268,7 +277,7 @@ class _Builder:
         return {
             "inputs": self._inputs(),
             "overview": {"inputs_changed": len(self.changed), "inputs_unusable": 0, **results},
-            "table": {name: last[name] for name in _TABLE} | {"row": rows[: table_a1.ROWS]},
+            "table": {name: last[name] for name in _TABLE} | {"row": rows[: steps.TABLE_ROWS]},
             "figure_3": {page.slug: self._curve(page, sheet) for page, sheet in self.runs},
             "figure_5": self._figure_5(),
             "convergence": self._convergence(),
@@ -460,12 +469,12 @@ def live_verdicts(
     """
     live: dict[str, Value] = {}
     keys = {place: cell.key for place, cell in plan.cells()}
-    for claim in audit.computed_claims(ledger):
+    for claim in computed_claims(ledger):
         value = values[keys[place_of(str(claim.workbook))]]
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
-    for text, what in audit.KINDS:
+    for text, what in KINDS:
         live[f"audit.{what}"] = live[f"overview.audit_{what}"] = float(verdicts.count(text))
     for name in (*findings.failing, *findings.differing):
         if ledger.claims[name].workbook:
@@ -556,7 +565,7 @@ def _verdict(value: Value, interval: Interval) -> str:
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
         rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = rounded.contains(Fraction(value))
-    return audit.AS_PRINTED if inside else audit.OTHERWISE
+    return AS_PRINTED if inside else OTHERWISE
 
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
@@ -565,8 +574,8 @@ def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> di
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
-            difference = round(difference / float(printed.quantum), table_a1.DIGITS)
+            difference = round(difference / float(printed.quantum), steps.DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
-        verdict = table_a1.SAME_TEXT if same else table_a1.OTHER_TEXT
+        verdict = steps.SAME_TEXT if same else steps.OTHER_TEXT
         checked |= {"difference": difference, "verdict": verdict}
     return {f"table_check.{address}.{what}": number for what, number in checked.items()}

@@ -1,4 +1,4 @@
-"""The sheets of a case: the scheme row by row down to the stop, and what is read off the last row.
+"""The sheets of a case: the scheme row by row to the stop, its result, and the report's Table A-1.
 
 Below the stop follow rows that stay blank until an input needs them. If even they do not suffice,
 the sheet says so instead of giving a depth; if the time step is too long for the motion, too.
@@ -6,9 +6,22 @@ the sheet says so instead of giving a depth; if the time step is too long for th
 
 from dataclasses import dataclass
 
-from reference.ledger import Ledger
+from reference.ledger import Claim, Ledger
 from reference.units import written
-from spreadsheets.plan import NOT_COMPUTED, Cell, Line, Rule, SheetPlan, formula, log1p, text
+from spreadsheets.plan import (
+    HOME,
+    NOT_COMPUTED,
+    Cell,
+    Line,
+    Rule,
+    SheetPlan,
+    formula,
+    log1p,
+    printed,
+    recorded,
+    text,
+    unit_text,
+)  # fmt: skip
 
 FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
@@ -372,3 +385,152 @@ def _doubts(case: CaseSheet) -> list[Line]:
         Line("trust", "", "2 sound, 1 with a warning, 0 do not use",
              f"=IF({{stopped}}=1,{trust},0)", shown="0", name=case.result("trust"), guard=False),
     ]  # fmt: skip
+
+
+# Table A-1: the report has it cell for cell in A1:F12; every number format gives the text that the
+# report prints, 6E-10 in General included. From column H on stands the printed text itself.
+
+TABLE_ROWS = 5
+"""Rows of the table, row 0 (the impact itself) included."""
+
+_FIRST = 8
+_ABOVE = (
+    ("R =", "radius", "R_p"),
+    ("Density =", "particle_density", "rho_p"),
+    ("M =", "mass", "M_p"),
+    ("D =", "diameter", "D_p"),
+    ("Initial vel =", "velocity", "V_impact"),
+    ("Rt =", "resistance", "R_t"),
+)
+_TABLE_COLUMNS = {
+    "A": ("Time", "time"),
+    "B": ("", ""),
+    "C": ("dx/dt initial", "velocity_initial"),
+    "D": ("x", "depth"),
+    "E": ("d²x/dt²", "deceleration"),
+    "F": ("dx/dt final", "velocity_final"),
+    "G": ("dx/dt middle", "velocity_middle"),
+}
+
+
+def _claims(ledger: Ledger) -> dict[str, Claim]:
+    """Address in the table -> the claim that is printed there."""
+    return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
+
+
+def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
+    """The table for a case: the report's is the one of beta = 5.
+
+    report: with the printed text beside it, in columns H to M.
+    """
+    claims, resistance, centered = _claims(ledger), case.named("R_t"), case.scheme == "centered"
+    columns = "ABCDEFG" if centered else "ABCDEF"
+    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
+    page = SheetPlan(name="Table A-1", widths=widths)
+    cells = page.cells
+
+    def live(address: str, what: str, expression: str) -> None:
+        """A cell in the unit of what is printed there, and as it is: "6E-10" or "2.00E-10"."""
+        claim = claims.get(address)
+        shown = "0.00E+00" if claim is None or "." in claim.text else "General"
+        unit = "m/s" if claim is None else claim.unit
+        cells[address] = formula(f"table.{what}", expression, number_format=shown, unit=unit)
+
+    for row, (label, what, symbol) in enumerate(_ABOVE, start=1):
+        cells[f"A{row}"] = text(label)
+        live(f"B{row}", what, f"={resistance if symbol == 'R_t' else symbol}")
+    for column in columns:
+        head, _ = _TABLE_COLUMNS[column]
+        cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
+    for step in range(TABLE_ROWS):
+        row = _FIRST + step
+        if step:
+            time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
+            middle = "G" if centered else ""
+            formulas = step_formulas(row, step == 1, time, resistance, case.step_name, middle)
+        else:
+            starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
+            ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
+            formulas = {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
+        for column, expression in formulas.items():
+            live(f"{column}{row}", f"row[{step}].{_TABLE_COLUMNS[column][1]}", expression)
+    if report:
+        cells |= _as_printed(ledger, claims)
+    page.row = 14
+    page.say(
+        f"Table A-1, rigid body penetration. Columns A to {columns[-1]} are live, "
+        f"with the inputs of {case.name}."
+        + (" Columns H to M are the report’s text." if report else ""),
+        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
+    )
+    cells["A18"] = text(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    return page
+
+
+def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
+    """The table as the report prints it, in columns H to M."""
+    shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
+    cells = {f"H{row}": text(label, "unit") for row, (label, _, _) in enumerate(_ABOVE, start=1)}
+    for column, there in shifted.items():
+        if head := _TABLE_COLUMNS[column][0]:
+            cells[f"{there}{_FIRST - 1}"] = text(head, "unit right")
+    for address, claim in claims.items():
+        cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
+    return cells
+
+
+DIGITS = 4
+"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
+
+_CHECK_COLUMNS = (
+    ("Cell", 8.0), ("Quantity", 26.0), ("Unit", 9.0), ("The report prints", 17.0),
+    ("Computed", 25.0), ("Difference", 12.0), ("", 18.0), ("Last printed digit", 17.0),
+)  # fmt: skip
+SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
+
+
+def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
+    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
+    page = SheetPlan(name="Table A-1 check")
+    page.title("Table A-1: printed and computed")
+    page.say(
+        "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
+        "minus printed, in units of the last printed digit; up to 0.5 it prints the same."
+    )
+    page.row = 6
+    page.table(_CHECK_COLUMNS, "DEFH", "B")
+    first = page.row
+    for address, claim in _claims(ledger).items():
+        page.put(**_check(claim, address, page.row, table))
+    verdicts = f"G{first}:G{page.row - 1}"
+    page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})
+    return page
+
+
+def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
+    assert claim.printed is not None
+    key, there = f"table_check.{address}", f"='{table.name}'!{address}"
+    difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
+    if claim.is_exact:
+        difference, same = f"E{row}-D{row}", f"F{row}=0"
+    verdict = f'IF({same},"{SAME_TEXT}","{OTHER_TEXT}")'
+    cells = (
+        text(address, "link", link=(table.name, address)),
+        text(claim.title),
+        unit_text(claim.unit),
+        recorded(
+            float(claim.printed.value), claim=claim.id,
+            number_format=table.cells[address].number_format,
+        ),
+        formula(
+            f"{key}.computed", there, number_format="0.0000000000000000E+00", unit=claim.unit
+        ),
+        # Rounding is done by each program in its own way: it may cost a last digit.
+        formula(
+            f"{key}.difference", f'=IF(ISNUMBER(E{row}),{difference},"–")', "result",
+            number_format="0.0000", transcendental=True,
+        ),
+        formula(f"{key}.verdict", f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")', "text"),
+        recorded(float(claim.printed.quantum), number_format="0E+00"),
+    )  # fmt: skip
+    return dict(zip("ABCDEFGH", cells, strict=True))

@@ -18,7 +18,7 @@ from replication.cases import BETA_5
 from replication.workbook import Workbook, build
 from spreadsheets.emit import DASHES
 from spreadsheets.plan import Cell, SheetPlan, place_of
-from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
+from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.inputs import INPUTS
 from spreadsheets.sheets.steps import MAX_ROWS, prepared_rows
 

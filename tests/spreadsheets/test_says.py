@@ -16,7 +16,7 @@ from replication.error import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Recalculated
 from spreadsheets.plan import NOT_COMPUTED, Value
-from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
+from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.figures import CURRENT, STALE
 from spreadsheets.sheets.inputs import INPUTS, MESSAGES
 from spreadsheets.sheets.steps import (
