@@ -6,9 +6,12 @@ supplies the values never sees the formulas, so that the two can be compared.
 """
 
 import re
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
+from string import Template
 from textwrap import wrap
 from typing import Any, Literal, NamedTuple
 
@@ -142,9 +145,9 @@ class Line:
     """
 
     key: str
-    symbol: str
-    meaning: str
     formula: str
+    symbol: str = ""
+    meaning: str = ""
     unit: str = "1"
     source: str = ""
     claim: str = ""
@@ -157,6 +160,30 @@ class Line:
     def id(self) -> str:
         """What formulas call it: "rha.derived" is {rha_derived}."""
         return self.key.replace(".", "_")
+
+
+@cache
+def _tables() -> dict[str, Any]:
+    return tomllib.loads(Path(__file__).with_name("lines.toml").read_text(encoding="utf-8"))
+
+
+def lines_of(table: str, *cases: Mapping[str, str]) -> list[Line | str]:
+    """The lines of a table of `lines.toml`, after the head of each block.
+
+    cases: what the words that begin with "$" stand for, in each case. A line whose key has none of
+    them stands once.
+    """
+    lines: list[Line | str] = []
+    for head, block in _tables()[table].items():
+        filled: dict[str, Line] = {}
+        for case in cases or ({},):
+            words = {"none": NOT_COMPUTED, **case}
+            for entry in ({"key": key, **fields} for key, fields in block.items()):
+                guard = entry.pop("guard", True)
+                texts = {name: Template(x).substitute(words) for name, x in entry.items()}
+                filled.setdefault(texts["key"], Line(**texts, guard=guard))
+        lines += [head, *filled.values()]
+    return lines
 
 
 @dataclass(slots=True, kw_only=True)

@@ -16,6 +16,7 @@ from spreadsheets.plan import (
     Rule,
     SheetPlan,
     formula,
+    lines_of,
     log1p,
     printed,
     recorded,
@@ -254,9 +255,6 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
 # The block beside the rows
 
 KEPT_NAME = "The sheet keeps the name with which it was written."
-YES_NO = '"yes";;"no"'
-"""Shows 1 and 0; a truth value would show as TRUE in one program and as 1 in another."""
-
 COMPLETE = "Complete: the velocity is below v_stop."
 REVERSED = "Complete, but the last step reverses the velocity."
 DOUBTFUL = "DO NOT TRUST THIS RUN: the time step is too long."
@@ -273,80 +271,33 @@ def _message(case: CaseSheet) -> str:
     return f'=IF(ISNUMBER({stopped}),{run},"{INVALID}")'
 
 
+_RESULTS = (
+    "stopped", "final_depth", "depth_um", "normalized_depth", "steps", "stop_time",
+    "final_velocity", "exact_depth_um", "trust",
+)  # fmt: skip
+"""The lines with defined names."""
+
+
 def _results(case: CaseSheet) -> list[Line | str]:
-    lines: list[Line | str] = [
-        "",  # no title here, since every printed page repeats this row
-        *_inputs(case),
-        "Result of the sheet",
-        *_result(case),
-        "Without time steps: Eqs. 12 and 13 integrated to rest",
-        *_exact(case),
-        "Is the time step short enough?",
-        *_doubts(case),
-    ]
-    if case.coarse:
-        fine = case.named("depth_um")
-        over = f'=IF({fine}>0,{{depth_um}}/{fine},"{NOT_COMPUTED}")'
-        lines += [
-            "Against the sheet with the step dt_s",
-            Line("fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
-                 claim=case.claim("depth")),
-            Line("over_fine", "", "depth of this sheet over that", over,
-                 claim="coarse-step-remark", shown="0.00%"),
-        ]  # fmt: skip
-    return lines
-
-
-def _inputs(case: CaseSheet) -> list[Line]:
-    inputs = (
-        ("radius", "R", "particle radius", "R_p", "m"),
-        ("particle_density", "ρ_p", "particle density", "rho_p", "kg/m^3"),
-        ("mass", "M", "particle mass", "M_p", "kg"),
-        ("diameter", "D", "particle diameter", "D_p", "m"),
-        ("velocity", "V", "impact velocity", "V_impact", "m/s"),
-        ("resistance", "R_t", "target resistance", case.named("R_t"), "Pa"),
-        ("target_density", "ρ_t", "target density", "rho_t", "kg/m^3"),
-        ("step", "Δt", "time step", case.step_name, "s"),
-        ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
-    )
-    return [
-        Line(what, symbol, meaning, f"={name}", unit, shown="0.0000E+00")
-        for what, symbol, meaning, name, unit in inputs
-    ]
-
-
-def _result(case: CaseSheet) -> list[Line]:
-    def cells(column: str) -> str:
-        return f"{column}{FIRST_ROW}:{column}{case.last_row}"
-
-    # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
-    count = f"COUNT({cells('A')})"
-    time, depth, velocity = (f"INDEX({cells(column)},{count})" for column in "BDF")
-    depth_claim, ratio_claim = ("" if case.coarse else case.claim(x) for x in ("depth", "ratio"))
-    results = (
-        ("final_depth", "X", "final penetration depth", depth, "m", "0.0000E+00", "", "depth"),
-        ("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000", depth_claim,
-         "depth_um"),
-        ("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
-         ratio_claim, ""),
-        ("steps", "", "steps taken", f"{count}-1", "1", "0", "", ""),
-        ("stop_time", "t", "time of the final row", time, "s", "0.0000E+00", "", ""),
-        ("final_velocity", "v", "velocity that ends it", f"IF({{steps}}>0,{velocity},V_impact)",
-         "m/s", "0.0000", "", "velocity"),
-    )  # fmt: skip
-    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({velocity}<v_stop,1,0),"{NOT_COMPUTED}")'
-    return [
-        Line("stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
-             name=case.result("stopped"), guard=False),
-        *(
-            Line(what, symbol, meaning, f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit,
-                 "" if claim else "Appendix", claim, shown, name=case.result(what),
-                 column=like and f"{case.part}.{like}", guard=False)
-            for what, symbol, meaning, expression, unit, shown, claim, like in results
-        ),
-        Line("excess", "", "X/R over the observed X/R", "={normalized_depth}/observed_ratio",
-             claim="excess", shown="0.00"),
-    ]  # fmt: skip
+    """The lines of the block, from `lines.toml`."""
+    own = case.is_reports and not case.coarse
+    work, rest = rest_depth("{pressure}", "{c}")
+    words = {
+        **{name: case.result(name) for name in _RESULTS},
+        **{column: f"{column}{FIRST_ROW}:{column}{case.last_row}" for column in "ABDF"},
+        "part": case.part,
+        "first": f"A{FIRST_ROW}",
+        "R_t": case.named("R_t"),
+        "step": case.step_name,
+        "work": work,
+        "rest": rest,
+        "depth_claim": case.claim("depth") if own else "",
+        "ratio_claim": case.claim("ratio") if own else "",
+        "unclaimed": "" if own else "Appendix",
+        "fine": case.named("depth_um"),
+        "fine_claim": case.claim("depth"),
+    }
+    return lines_of("case", words) + (lines_of("coarse", words) if case.coarse else [])
 
 
 def rest_depth(pressure: str, c: str) -> tuple[str, str]:
@@ -354,37 +305,6 @@ def rest_depth(pressure: str, c: str) -> tuple[str, str]:
     angle = f"ASIN(SQRT(3*{c})/2)/3"
     shallow = f"4*SIN({angle})*SIN({angle}+pi_/3)"
     return f"=4*rho_p/(3*rho_t)*{log1p(pressure)}", f"=IF({c}<=2/3,{shallow},1/3+{c})"
-
-
-def _exact(case: CaseSheet) -> list[Line]:
-    c, depth = rest_depth("{pressure}", "{c}")
-    return [
-        Line("pressure", "p", "dynamic pressure over R_t",
-             f"=rho_t*V_impact*V_impact/2/{case.named('R_t')}", source="ρ_t V²/2R_t",
-             shown="0.0000E+00"),
-        Line("c", "c", "work over the particle’s inertia", c, source="(4ρ_p/3ρ_t) ln(1 + p)",
-             shown="0.0000E+00"),
-        Line("exact_normalized_depth", "X/R", "normalized depth at rest", depth,
-             source="root of y² - y³/3 = c, or 1/3 + c"),
-        Line("exact_depth_um", "X", "penetration depth at rest",
-             "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above",
-             name=case.result("exact_depth_um")),
-    ]  # fmt: skip
-
-
-def _doubts(case: CaseSheet) -> list[Line]:
-    """What tells that the time step is too long for the motion."""
-    serious = "IF({travel}>travel_most,1,IF({over_exact}>1+excess_most,1,IF({steps}=0,1,0)))"
-    trust = f"IF({serious}=1,0,IF({{final_velocity}}<-v_stop,1,2))"
-    return [
-        Line("travel", "Δt V/R", "radii passed in one step at V",
-             f"={case.step_name}*V_impact/R_p", source="too long above travel_most"),
-        Line("over_exact", "", "depth over the depth at rest",
-             "=IF({stopped}=1,{normalized_depth}/{exact_normalized_depth},"
-             f'"{NOT_COMPUTED}")', source="too long above 1 + excess_most", guard=False),
-        Line("trust", "", "2 sound, 1 with a warning, 0 do not use",
-             f"=IF({{stopped}}=1,{trust},0)", shown="0", name=case.result("trust"), guard=False),
-    ]  # fmt: skip
 
 
 # Table A-1: the report has it cell for cell in A1:F12; every number format gives the text that the
