@@ -188,27 +188,13 @@ def _typed(si: float, unit: str) -> float:
     return next((typed for typed in around if _si(typed, unit) == si), nearest)
 
 
-_CASE_INPUTS = {
-    "V_impact": "velocity",
-    "R_p": "radius",
-    "rho_p": "particle_density",
-    "rho_t": "target_density",
-    "dt_s": "step",
-    "v_stop": "stop_velocity",
-    "Y_t": "flow_stress",
-    "R_t": "resistance",
-}
-"""Inputs that come from the cases -> the attributes of an Impact."""
-
-
 def _held(impact: Impact) -> Impact:
     """The case with the numbers that the cells of its inputs can hold."""
     numbers = {}
-    for name, attribute in _CASE_INPUTS.items():
-        number = getattr(impact, attribute)
-        if number is not None and name in inputs.INPUTS:
-            unit = inputs.INPUTS[name].unit
-            numbers[attribute] = _si(_typed(number, unit), unit)
+    for entry in inputs.INPUTS.values():
+        number = getattr(impact, entry.attribute) if entry.attribute else None
+        if number is not None:
+            numbers[entry.attribute] = _si(_typed(number, entry.unit), entry.unit)
     return replace(impact, **numbers)
 
 
@@ -218,14 +204,13 @@ def _typed_inputs(
     """The number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
     for entry in (entry for block in blocks.values() for entry in block):
-        name, (least, most) = entry.name, entry.limits
-        if name in _CASE_INPUTS:
-            case = next(iter(cases.values()))
-            number = _typed(getattr(case, _CASE_INPUTS[name]), entry.unit)
-        elif name.startswith("beta"):
-            number = cases[name.partition("_")[2] or "case"].beta or 0.0
+        if entry.attribute:
+            # They share all but the beta, whose name tells the case.
+            case = cases.get(entry.name.rpartition("_")[2]) or next(iter(cases.values()))
+            number = _typed(getattr(case, entry.attribute), entry.unit)
         else:
             number = entry.of_report(ledger)
+        least, most = entry.limits
         if not least <= number <= most:
             what = entry.meaning or ledger.title(entry.source)
             span = with_unit(f"{least:,.10g} to {most:,.10g}", entry.unit)

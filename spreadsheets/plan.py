@@ -163,7 +163,8 @@ class Line:
 
 
 @cache
-def _tables() -> dict[str, Any]:
+def tables() -> dict[str, Any]:
+    """The tables of `lines.toml`."""
     return tomllib.loads(Path(__file__).with_name("lines.toml").read_text(encoding="utf-8"))
 
 
@@ -174,7 +175,7 @@ def lines_of(table: str, *cases: Mapping[str, str]) -> list[Line | str]:
     them stands once.
     """
     lines: list[Line | str] = []
-    for head, block in _tables()[table].items():
+    for head, block in tables()[table].items():
         filled: dict[str, Line] = {}
         for case in cases or ({},):
             words = {"none": NOT_COMPUTED, **case}

@@ -7,6 +7,7 @@ within what limits a number is taken. What follows from the inputs stands apart,
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from reference.ledger import INFERRED, Ledger
 from reference.units import to_si
@@ -19,6 +20,7 @@ from spreadsheets.plan import (
     guarded,
     printed,
     recorded,
+    tables,
     text,
     unit_text,
 )
@@ -27,39 +29,22 @@ from spreadsheets.sheets.steps import CaseSheet
 REPORT = "report"
 """What the switch says to take the report's inputs; with any other text, the user's are taken."""
 
-LIMITS = {
-    "m/s": (1e-6, 1e6),
-    "um": (1e-4, 1e6),
-    "ns": (1e-6, 1e6),
-    "kg/m^3": (25.0, 1e5),
-    "Pa": (1e5, 1e15),
-    "MPa": (1e-3, 1e6),
-    "GPa": (1e-4, 1e5),
-    "ksi": (1e-3, 1e5),
-    "1": (1e-4, 1e4),
-}
-"""What may be typed, by unit: wide enough for any impact, and too narrow for a number in SI units
-where the sheet asks for another (2E-10 for 0.2 ns, 7E8 for 700 MPa, 8.9 for 8900 kg/m³)."""
-
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A number that is typed: its defined name, symbol, place in the ledger and unit.
+    """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
 
-    source: the id of the claim that prints it, or of an inferred input.
+    source: the id of the claim that prints it, or of an inferred input. attribute: what it is of an
+    impact, if it belongs to a case.
     """
 
     name: str
     symbol: str
     source: str
-    unit: str = "1"
-    own_limits: tuple[float, float] | None = None
+    unit: str
+    limits: tuple[float, float]
     meaning: str = ""
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Its own limits, or those of its unit."""
-        return self.own_limits or LIMITS[self.unit]
+    attribute: str = ""
 
     def of_report(self, ledger: Ledger) -> float:
         """The report's number in this unit.
@@ -74,49 +59,15 @@ class Input:
 COARSE = "dt_coarse"
 """The input that only the report's own workbook has."""
 
-_CAP = (1e-4, 0.5)
-"""A crater of at most half a sphere."""
+
+def _entry(name: str, symbol: str, source: str, unit: str = "1", **more: Any) -> Input:
+    limits = more.pop("limits", tables()["limits"][unit])
+    return Input(name, symbol, source, unit, tuple(limits), **more)
+
 
 _BLOCKS = {
-    "Impact": (
-        Input("V_impact", "V", "a1-initial-velocity", "m/s"),
-        Input("R_p", "R", "a1-radius", "um"),
-        Input("rho_p", "ρ_p", "a1-density", "kg/m^3"),
-        Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3"),
-        Input("dt_s", "Δt", "a-step", "ns"),
-        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", (0.0, 1e6)),
-        Input(COARSE, "Δt", "coarse-step", "ns"),
-    ),
-    "Target resistance": (Input("Y_t", "Y_t", "flow-stress", "MPa"),),
-    "Velocities of Figure 5": (
-        Input("V_from", "V", "figure-5-velocity-least", "m/s"),
-        Input("V_to", "V", "figure-5-velocity-greatest", "m/s"),
-    ),
-    "Craters and particles": (
-        Input("CV_PV", "CV/PV", "volume-ratio", own_limits=_CAP),
-        Input("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_CAP),
-        Input("D_mean", "D", "mean-diameter", "um"),
-        Input("d_min", "d", "particle-size-least", "um"),
-        Input("d_max", "d", "particle-size-greatest", "um"),
-        Input("observed_ratio", "X/R", "discussion-observed"),
-    ),
-    "Materials": (
-        Input("q_Y", "q/Y_t", "goodier-q"),
-        Input("E_t", "E_t", "elastic-modulus", "GPa"),
-        Input("Y_steel", "Y", "yield-strength", "MPa"),
-        Input("HB_ratio", "HB/UTS", "brinell-ratio"),
-        Input("S_feathery", "S", "strength-feathery", "ksi"),
-        Input("S_clear", "S", "strength-clear", "ksi"),
-        Input("S_bulk", "S", "strength-bulk", "ksi"),
-        Input("Y_copper", "Y_p", "copper-yield", "MPa"),
-        Input("L_typ", "L", "strain-rate-length", "um"),
-    ),
-    "Frank and Zook": (
-        Input("k_1", "k_1", "fz-k1"),
-        Input("k_t", "k_t", "fz-kt"),
-        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
-        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
-    ),
+    block: [_entry(name, **entry) for name, entry in entries.items()]
+    for block, entries in tables()["inputs"].items()
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input that does not differ between the cases, by its name."""
@@ -138,26 +89,23 @@ MESSAGES = {
 }
 
 
-def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input, ...]]:
+def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
     """The inputs of a workbook of these cases, in blocks; `report`: it is the report's own."""
-    blocks = dict(_BLOCKS)
-    if not report:
-        blocks["Impact"] = tuple(entry for entry in blocks["Impact"] if entry.name != COARSE)
-    resistance = "Target resistance"
-    if cases[0].resistance_given:
-        given = "target resistance, given instead of β and Y_t"
-        blocks[resistance] = (Input("R_t", "R_t", "a1-resistance", "Pa", meaning=given),)
-    else:
-        meaning = "target resistance over flow stress, {}"
-        blocks[resistance] += tuple(
-            Input(
-                case.named("beta"),
-                "β",
-                f"depth-beta-{case.beta}-beta",
-                meaning=meaning.format(case.name),
-            )
-            for case in cases
+    given = "target resistance, given instead of β and Y_t"
+    stress = "target resistance over flow stress, {}"
+    betas = [
+        _entry(
+            case.named("beta"), "β", f"depth-beta-{case.beta}-beta",
+            meaning=stress.format(case.name), attribute="beta",
         )
+        for case in cases
+    ]  # fmt: skip
+    blocks = {**_BLOCKS, "Target resistance": [INPUTS["Y_t"], *betas]}
+    if cases[0].resistance_given:
+        own = _entry("R_t", "R_t", "a1-resistance", "Pa", meaning=given, attribute="resistance")
+        blocks["Target resistance"] = [own]
+    if not report:
+        blocks["Impact"] = [entry for entry in blocks["Impact"] if entry.name != COARSE]
     return blocks
 
 
