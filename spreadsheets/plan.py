@@ -132,9 +132,6 @@ class Chart:
         return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
 
 
-LINE_HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
-
-
 @dataclass(frozen=True, slots=True)
 class Line:
     """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
@@ -164,12 +161,12 @@ class Line:
 
 @cache
 def tables() -> dict[str, Any]:
-    """The tables of `lines.toml`."""
-    return tomllib.loads(Path(__file__).with_name("lines.toml").read_text(encoding="utf-8"))
+    """The tables of `sheets.toml`."""
+    return tomllib.loads(Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8"))
 
 
 def lines_of(table: str, *cases: Mapping[str, str]) -> list[Line | str]:
-    """The lines of a table of `lines.toml`, after the head of each block.
+    """The lines of a table of `sheets.toml`, after the head of each block.
 
     cases: what the words that begin with "$" stand for, in each case. A line whose key has none of
     them stands once.
@@ -235,11 +232,12 @@ class SheetPlan:
             under = (None if unit is None else text(unit, "unit right") for unit in units)
             self.put(**dict(zip(columns, under, strict=True)))
 
-    def table(self, columns: Sequence[tuple[str, float]], right: str, frozen: str = "A") -> None:
+    def table(self, name: str, right: str, frozen: str) -> None:
         """Heads with their columns' widths: they stay in sight and head every printed page.
 
-        frozen: the first column that scrolls.
+        name: among the `columns` of `sheets.toml`. frozen: the first column that scrolls.
         """
+        columns = tables()["columns"][name]
         letters = "ABCDEFGHIJKLM"[: len(columns)]
         self.widths = {letter: width for letter, (_, width) in zip(letters, columns, strict=True)}
         self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
@@ -259,7 +257,8 @@ class SheetPlan:
         part: what its keys begin with. columns: of symbol, meaning, value, unit, printed text,
         source. A line is transcendental that calls such a function or such a line above it.
         """
-        self.heads(columns, LINE_HEADS, columns[2] + columns[4])
+        heads = [words for words, _ in tables()["columns"]["lines"]]
+        self.heads(columns, heads, columns[2] + columns[4])
         addresses: dict[str, str] = {}
         transcendental: set[str] = set()
         for number, line in enumerate(lines):

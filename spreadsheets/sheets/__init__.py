@@ -22,9 +22,10 @@ from spreadsheets.plan import (
     place_of,
     printed,
     recorded,
+    tables,
     text,
     unit_text,
-)  # fmt: skip
+)
 from spreadsheets.sheets import figures, inputs, models, steps
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
@@ -87,8 +88,8 @@ def workbook_plan(
                 raise ValueError(
                     f"claim {claim.id!r}: the workbook computes nothing in {name}!{address}"
                 )
-    said = {sheet.name: _SAID.get(sheet.name, "") for sheet in sheets}
-    said |= {case.name: _SHEET for case in cases} | {case.name: _COARSE for case in coarse}
+    kinds = {case.name: "of a case" for case in cases} | {case.name: "coarse" for case in coarse}
+    said = {sheet.name: tables()["shows"][kinds.get(sheet.name, sheet.name)] for sheet in sheets}
     first = _overview(ledger, cases, said, findings)
     return WorkbookPlan(
         sheets=(first, *sheets),
@@ -102,33 +103,6 @@ def workbook_plan(
             "same file.",
         },
     )
-
-
-_SAID = {
-    "Inputs": "Every physical number: yours and the report’s, unit, check, limits, name",
-    "Table A-1": "The first rows of the scheme, laid out as the report’s appendix prints them",
-    "Table A-1 check": "Printed, computed in full, and the difference in the last digit",
-    "Figure 3": "Depth against time, with its chart",
-    "Figure 5": "Normalized depth against velocity, with its chart (section 4)",
-    "Convergence": "Final depth at eight time steps against the depth at rest, with its chart",
-    "Frank-Zook": "Eq. 16 as printed and as derived (Eqs. 14 to 17)",
-    "Crater": "Section 2: crater volume, depth and contact diameter; particle velocities",
-    "Resistance": "β by three routes, grain strengths, centerline stress, strain rate",
-    "Audit": "Every printed number: what prints like it, computed value, verdict, its cell",
-}
-_SHEET = "All rows of the scheme down to the stop, and its final depth (appendix)"
-_COARSE = "The same with the time step of the comparison, and what that changes (section 3)"
-"""What each sheet shows, for the first of them; those of the cases apart."""
-
-
-# Overview
-
-_HOW = (
-    ("input", "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows."),
-    ("inferred", "Blue on orange: an input that the report never prints, inferred from others."),
-    ("number", "Black: a formula, stored with the value that coldspray computed for it."),
-    ("printed", "Gray: what the report prints, or what was computed once. It follows no change."),
-)
 
 
 def _block(page: SheetPlan, *words: str, right: str = "") -> None:
@@ -162,7 +136,7 @@ def _overview(
     for name, what in sheets.items():
         page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
     _block(page, "How to read it")
-    for style, what in _HOW:
+    for style, what in tables()["how_to_read"].items():
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
     page.print_area = f"A1:F{page.row - 1}"
     return page
@@ -237,11 +211,6 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
 
 # Audit
 
-_AUDIT_COLUMNS = (
-    ("Claim", 24.0), ("What", 50.0), ("Printed", 15.0), ("Unit", 8.0), ("Computed", 13.0),
-    ("Live verdict", 14.0), ("The audit’s verdict", 25.0), ("From", 11.0), ("To", 11.0),
-    ("Where", 34.0), ("Computed in", 20.0), ("Explanation", 60.0),
-)  # fmt: skip
 _HEAD_ROW = 11
 
 
@@ -269,7 +238,7 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
         counted = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
         page.put(A=text(words, "text"), B=counted)
     page.row = _HEAD_ROW
-    page.table(_AUDIT_COLUMNS, "CEHI", "B")
+    page.table("audit", "CEHI", "B")
     for claim in ledger.claims.values():
         page.put(**_row(ledger, claim, findings, page.row))
     page.color(verdicts, {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"})

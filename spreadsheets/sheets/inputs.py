@@ -18,6 +18,7 @@ from spreadsheets.plan import (
     SheetPlan,
     formula,
     guarded,
+    lines_of,
     printed,
     recorded,
     tables,
@@ -72,11 +73,6 @@ _BLOCKS = {
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input that does not differ between the cases, by its name."""
 
-_COLUMNS = (
-    ("Symbol", 9.0), ("Quantity", 50.0), ("Type here", 13.0), ("Unit", 8.0), ("Check", 12.0),
-    ("In use", 14.0), ("Unit", 8.0), ("The report’s", 12.0), ("It prints", 15.0), ("Where", 27.0),
-    ("Least", 10.0), ("Greatest", 12.0), ("Name", 14.0),
-)  # fmt: skip
 _SCIENTIFIC = "0.0####E+00"
 
 _SAME, _INFERRED, _YOURS = "the report’s", "as inferred", "yours"
@@ -118,7 +114,7 @@ def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan
         "input that the report never prints, inferred from Table A-1."
     )
     page.row = 9
-    page.table(_COLUMNS, "CFHIKL", "C")
+    page.table("inputs", "CFHIKL", "C")
     first = page.row
     for block, entries in inputs_of(cases, report).items():
         page.put(A=text(block, "block"))
@@ -222,25 +218,24 @@ def _factor(unit: str) -> str:
 
 
 def _derived(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
-    """The rows of what follows from the inputs; what is not in SI units is used nowhere else."""
-    rows = [
-        ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
-        ("M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", "a1-mass"),
-        *(
-            (case.named("R_t"), "R_t", f"target resistance, {case.name}",
-             f"={case.named('beta')}*Y_t", "Pa", "a1-resistance" if case.slug == "high" else "")
-            for case in cases
-            if not case.resistance_given
-        ),
-        ("half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns", "a-half-step"),
-        ("mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
-         "particle-radius"),
-    ]  # fmt: skip
-    for name, symbol, meaning, expression, unit, claim in rows:
-        in_si = unit not in _SI
+    """The rows of what follows from the inputs."""
+    words = [
+        {
+            "R_t": case.named("R_t"),
+            "sheet": case.name,
+            "beta": case.named("beta"),
+            "claim": "a1-resistance" if case.slug == "high" else "",
+        }
+        for case in cases
+    ]
+    for line in lines_of("derived", *words):
+        if isinstance(line, str) or (cases[0].resistance_given and line.key == "R_t"):
+            continue
+        in_si = line.unit not in _SI
         value = formula(
-            f"inputs.{name}", guarded(expression), unit=unit, name=name if in_si else "",
-            number_format=_SCIENTIFIC if in_si else "General",
+            f"inputs.{line.key}", guarded(line.formula), unit=line.unit,
+            name=line.key if in_si else "", number_format=_SCIENTIFIC if in_si else "General",
         )  # fmt: skip
-        cells = {"A": text(symbol, "text"), "B": text(meaning), "F": value, "G": unit_text(unit)}
-        page.put(**cells, **(_as_printed(ledger, claim, unit) if claim else {}))
+        cells = {"A": text(line.symbol, "text"), "B": text(line.meaning), "F": value}
+        more = _as_printed(ledger, line.claim, line.unit) if line.claim else {}
+        page.put(**cells, G=unit_text(line.unit), **more)

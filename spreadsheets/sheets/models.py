@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Line, SheetPlan, lines_of, log1p
+from spreadsheets.plan import Line, SheetPlan, lines_of, log1p, tables
 from spreadsheets.sheets.steps import CaseSheet
 
 
@@ -11,8 +11,8 @@ def _sheet(
     ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
 ) -> SheetPlan:
     """One table under notes; its keys begin with the sheet's name."""
-    widths = dict(zip("ABCDEF", (9.0, 44.0, 14.0, 8.0, 20.0, 46.0), strict=True))
-    page = SheetPlan(name=name, widths=widths)
+    columns = zip("ABCDEF", tables()["columns"]["lines"], strict=True)
+    page = SheetPlan(name=name, widths={letter: width for letter, (_, width) in columns})
     page.title(heading)
     page.say(*said)
     page.row += 1

@@ -22,7 +22,7 @@ from spreadsheets.plan import (
     recorded,
     text,
     unit_text,
-)  # fmt: skip
+)
 
 FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
@@ -279,7 +279,7 @@ _RESULTS = (
 
 
 def _results(case: CaseSheet) -> list[Line | str]:
-    """The lines of the block, from `lines.toml`."""
+    """The lines of the block, from `sheets.toml`."""
     own = case.is_reports and not case.coarse
     work, rest = rest_depth("{pressure}", "{c}")
     words = {
@@ -402,10 +402,6 @@ def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
 DIGITS = 4
 """Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
 
-_CHECK_COLUMNS = (
-    ("Cell", 8.0), ("Quantity", 26.0), ("Unit", 9.0), ("The report prints", 17.0),
-    ("Computed", 25.0), ("Difference", 12.0), ("", 18.0), ("Last printed digit", 17.0),
-)  # fmt: skip
 SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
 
 
@@ -418,7 +414,7 @@ def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
         "minus printed, in units of the last printed digit; up to 0.5 it prints the same."
     )
     page.row = 6
-    page.table(_CHECK_COLUMNS, "DEFH", "B")
+    page.table("table_a1_check", "DEFH", "B")
     first = page.row
     for address, claim in _claims(ledger).items():
         page.put(**_check(claim, address, page.row, table))
