@@ -17,7 +17,7 @@ from typing import Any
 
 from reference.units import written
 from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
-from spreadsheets.safely import check_target, write_bytes
+from spreadsheets.safely import check_target
 
 # How each named style looks: one font, light fills, thin lines (properties as XlsxWriter's)
 
@@ -106,12 +106,6 @@ def check(path: Path, *, force: bool = False) -> None:
     if target.exists() and not force and not is_own(target):
         problem = "this file is not as coldspray wrote it; rename it, or --force"
         raise FileExistsError(EEXIST, problem, str(path))
-
-
-def write(path: Path, content: bytes, *, force: bool = False) -> None:
-    """Write a workbook's bytes to `path`, whole or not at all. Raises as `check` does."""
-    check(path, force=force)
-    write_bytes(path, content)
 
 
 _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
@@ -299,14 +293,14 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for series, look in zip(chart.series, DASHES, strict=False):
+    for (name, x, y), look in zip(chart.series, DASHES, strict=False):
         settings = {
-            "name": f"={_absolute(*series.name)}",
-            "categories": f"={_absolute(sheet, series.x)}",
-            "values": f"={_absolute(sheet, series.y)}",
+            "name": f"={_absolute(*name)}",
+            "categories": f"={_absolute(sheet, x)}",
+            "values": f"={_absolute(sheet, y)}",
             "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
         }
-        first, last = map(int, re.findall(r"\d+", series.x))
+        first, last = map(int, re.findall(r"\d+", x))
         if chart.logarithmic or last - first < 50:
             # Few points: show where they are.
             fill = {"color": look["color"]}

@@ -101,21 +101,13 @@ class Rule(NamedTuple):
     style: str
 
 
-class Series(NamedTuple):
-    """One curve: the cell with its name, and the cells of its x and y, such as "A5:A25"."""
-
-    name: Place
-    x: str
-    y: str
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
-    Axis titles name quantity and unit. With `logarithmic` both axes are. size: width and height in
-    pixels. description: says in words what the chart shows, with values by key as written:
-    "{high.depth_um:.4g}".
+    series: for each, the cell with its name and the cells of its x and y, such as "A5:A25". With
+    `logarithmic` both axes are. description: says in words what the chart shows, with values by key
+    as written: "{high.depth_um:.4g}".
     """
 
     at: str
@@ -123,9 +115,9 @@ class Chart:
     description: str
     x_title: str
     y_title: str
-    series: tuple[Series, ...]
+    series: list[tuple[Place, str, str]]
     logarithmic: bool = False
-    size: tuple[int, int] = (820, 470)
+    size: Sequence[int] = (820, 470)
 
     def described(self, values: Mapping[str, Value]) -> str:
         """The description with its values."""
@@ -242,6 +234,12 @@ class SheetPlan:
         self.widths = {letter: width for letter, (_, width) in zip(letters, columns, strict=True)}
         self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
         self.heads(letters, [words for words, _ in columns], right)
+
+    def draw(self, series: list[tuple[Place, str, str]], written: str) -> None:
+        """The sheet's chart of `sheets.toml`; `written` is the "$written" of its description."""
+        settings = tables()["charts"][self.name]
+        description = Template(settings["description"]).substitute(written=written)
+        self.chart = Chart(**{**settings, "description": description}, series=series)
 
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""

@@ -37,6 +37,7 @@ def run(options: argparse.Namespace) -> int:
     """Write, and verify if asked to."""
     from replication import workbook
     from spreadsheets import emit, engines
+    from spreadsheets.safely import write_bytes
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
@@ -46,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     book = workbook.build(case, options.scheme, options.rows)
     if options.verify and all(engine.missing() for engine in engines.ENGINES):
         raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
-    emit.write(options.output, book.to_bytes(), force=options.force)
+    write_bytes(options.output, book.to_bytes())
     checks = [
         engines.verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
         for engine in engines.ENGINES

@@ -282,9 +282,9 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         chart = SHEETS[name].chart
         assert words in chart.described(BOOK.values)
         assert all("[" in title for title in (chart.x_title, chart.y_title))
-        for sheet, at in (series.name for series in chart.series):
+        for (sheet, at), _, _ in chart.series:
             assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
-        for cells in (cells for series in chart.series for cells in (series.x, series.y)):
+        for cells in (cells for _, *xy in chart.series for cells in xy):
             first, last = cells.split(":")
             rows = range(int(first[1:]), int(last[1:]) + 1)
             assert all(isinstance(BOOK.cells[name][f"{first[0]}{row}"], float) for row in rows)
