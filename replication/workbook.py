@@ -106,11 +106,9 @@ def build(
             coarse.append((replace(page, name=name, coarse=True, steps=run_of.steps), run_of))
     findings = None
     if case is None:
-        if record is None:
-            from replication.audit.audit import audit
+        from replication.audit.audit import audit
 
-            record = audit()
-        findings = findings_of(record, scheme, ledger)
+        findings = findings_of(record or audit(), scheme, ledger)
     plan = workbook_plan(ledger, pages, [page for page, _ in coarse], findings)
     values = dict(_keyed(_values(ledger, runs, coarse, typed, si)))
     if findings is not None:

@@ -16,60 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan, tables
 from spreadsheets.safely import check_target
 
-# How each named style looks: one font, light fills, thin lines (properties as XlsxWriter's)
-
-_INK, _GRAY, _BLUE, _RED = "#000000", "#5A5A5A", "#0000FF", "#B00020"
-_YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
-
 _ARIAL = {"font_name": "Arial", "font_size": 10}
-_TEXT: dict[str, Any] = {**_ARIAL, "font_color": _INK}
-_RIGHT: dict[str, Any] = {"align": "right"}
-_INDENT: dict[str, Any] = {"align": "left", "indent": 1}
-_INPUT: dict[str, Any] = {**_TEXT, "font_color": _BLUE, "border": 1, "border_color": _RULE}
-_HEADING: dict[str, Any] = {**_TEXT, "bold": True, "bg_color": _HEAD, "bottom": 1}
-
-STYLES: dict[str, dict[str, Any]] = {
-    "body": _TEXT,
-    "title": {**_TEXT, "bold": True, "font_size": 14},
-    "headline": {**_TEXT, "bold": True, "font_size": 11},
-    "note": {**_TEXT, "font_color": _GRAY, "italic": True},
-    "head": _HEADING,
-    "head right": {**_HEADING, **_RIGHT},
-    "head unit": {**_HEADING, **_INDENT},
-    "block": {**_TEXT, "bold": True},
-    "text": {**_TEXT, **_INDENT},
-    "unit": {**_TEXT, **_INDENT, "font_color": _GRAY},
-    "unit right": {**_TEXT, **_RIGHT, "font_color": _GRAY, "bottom": 1, "bottom_color": _RULE},
-    "number": {**_TEXT, **_RIGHT},
-    "result": {**_TEXT, **_RIGHT, "bold": True},
-    "message": {**_TEXT, "align": "left", "bold": True},
-    "state": {**_TEXT, **_INDENT, "bold": True},
-    "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
-    "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
-    "printed": {**_TEXT, **_RIGHT, "font_color": _GRAY},
-    "recorded": {**_TEXT, **_RIGHT, "font_color": _GRAY},
-    "link": {**_TEXT, "font_color": "#1F4E9E", "underline": 1},
-    # Styles of a rule change what a cell already has, so they name nothing else.
-    "ruled": {"bottom": 1, "bottom_color": _RULE},
-    "warning": {"font_color": _RED, "bold": True},
-    "changed": {"font_color": "#8A4B00", "bold": True},
-    "good": {"font_color": "#1B6E3C", "bold": True},
-}
-STYLES |= {
-    f"{name} sample": {**STYLES[name], "align": "center"}
-    for name in ("input", "inferred", "number", "printed")
-}
-"""Style name -> properties. "printed" is for what the report prints, "recorded" for other numbers
-that do not follow a change of the inputs; a "sample" looks like its style but holds no value."""
-
-DASHES = (
-    {"color": "#1F4E9E", "dash": "solid", "marker": "circle"},
-    {"color": "#C55A11", "dash": "dash", "marker": "square"},
-)
-"""How the curves of a chart differ, so that they can be told apart without color, too."""
 
 # Values and the file
 
@@ -166,8 +116,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
-        shared = {"num_format": number_format, "valign": "vcenter", "text_wrap": wrap}
-        return book.add_format({**STYLES[name], **shared})
+        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
+        return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
@@ -180,7 +130,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
         for rule in sheet.rules:
             # A format for a rule has the properties that it changes, and no font or number format.
-            look = book.add_format(STYLES[rule.style])
+            look = book.add_format(tables()["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         for address, cell in sheet.cells.items():
@@ -293,7 +243,7 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for (name, x, y), look in zip(chart.series, DASHES, strict=False):
+    for (name, x, y), look in zip(chart.series, tables()["curves"], strict=False):
         settings = {
             "name": f"={_absolute(*name)}",
             "categories": f"={_absolute(sheet, x)}",

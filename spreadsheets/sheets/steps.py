@@ -20,6 +20,7 @@ from spreadsheets.plan import (
     log1p,
     printed,
     recorded,
+    tables,
     text,
     unit_text,
 )
@@ -117,33 +118,14 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-_HEADS = ("Row", "Time", "dx/dt initial", "x", "d²x/dt²", "dx/dt final", "x", "dx/dt middle")
-_COLUMNS = {
-    "A": ("index", "1", "General", ""),
-    "B": ("time", "s", "0.00E+00", ""),
-    "C": ("velocity_initial", "m/s", "0.000", "velocity"),
-    "D": ("depth", "m", "0.0000E+00", "depth"),
-    "E": ("deceleration", "m/s^2", "0.0000E+00", "deceleration"),
-    "F": ("velocity_final", "m/s", "0.000", "velocity"),
-    "G": ("depth_um", "um", "0.0000", "depth_um"),
-    "H": ("velocity_middle", "m/s", "0.000", "velocity"),
-}
-"""Column -> the end of its keys, its unit, its number format, and the cells of like size; the last
-is that of the centered scheme."""
-
 _WIDTHS = {"I": 8.0, "J": 33.0, "K": 13.0, "L": 7.0, "M": 24.0, "N": 26.0}
 
 
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
     columns = "ABCDEFGH" if case.scheme == "centered" else "ABCDEFG"
-    widths = {
-        "A": 5.0,
-        **dict.fromkeys("BCDEF", 11.0),
-        "G": 8.0,
-        "H": 3.0 if "H" not in columns else 13.0,
-    }
-    page = SheetPlan(name=case.name, widths=widths | _WIDTHS)
+    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, **_WIDTHS}
+    page = SheetPlan(name=case.name, widths={**widths, "H": 13.0 if "H" in columns else 3.0})
     _head(page, case, columns)
     page.row = FIRST_ROW - 2
     page.lines(ledger, case.part, _results(case), "IJKLMN")
@@ -184,8 +166,9 @@ def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
         page.cells["I1"] = formula(f"{case.part}.label", label, "title")
         page.cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
     page.row = FIRST_ROW - 2
-    units = [written(_COLUMNS[column][1]) or None for column in columns]
-    page.heads(columns, _HEADS[: len(columns)], columns, units)
+    rows = [tables()["rows"][column] for column in columns]
+    units = [written(row["unit"]) or None for row in rows]
+    page.heads(columns, [row["head"] for row in rows], columns, units)
 
 
 def step_formulas(
@@ -241,13 +224,13 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
     formulas["G"] = where_running(row, f"D{row}*1000000")
     cells = {}
     for column, expression in formulas.items():
-        what, unit, shown, like = _COLUMNS[column]
+        shown = tables()["rows"][column]
         cells[f"{column}{row}"] = formula(
-            f"{case.part}.row[{step}].{what}",
+            f"{case.part}.row[{step}].{shown['key']}",
             expression,
-            number_format=shown if step or column == "C" else "General",
-            unit=unit,
-            column=like and f"{case.part}.{like}",
+            number_format=shown["shown"] if step or column == "C" else "General",
+            unit=shown["unit"],
+            column=shown["column"] and f"{case.part}.{shown['column']}",
         )
     return cells
 
@@ -314,23 +297,6 @@ TABLE_ROWS = 5
 """Rows of the table, row 0 (the impact itself) included."""
 
 _FIRST = 8
-_ABOVE = (
-    ("R =", "radius", "R_p"),
-    ("Density =", "particle_density", "rho_p"),
-    ("M =", "mass", "M_p"),
-    ("D =", "diameter", "D_p"),
-    ("Initial vel =", "velocity", "V_impact"),
-    ("Rt =", "resistance", "R_t"),
-)
-_TABLE_COLUMNS = {
-    "A": ("Time", "time"),
-    "B": ("", ""),
-    "C": ("dx/dt initial", "velocity_initial"),
-    "D": ("x", "depth"),
-    "E": ("d²x/dt²", "deceleration"),
-    "F": ("dx/dt final", "velocity_final"),
-    "G": ("dx/dt middle", "velocity_middle"),
-}
 
 
 def _claims(ledger: Ledger) -> dict[str, Claim]:
@@ -356,11 +322,12 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         unit = "m/s" if claim is None else claim.unit
         cells[address] = formula(f"table.{what}", expression, number_format=shown, unit=unit)
 
-    for row, (label, what, symbol) in enumerate(_ABOVE, start=1):
+    above, heads = tables()["table_a1"]["above"], tables()["table_a1"]["columns"]
+    for row, (label, (what, symbol)) in enumerate(above.items(), start=1):
         cells[f"A{row}"] = text(label)
         live(f"B{row}", what, f"={resistance if symbol == 'R_t' else symbol}")
     for column in columns:
-        head, _ = _TABLE_COLUMNS[column]
+        head = heads[column]["head"]
         cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
     for step in range(TABLE_ROWS):
         row = _FIRST + step
@@ -373,7 +340,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
             ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
             formulas = {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
         for column, expression in formulas.items():
-            live(f"{column}{row}", f"row[{step}].{_TABLE_COLUMNS[column][1]}", expression)
+            live(f"{column}{row}", f"row[{step}].{heads[column]['key']}", expression)
     if report:
         cells |= _as_printed(ledger, claims)
     page.row = 14
@@ -390,9 +357,10 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     """The table as the report prints it, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
-    cells = {f"H{row}": text(label, "unit") for row, (label, _, _) in enumerate(_ABOVE, start=1)}
+    table = tables()["table_a1"]
+    cells = {f"H{row}": text(label, "unit") for row, label in enumerate(table["above"], start=1)}
     for column, there in shifted.items():
-        if head := _TABLE_COLUMNS[column][0]:
+        if head := table["columns"][column]["head"]:
             cells[f"{there}{_FIRST - 1}"] = text(head, "unit right")
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)

@@ -16,8 +16,7 @@ from reference.units import written
 from replication.audit.audit import audit
 from replication.cases import BETA_5
 from replication.workbook import Workbook, build
-from spreadsheets.emit import DASHES
-from spreadsheets.plan import Cell, SheetPlan, place_of
+from spreadsheets.plan import Cell, SheetPlan, place_of, tables
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.inputs import INPUTS
 from spreadsheets.sheets.steps import MAX_ROWS, prepared_rows
@@ -273,7 +272,8 @@ def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
 
 
 def test_charts_are_told_in_words_and_by_more_than_color() -> None:
-    assert len({look["dash"] for look in DASHES}) == len({look["marker"] for look in DASHES}) == 2
+    looks = tables()["curves"]
+    assert len({look["dash"] for look in looks}) == len({look["marker"] for look in looks}) == 2
     for name, words in (
         ("Figure 3", "β = 3 reaches 10.03 µm after 35.6 ns, β = 5 reaches 7.67 µm after 26.2 ns"),
         ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
