@@ -1,4 +1,4 @@
-"""The sheets of the workbook and their order; the sheets `Overview` and `Audit`.
+"""The sheets of the workbook and their order; `Overview`, `Audit` and those of closed formulas.
 
 `Overview`, the first, has the results, whether they can be trusted, what the audit found, and the
 sheets. `Audit` has every claim of the ledger, with a live verdict where a cell computes it.
@@ -15,10 +15,13 @@ from spreadsheets.plan import (
     HOME,
     NOT_COMPUTED,
     Cell,
+    Line,
     Rule,
     SheetPlan,
     WorkbookPlan,
     formula,
+    lines_of,
+    log1p,
     place_of,
     printed,
     recorded,
@@ -26,7 +29,7 @@ from spreadsheets.plan import (
     text,
     unit_text,
 )
-from spreadsheets.sheets import figures, inputs, models, steps
+from spreadsheets.sheets import figures, inputs, steps
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
 PROGRAM = f"coldspray {version('coldspray')}"
@@ -74,9 +77,9 @@ def workbook_plan(
         figures.figure_3(cases),
         figures.figure_5(last),
         figures.convergence(cases),
-        models.frank_zook(ledger),
-        models.crater(ledger),
-        models.resistance(ledger, cases),
+        _frank_zook(ledger),
+        _crater(ledger),
+        _resistance(ledger, cases),
     ]
     if findings is not None:
         sheets.append(_audit(ledger, findings))
@@ -207,6 +210,51 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
         "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "
         "as the report does with the inputs in use."
     )
+
+
+# The report's closed formulas
+
+
+def _formulas(
+    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
+) -> SheetPlan:
+    """One table under notes; its keys begin with the sheet's name."""
+    columns = zip("ABCDEF", tables()["columns"]["lines"], strict=True)
+    page = SheetPlan(name=name, widths={letter: width for letter, (_, width) in columns})
+    page.title(heading)
+    page.say(*said)
+    page.row += 1
+    page.repeated_rows, page.frozen = (page.row, page.row), f"A{page.row + 1}"
+    page.lines(ledger, name.lower().replace("-", "_"), lines)
+    return page
+
+
+def _crater(ledger: Ledger) -> SheetPlan:
+    """Section 2's geometry of a sphere pressed into a flat surface, and Eq. 1."""
+    said = (
+        "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. "
+        "Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3."
+    )
+    lines = lines_of("crater", {"third": str(ledger.value("observed-third"))})
+    return _formulas(ledger, "Crater", "Crater and particle", [said], lines)
+
+
+def _resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
+    """Beta by three routes, grain strengths, centerline stress, strain rate."""
+    words = [{"slug": c.slug, "sheet": c.name, "R_t": c.named("R_t")} for c in cases]
+    return _formulas(ledger, "Resistance", "Target resistance", [], lines_of("resistance", *words))
+
+
+def _frank_zook(ledger: Ledger) -> SheetPlan:
+    """Eq. 16 as it is printed, and as it follows from Eqs. 14 and 15."""
+    said = (
+        "Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the depth in "
+        "diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the derived "
+        "one is twice the printed one."
+    )
+    logarithms = {f"log_{which}": log1p(f"{{{which}_pressure}}") for which in ("rha", "lower")}
+    heading = "Frank-Zook depth of a noneroding penetrator"
+    return _formulas(ledger, "Frank-Zook", heading, [said], lines_of("frank_zook", logarithms))
 
 
 # Audit

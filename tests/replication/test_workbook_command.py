@@ -68,14 +68,10 @@ def test_json_without_verifying_has_the_warnings(run: Run) -> None:
 # Verification
 
 
-def deeper(added: float) -> Fake:
-    """An engine that adds to the depths, column D of the sheet."""
-
-    def told(sheet: str, address: str, value: Any) -> Any:
-        depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
-        return value + added if depth else value
-
-    return Fake(told)
+def deeper(sheet: str, address: str, value: Any) -> Any:
+    """What an engine says that adds to the depths, column D of the sheet."""
+    depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
+    return value + 1e-12 if depth else value
 
 
 @pytest.fixture
@@ -102,33 +98,26 @@ def test_report_verifies_in_every_engine(run: Run, tmp_path: Path) -> None:
         assert result["outcome"] == "missing" or result["cells"] > 10_000
 
 
-def test_a_line_for_each_engine(check: Run) -> None:
-    status, out, err = check([Fake(), Fake(reason="It is not installed: install it.")])
+def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(check: Run) -> None:
+    right, absent, echo = Fake(), Fake(reason="Absent: install it."), Fake(told=lambda *_: 41.0)
+    status, out, err = check([right, absent])
     assert (status, err) == (0, "")
     assert out.startswith("Written: workbook.xlsx\n\nengine ")
-    assert re.search(r"^fake 1\.0 +verified +\d\.\d\d +\d{4} +\d+ +0$", out, re.MULTILINE)
-    assert "\nfake: It is not installed: install it.\n" in out
+    assert re.search(r"^fake 1\.0 +verified +\d\.\d\d +\d{4} +\d+ +0$", out, re.M)
+    assert "\nfake: Absent: install it.\n" in out
     assert out.endswith("1 of 1 engines on this machine give the values of the workbook\n")
-
-
-def test_differences_are_shown_and_status_1(check: Run) -> None:
-    status, out, _ = check([deeper(1e-12), Fake()])
+    status, out, _ = check([Fake(deeper), echo, right])
     assert status == 1
-    assert re.search(r"^fake 1\.0 +differs ", out, re.MULTILINE)
+    assert re.search(r"^fake 1\.0 +differs ", out, re.M)
     assert re.search(r"^fake: Sheet beta 5!D\d+: expected \S+, found \S+$", out, re.M)
-    assert re.search(r"^fake: and \d+ more$", out, re.MULTILINE)
-    assert "1 of 2 engines on this machine" in out
-    (result,) = json.loads(check([deeper(1e-12)], "--json")[1])["engines"]
-    assert len(result["wrong"]) > 20
-    assert set(result["wrong"][0]) == {"sheet", "cell", "expected", "found"}
-
-
-def test_an_echo_is_status_1_and_quiet_leaves_the_status(check: Run) -> None:
-    status, out, _ = check([Fake(told=lambda *_: 41.0)])
-    assert status == 1
+    assert re.search(r"^fake: and \d+ more$", out, re.M)
     assert "fake: It verifies nothing" in out
-    assert check([Fake()], "--quiet") == (0, "", "")
-    assert check([deeper(1.0)], "--quiet") == (1, "", "")
+    assert "1 of 3 engines on this machine" in out
+    status, out, _ = check([Fake(deeper)], "--json")
+    (result,) = json.loads(out)["engines"]
+    assert (status, len(result["wrong"]) > 20) == (1, True)
+    assert set(result["wrong"][0]) == {"sheet", "cell", "expected", "found"}
+    assert check([echo], "--quiet") == (1, "", "")
 
 
 def test_without_any_engine_nothing_is_written(check: Run, tmp_path: Path) -> None:
