@@ -28,12 +28,12 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
 
 
 def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
-    """A file with each of its parts changed; a part that becomes empty is left out."""
+    """A file with its parts changed, packed as they were; one that becomes empty is left out."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
-        for name in before.namelist():
-            if part := change(name, before.read(name)):
-                after.writestr(name, part)
+        for info in before.infolist():
+            if part := change(info.filename, before.read(info)):
+                after.writestr(info, part)
     return buffer.getvalue()
 
 

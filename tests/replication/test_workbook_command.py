@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from workbooks import Fake, stored
+from workbooks import Fake, rewritten, stored
 
 from replication import workbook
 from spreadsheets.engines import Engine
@@ -34,7 +34,18 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     first = path.read_bytes()
     assert run("--step", "2 ns")[0] == 0  # its own, though of another case
     assert path.read_bytes() != first
-    for content in (path.read_bytes() + b"\0", b"notes"):
+    whole = path.read_bytes()
+    assert rewritten(whole, lambda _, part: part) == whole  # packed alike: the seal must tell
+    for content in (
+        rewritten(whole, lambda _, part: part.replace(b"<v>2.0</v>", b"<v>2.1</v>")),
+        rewritten(whole, lambda _, part: part.replace(b'width="5.7', b'width="6.7')),
+        rewritten(whole, lambda _, part: part.replace(b"coldspray-sha256", b"coldspray-sha257")),
+        whole + b"\0",
+        whole[: len(whole) // 2],
+        b"notes",
+        b"",
+    ):
+        assert content != whole
         path.write_bytes(content)
         for more in ((), ("--verify",)):
             status, out, err = run(*OWN, *more)

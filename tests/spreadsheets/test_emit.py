@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from openpyxl import load_workbook
-from workbooks import rewritten, stored
+from workbooks import stored
 
 from spreadsheets import emit
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
@@ -66,36 +66,6 @@ def test_missing_and_surplus_values_are_refused() -> None:
 def test_a_name_that_spreadsheets_refuse_is_an_error() -> None:
     with pytest.raises(ValueError, match="'v0' cannot name a cell"):
         emit.to_bytes(plan_of(A1=Cell(key="k", name="v0")), {"k": 1.0})
-
-
-# Files of others
-
-
-def changed(content: bytes, old: bytes, new: bytes) -> bytes:
-    return rewritten(content, lambda _, part: part.replace(old, new))
-
-
-OURS = emit.to_bytes(plan_of(A1=Cell(key="k")), {"k": 1.5})
-FOREIGN = {
-    "a number typed": changed(OURS, b"<v>1.5</v>", b"<v>1.6</v>"),
-    "a column widened": changed(OURS, b'width="10.7', b'width="12.7'),
-    "a seal of its own": changed(OURS, b"coldspray-sha256", b"coldspray-sha257"),
-    "a text": b"notes",
-    "nothing": b"",
-    "half of it": OURS[: len(OURS) // 2],
-}
-
-
-@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
-def test_a_file_that_is_not_as_we_wrote_it_stays(content: bytes, tmp_path: Path) -> None:
-    path = tmp_path / "w.xlsx"
-    path.write_bytes(content)
-    assert content != OURS
-    with pytest.raises(FileExistsError, match="not as coldspray wrote it; rename it"):
-        emit.check(path)
-    emit.check(path, force=True)
-    path.write_bytes(OURS)
-    emit.check(path)
 
 
 # The whole workbook's file
