@@ -434,6 +434,12 @@ def test_what_a_killed_run_left_goes_and_nothing_else(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} == {"a", *of_others}
 
 
+def test_a_folder_that_cannot_be_filled_is_as_it_was(tmp_path: Path) -> None:
+    with pytest.raises(TypeError):
+        write_folder(tmp_path / "out", {"c/d": b"new", "e": None})
+    assert state(tmp_path) == {}
+
+
 def test_of_two_runs_to_one_folder_the_one_that_lost_its_drafts_says_so(tmp_path: Path) -> None:
     class Slow(dict[str, bytes]):
         def items(self) -> Any:
