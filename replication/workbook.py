@@ -92,12 +92,17 @@ def build(
     check_scheme(scheme)
     ledger = ledger or load()
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-    sheets = {slug: run(_held(impact), scheme) for slug, impact in impacts.items()}
-    count = steps.prepared_rows(max(sheet.steps for sheet in sheets.values()), rows)
-    runs = [(_page(slug, impacts[slug], sheet, count), sheet) for slug, sheet in sheets.items()]
-    pages = [page for page, _ in runs]
+    pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
     typed = _typed_inputs(inputs.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
+    # The cases with the numbers that their cells hold; they share all but the beta.
+    held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
+    sheets = [run(replace(impact, **held), scheme) for impact in impacts.values()]
+    count = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
+    runs = [
+        (replace(page, steps=sheet.steps, rows=count), sheet)
+        for page, sheet in zip(pages, sheets, strict=True)
+    ]
     coarse = []
     if case is None:
         for page, sheet in runs:
@@ -109,7 +114,8 @@ def build(
         from replication.audit.audit import audit
 
         findings = findings_of(record or audit(), scheme, ledger)
-    plan = workbook_plan(ledger, pages, [page for page, _ in coarse], findings)
+    pages, coarse_pages = ([page for page, _ in each] for each in (runs, coarse))
+    plan = workbook_plan(ledger, pages, coarse_pages, findings)
     values = dict(_keyed(_values(ledger, runs, coarse, typed, si)))
     if findings is not None:
         values |= live_verdicts(ledger, plan, values, findings)
@@ -186,16 +192,6 @@ def _typed(si: float, unit: str) -> float:
     return next((typed for typed in around if _si(typed, unit) == si), nearest)
 
 
-def _held(impact: Impact) -> Impact:
-    """The case with the numbers that the cells of its inputs can hold."""
-    numbers = {}
-    for entry in inputs.INPUTS.values():
-        number = getattr(impact, entry.attribute) if entry.attribute else None
-        if number is not None:
-            numbers[entry.attribute] = _si(_typed(number, entry.unit), entry.unit)
-    return replace(impact, **numbers)
-
-
 def _typed_inputs(
     blocks: Mapping[str, Sequence[Input]], cases: Mapping[str, Impact], ledger: Ledger
 ) -> dict[Input, float]:
@@ -203,7 +199,7 @@ def _typed_inputs(
     typed = {}
     for entry in (entry for block in blocks.values() for entry in block):
         if entry.attribute:
-            # They share all but the beta, whose name tells the case.
+            # The name of a beta tells the case.
             case = cases.get(entry.name.rpartition("_")[2]) or next(iter(cases.values()))
             number = _typed(getattr(case, entry.attribute), entry.unit)
         else:
@@ -217,17 +213,15 @@ def _typed_inputs(
     return typed
 
 
-def _page(slug: str, impact: Impact, sheet: Sheet, rows: int) -> CaseSheet:
-    """What the plan must know of a case's sheet."""
+def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
+    """What the plan must know of a case's sheet, but for its length."""
     beta = impact.beta
     return CaseSheet(
         name="Sheet" if beta is None else f"Sheet beta {beta:.4g}",
         slug=slug,
         # As spreadsheet programs join a number to a text.
         label="R_t as given" if beta is None else f"β = {round(beta, 6):.15g}",
-        steps=sheet.steps,
-        rows=rows,
-        scheme=sheet.scheme,
+        scheme=scheme,
         beta="3" if beta == BETA_3.beta else "5",
         is_reports=impact in (BETA_3, BETA_5),
         resistance_given=beta is None,

@@ -56,12 +56,12 @@ class CaseSheet:
     name: str
     slug: str
     label: str
-    steps: int
-    rows: int
     scheme: str
     beta: str
     is_reports: bool
     resistance_given: bool
+    steps: int = 0
+    rows: int = 0
     coarse: bool = False
 
     def claim(self, what: str) -> str:
