@@ -7,7 +7,7 @@ the formula that must give it meet in one cell. The plan's `where` tells which c
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise, starmap
 from typing import TYPE_CHECKING, Any
@@ -21,12 +21,23 @@ from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, frank_zook, resistance, stream
 from replication.models.impact import Impact, particle_mass
-from replication.models.sheet import SCHEMES, Row, Sheet, deceleration, run
+from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
 from spreadsheets.plan import NOT_COMPUTED, Value, WorkbookPlan, place_of
-from spreadsheets.sheets import audit, figures, inputs, steps, table_a1, workbook_plan
-from spreadsheets.sheets.audit import Findings
+from spreadsheets.sheets import (
+    AS_PRINTED,
+    KINDS,
+    OTHERWISE,
+    Findings,
+    computed_claims,
+    figures,
+    inputs,
+    steps,
+    workbook_plan,
+)
+from spreadsheets.sheets.inputs import Input
+from spreadsheets.sheets.steps import CaseSheet
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
@@ -78,16 +89,41 @@ def build(
     >>> place[0], f"{book.values['case.depth_um']:.2f}"
     ('Sheet beta 5', '7.67')
     """
-    if scheme not in SCHEMES:
-        raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
-    builder = _Builder(case, scheme, rows, ledger or load())
-    if case is not None:
-        return builder.workbook(None)
-    if record is None:
+    check_scheme(scheme)
+    ledger = ledger or load()
+    impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
+    pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
+    typed = _typed_inputs(inputs.inputs_of(pages, report=case is None), impacts, ledger)
+    si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
+    # The cases with the numbers that their cells hold; they share all but the beta.
+    held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
+    sheets = [run(replace(impact, **held), scheme) for impact in impacts.values()]
+    count = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
+    runs = [
+        (replace(page, steps=sheet.steps, rows=count), sheet)
+        for page, sheet in zip(pages, sheets, strict=True)
+    ]
+    coarse = []
+    if case is None:
+        for page, sheet in runs:
+            run_of = run(replace(sheet.impact, step=si[inputs.COARSE]), scheme)
+            name = f"{page.name} coarse"
+            coarse.append((replace(page, name=name, coarse=True, steps=run_of.steps), run_of))
+    findings = None
+    if case is None:
         from replication.audit.audit import audit
 
-        record = audit()
-    return builder.workbook(findings_of(record, scheme, builder.ledger))
+        findings = findings_of(record or audit(), scheme, ledger)
+    pages, coarse_pages = ([page for page, _ in each] for each in (runs, coarse))
+    plan = workbook_plan(ledger, pages, coarse_pages, findings)
+    values = dict(_keyed(_values(ledger, runs, coarse, typed, si)))
+    if findings is not None:
+        values |= live_verdicts(ledger, plan, values, findings)
+    warnings = [
+        f"{page.name}: {doubt}" for page, sheet in runs for doubt in doubts_about(sheet).values()
+    ]
+    rounding = max(rounding_bound(sheet) for _, sheet in (*runs, *coarse))
+    return Workbook(plan, values, warnings, rounding)
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -156,292 +192,243 @@ def _typed(si: float, unit: str) -> float:
     return next((typed for typed in around if _si(typed, unit) == si), nearest)
 
 
-_CASE_INPUTS = {
-    "V_impact": "velocity",
-    "R_p": "radius",
-    "rho_p": "particle_density",
-    "rho_t": "target_density",
-    "dt_s": "step",
-    "v_stop": "stop_velocity",
-    "Y_t": "flow_stress",
-    "R_t": "resistance",
-}
-"""Inputs that come from the cases -> the attributes of an Impact."""
+def _typed_inputs(
+    blocks: Mapping[str, Sequence[Input]], cases: Mapping[str, Impact], ledger: Ledger
+) -> dict[Input, float]:
+    """The number to type into each input's cell. Raises ValueError outside of its limits."""
+    typed = {}
+    for entry in (entry for block in blocks.values() for entry in block):
+        if entry.attribute:
+            # The name of a beta tells the case.
+            case = cases.get(entry.name.rpartition("_")[2]) or next(iter(cases.values()))
+            number = _typed(getattr(case, entry.attribute), entry.unit)
+        else:
+            number = entry.of_report(ledger)
+        least, most = entry.limits
+        if not least <= number <= most:
+            what = entry.meaning or ledger.title(entry.source)
+            span = with_unit(f"{least:,.10g} to {most:,.10g}", entry.unit)
+            raise ValueError(f"the workbook takes {span} for the {what}, not {number!r}")
+        typed[entry] = number
+    return typed
 
-_TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resistance")
+
+def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
+    """What the plan must know of a case's sheet, but for its length."""
+    beta = impact.beta
+    return CaseSheet(
+        name="Sheet" if beta is None else f"Sheet beta {beta:.4g}",
+        slug=slug,
+        # As spreadsheet programs join a number to a text.
+        label="R_t as given" if beta is None else f"β = {round(beta, 6):.15g}",
+        scheme=scheme,
+        beta="3" if beta == BETA_3.beta else "5",
+        is_reports=impact in (BETA_3, BETA_5),
+        resistance_given=beta is None,
+    )
+
+
+# The values, sheet by sheet, as trees: a branch is a part of a key, a list a number in brackets
+
+Tree = dict[str, Any]
+Runs = Sequence[tuple[CaseSheet, Sheet]]
+"""The sheet of each case in the plan, and its rows."""
+
+
+def _values(
+    ledger: Ledger, runs: Runs, coarse: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
+) -> Tree:
+    """Every value but the live verdicts; `si`: the inputs by name, in SI."""
+    changed = {entry.name for entry, n in typed.items() if n != entry.of_report(ledger)}
+    first, last = runs[0][1].impact, runs[-1][1].impact
+    pages = {page.part: _sheet(page, sheet, si) for page, sheet in (*runs, *coarse)}
+    for page, _ in coarse:
+        values, fine = pages[page.part], pages[page.slug]["depth_um"]
+        over = values["depth_um"] / fine if fine else NOT_COMPUTED
+        values |= {"fine_depth_um": fine, "over_fine": over}
+    results = ("depth_um", "normalized_depth", "message")
+    table, columns = pages[runs[-1][0].part], (*Row._fields, "velocity_middle")
+    rows = [{k: row[k] for k in columns if k in row} for row in table["row"][: steps.TABLE_ROWS]]
+    return {
+        "inputs": _inputs(runs, typed, si, changed),
+        "overview": {
+            "inputs_changed": len(changed),
+            "inputs_unusable": 0,
+            **{page.part: {x: pages[page.part][x] for x in results} for page, _ in runs},
+        },
+        "table": {name: table[name] for name in _ABOVE_TABLE} | {"row": rows},
+        "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
+        "figure_5": _figure_5(last, si),
+        "convergence": _convergence(runs, si),
+        "frank_zook": _frank_zook(last, si),
+        "crater": _crater(first, si, float(ledger.value("observed-third"))),
+        "resistance": _resistance(runs, si),
+        **pages,
+    }
+
+
+_ABOVE_TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resistance")
 """What Table A-1 prints above its rows."""
 
 
-class _Builder:
-    """Computes one workbook. `runs` and `coarse`: a case's page in the plan, and its sheet."""
+def _inputs(
+    runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float], changed: set[str]
+) -> Tree:
+    first = runs[0][1].impact
+    values: Tree = {
+        "from": "yours",
+        "unusable": 0,
+        "changed": len(changed),
+        "message": inputs.MESSAGES["changed" if changed else "same"],
+        "D_p": first.diameter,
+        "M_p": first.mass,
+        "half_step": first.step / 2 * 1e9,
+        "mean_radius": si["D_mean"] / 2 * 1e6,
+        "travel_most": COARSE,
+        "excess_most": DEEP,
+    }
+    for entry, number in typed.items():
+        name = entry.name
+        own = "as inferred" if name == "rho_t" else "the report’s"
+        check = "yours" if name in changed else own
+        values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
+    for page, sheet in runs:
+        values[page.named("R_t")] = sheet.impact.target_resistance
+    return values
 
-    def __init__(self, case: Impact | None, scheme: str, rows: int | None, ledger: Ledger) -> None:
-        self.scheme, self.ledger = scheme, ledger
-        self.cases = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-        pages = [self._page(slug, impact) for slug, impact in self.cases.items()]
-        blocks = inputs.inputs_of(pages, report=case is None)
-        entries = {entry.name: entry for block in blocks.values() for entry in block}
-        self.typed = {name: self._to_type(entry) for name, entry in entries.items()}
-        self.changed = {n for n, e in entries.items() if self.typed[n] != e.of_report(ledger)}
-        self.si = {name: _si(self.typed[name], entry.unit) for name, entry in entries.items()}
-        # The cases with the numbers that their cells hold.
-        in_cells = {of: self.si[name] for name, of in _CASE_INPUTS.items() if name in self.si}
-        sheets = [run(replace(impact, **in_cells), scheme) for impact in self.cases.values()]
-        self.first, self.last = sheets[0].impact, sheets[-1].impact
-        self.rows = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
-        self.runs = list(zip(pages, sheets, strict=True))
-        self.coarse = [
-            (
-                replace(page, coarse=True, name=f"{page.name} coarse"),
-                run(replace(sheet.impact, step=self.si[inputs.COARSE]), scheme),
-            )
-            for page, sheet in self.runs
-            if case is None
-        ]
 
-    def _page(self, slug: str, impact: Impact) -> steps.CaseSheet:
-        """What the plan must know of a case's sheet, but for its length."""
-        beta = "3" if impact.beta == BETA_3.beta else "5"
-        own = {BETA_3: "3", BETA_5: "5"}.get(impact, "")
-        # As spreadsheet programs join a number to a text.
-        label = "R_t as given" if impact.beta is None else f"β = {round(impact.beta, 6):.15g}"
-        return steps.CaseSheet(
-            name="Sheet" if impact.beta is None else f"Sheet beta {impact.beta:.4g}",
-            slug=slug,
-            label=label,
-            steps=0,
-            rows=0,
-            scheme=self.scheme,
-            beta_claim=f"depth-beta-{beta}-beta",
-            depth_claim=own and f"depth-beta-{own}",
-            ratio_claim=own and f"ratio-beta-{own}",
-            resistance_given=impact.resistance is not None,
-        )
+def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
+    impact, final = sheet.impact, sheet.rows[-1]
+    trust, message = _state(sheet)
+    v, at_rest = impact.velocity, _at_rest(impact)
+    label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
+    return {
+        **impact.motion,
+        **_of(impact, "mass", "diameter", "step", "stop_velocity"),
+        **_of(sheet, "steps", "final_depth", "normalized_depth"),
+        **label,
+        "row": _rows(sheet, page.rows),
+        "message": message,
+        "trust": trust,
+        "stopped": 1,
+        "depth_um": sheet.final_depth * 1e6,
+        "stop_time": final.time,
+        "final_velocity": v if final.velocity_final is None else final.velocity_final,
+        "excess": sheet.normalized_depth / si["observed_ratio"],
+        **{name: at_rest[name] for name in ("pressure", "c")},
+        **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
+        "travel": impact.step * v / impact.radius,
+        "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
+    }
 
-    def _to_type(self, entry: inputs.Input) -> float:
-        """The number to type into an input's cell. Raises ValueError outside of its limits."""
-        name, limits = entry.name, entry.limits
-        if name in _CASE_INPUTS:
-            case = next(iter(self.cases.values()))
-            number = _typed(getattr(case, _CASE_INPUTS[name]), entry.unit)
-        elif name.startswith("beta"):
-            number = self.cases[name.partition("_")[2] or "case"].beta or 0.0
-        else:
-            number = entry.of_report(self.ledger)
-        if not limits.least <= number <= limits.most:
-            what = entry.meaning or self.ledger.title(entry.source)
-            most = with_unit(f"{limits.most:,.10g}", entry.unit)
-            raise ValueError(
-                f"the workbook takes {limits.least:,.10g} to {most} for the {what}, not {number!r}"
-            )
-        return number
 
-    def workbook(self, findings: Findings | None) -> Workbook:
-        """Plan and values."""
-        longer = [_flags(self.cases["case"])] if "case" in self.cases else []
-        longer += [f"--scheme {self.scheme}"] * (self.scheme != SCHEMES[0])
-        longer.append(f"--rows {min(10 * self.rows, steps.MAX_ROWS)}")
-        command = " ".join(["coldspray workbook", *longer]) if self.rows < steps.MAX_ROWS else ""
-        cases, coarse = (
-            [replace(p, steps=sheet.steps, rows=self.rows, longer=command) for p, sheet in runs]
-            for runs in (self.runs, self.coarse)
-        )
-        plan = workbook_plan(self.ledger, cases, coarse, findings)
-        values = dict(_keyed(self._values()))
-        if findings is not None:
-            values |= live_verdicts(self.ledger, plan, values, findings)
-        warnings = [
-            f"{page.name}: {doubt}"
-            for page, sheet in self.runs
-            for doubt in doubts_about(sheet).values()
-        ]
-        rounding = max(rounding_bound(sheet) for _, sheet in (*self.runs, *self.coarse))
-        return Workbook(plan, values, warnings, rounding)
+def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
+    """A curve of Figure 3 in ns and µm; after the stop it holds the last row."""
+    rows = [sheet.rows[min(k, sheet.steps)] for k in range(page.rows + 1)]
+    return {
+        "time": [row.time * 1e9 for row in rows],
+        "depth": [row.depth * 1e6 for row in rows],
+        "message": f"{page.label}: {_state(sheet)[1]}",
+    }
 
-    # The values, sheet by sheet, as trees: a branch is a part of a key, a list a number in brackets
 
-    def _values(self) -> dict[str, Any]:
-        sheets = {page.part: self._sheet(page, sheet) for page, sheet in self.runs}
-        coarse = {page.part: self._sheet(page, sheet) for page, sheet in self.coarse}
-        for values, beside in zip(coarse.values(), sheets.values(), strict=False):
-            fine = beside["depth_um"]
-            over = values["depth_um"] / fine if fine else NOT_COMPUTED
-            values |= {"fine_depth_um": fine, "over_fine": over}
-        results = {
-            part: {name: values[name] for name in ("depth_um", "normalized_depth", "message")}
-            for part, values in sheets.items()
+def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
+    low, high, last = si["V_from"], si["V_to"], figures.POINTS - 1
+    velocities = [low + (high - low) * point / last for point in range(figures.POINTS)]
+    points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
+    columns = {what: [point[what] for point in points] for what in points[0]}
+    return {"message": figures.COMPLETE, "velocity": velocities, **columns}
+
+
+def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
+    """The ladder of the cases as written, with inputs that are as yet those in use."""
+    of_runs = {name: si[name] for name in figures.RUN_INPUTS}
+    of_runs |= {page.named("R_t"): sheet.impact.target_resistance for page, sheet in runs}
+    time_steps = ladder(si["dt_s"], figures.LEVELS)
+    return {
+        "message": figures.CURRENT,
+        "step": time_steps,
+        "step_ns": [step * 1e9 for step in time_steps],
+        **{page.slug: _levels(sheet, time_steps) for page, sheet in runs},
+        "run": of_runs,
+        "in_use": of_runs,
+        "same": dict.fromkeys(of_runs, 1),
+    }
+
+
+def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
+    ratio, k_t = frank_zook.sphere_length_ratio(), si["k_t"]
+    v, target = impact.velocity, impact.target_density
+    values: Tree = {"length_ratio": ratio}
+    for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
+        r_t = si[name]
+        arguments = ratio, impact.particle_density, target, si["k_1"], k_t, r_t, v
+        values[which] = {
+            "resistance": r_t,
+            "pressure": k_t * target * v * v / r_t,
+            "as_printed": frank_zook.depth_as_printed(*arguments),
+            "derived": frank_zook.depth_derived(*arguments),
         }
-        last = list(sheets.values())[-1]
-        of_table = {*Row._fields, "velocity_middle"}
-        rows = [{k: v for k, v in row.items() if k in of_table} for row in last["row"]]
-        return {
-            "inputs": self._inputs(),
-            "overview": {"inputs_changed": len(self.changed), "inputs_unusable": 0, **results},
-            "table": {name: last[name] for name in _TABLE} | {"row": rows[: table_a1.ROWS]},
-            "figure_3": {page.slug: self._curve(page, sheet) for page, sheet in self.runs},
-            "figure_5": self._figure_5(),
-            "convergence": self._convergence(),
-            "frank_zook": self._frank_zook(),
-            "crater": self._crater(),
-            "resistance": self._resistance(),
-            **sheets,
-            **coarse,
-        }
+    return values
 
-    def _inputs(self) -> dict[str, Any]:
-        values: dict[str, Any] = {
-            "from": "yours",
-            "unusable": 0,
-            "changed": len(self.changed),
-            "message": inputs.MESSAGES["changed" if self.changed else "same"],
-            "D_p": self.first.diameter,
-            "M_p": self.first.mass,
-            "half_step": self.first.step / 2 * 1e9,
-            "mean_radius": self.si["D_mean"] / 2 * 1e6,
-            "travel_most": COARSE,
-            "excess_most": DEEP,
-        }
-        for name, typed in self.typed.items():
-            own = "as inferred" if name == "rho_t" else "the report’s"
-            check = "yours" if name in self.changed else own
-            values |= {name: self.si[name], f"{name}.typed": typed, f"{name}.check": check}
-        return values | {
-            page.named("R_t"): sheet.impact.target_resistance
-            for page, sheet in self.runs
-            if not page.resistance_given
-        }
 
-    def _sheet(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
-        impact, final = sheet.impact, sheet.rows[-1]
-        trust, message = _state(sheet)
-        v, at_rest = impact.velocity, _at_rest(impact)
-        label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
-        return {
-            **impact.motion,
-            **_of(impact, "mass", "diameter", "step", "stop_velocity"),
-            **_of(sheet, "steps", "final_depth", "normalized_depth"),
-            **label,
-            "row": _rows(sheet, self.rows),
-            "message": message,
-            "trust": trust,
-            "stopped": 1,
-            "depth_um": sheet.final_depth * 1e6,
-            "stop_time": final.time,
-            "final_velocity": v if final.velocity_final is None else final.velocity_final,
-            "excess": sheet.normalized_depth / self.si["observed_ratio"],
-            **{name: at_rest[name] for name in ("pressure", "c")},
-            **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
-            "travel": impact.step * v / impact.radius,
-            "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
+def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
+    volume = _cubed(crater.volume(impact.radius))
+    contact = crater.contact_diameter(third, impact.diameter)
+    values: Tree = {
+        **volume,
+        "on_line": si["CV_PV_line"] * volume["volume_um3"],
+        "third": third,
+        "contact_diameter": contact,
+        "contact_diameter_um": contact * 1e6,
+    }
+    for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
+        y = crater.depth_from_volume_ratio(si[name])
+        x = y * impact.radius
+        values[which] = {
+            "normalized_depth": y,
+            "over_diameter": y / 2,
+            "depth": x,
+            "depth_um": x * 1e6,
+            **_cubed(crater.cap_volume(x, impact.radius)),
+            "ratio": crater.volume_ratio(y),
         }
+    sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
+    for which, size in sizes.items():
+        mass = particle_mass(size / 2, impact.particle_density)
+        velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
+        values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
+    return values
 
-    def _curve(self, page: steps.CaseSheet, sheet: Sheet) -> dict[str, Any]:
-        """A curve of Figure 3 in ns and µm; after the stop it holds the last row."""
-        rows = [sheet.rows[min(k, sheet.steps)] for k in range(self.rows + 1)]
-        return {
-            "time": [row.time * 1e9 for row in rows],
-            "depth": [row.depth * 1e6 for row in rows],
-            "message": f"{page.label}: {_state(sheet)[1]}",
+
+def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
+    alpha = resistance.walker_anderson_alpha(si["E_t"], si["Y_steel"])
+    betas = {
+        "goodier_beta": resistance.goodier_beta(si["q_Y"]),
+        "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
+        "brinell_beta": si["HB_ratio"],
+    }
+    grains = {name: si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
+    mean = (grains["feathery"] + grains["clear"]) / 2
+    values: Tree = betas | {
+        "alpha": alpha,
+        "least_beta": min(betas.values()),
+        "greatest_beta": max(betas.values()),
+        **grains,
+        "mean_grain": mean,
+        "clear_over_bulk": grains["clear"] / grains["bulk"],
+        "grain_over_bulk": mean / grains["bulk"],
+        "strain_rate": stream.strain_rate(si["V_impact"], si["L_typ"]),
+    }
+    for page, sheet in runs:
+        impact, r_t = sheet.impact, sheet.impact.target_resistance
+        stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
+        values[page.slug] = {
+            "target_resistance": r_t,
+            "centerline_stress": stress,
+            "over_copper": stress / si["Y_copper"],
         }
-
-    def _figure_5(self) -> dict[str, Any]:
-        low, high = self.si["V_from"], self.si["V_to"]
-        velocities = [
-            low + (high - low) * point / (figures.POINTS - 1) for point in range(figures.POINTS)
-        ]
-        points = [_at_rest(replace(self.last, velocity=velocity)) for velocity in velocities]
-        columns = {what: [point[what] for point in points] for what in points[0]}
-        return {"message": figures.COMPLETE, "velocity": velocities, **columns}
-
-    def _convergence(self) -> dict[str, Any]:
-        """The ladder of the cases as written, with inputs that are as yet those in use."""
-        of_runs = {name: self.si[name] for name in figures.RUN_INPUTS}
-        for page, sheet in self.runs:
-            of_runs[page.named("R_t")] = sheet.impact.target_resistance
-        time_steps = ladder(self.first.step, figures.LEVELS)
-        return {
-            "message": figures.CURRENT,
-            "step": time_steps,
-            "step_ns": [step * 1e9 for step in time_steps],
-            **{page.slug: _levels(sheet, time_steps) for page, sheet in self.runs},
-            "run": of_runs,
-            "in_use": of_runs,
-            "same": dict.fromkeys(of_runs, 1),
-        }
-
-    def _frank_zook(self) -> dict[str, Any]:
-        impact, ratio, k_t = self.last, frank_zook.sphere_length_ratio(), self.si["k_t"]
-        v, target = impact.velocity, impact.target_density
-        values: dict[str, Any] = {"length_ratio": ratio}
-        for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
-            r_t = self.si[name]
-            arguments = ratio, impact.particle_density, target, self.si["k_1"], k_t, r_t, v
-            values[which] = {
-                "resistance": r_t,
-                "pressure": k_t * target * v * v / r_t,
-                "as_printed": frank_zook.depth_as_printed(*arguments),
-                "derived": frank_zook.depth_derived(*arguments),
-            }
-        return values
-
-    def _crater(self) -> dict[str, Any]:
-        impact, third = self.first, float(self.ledger.value("observed-third"))
-        volume = crater.volume(impact.radius)
-        contact = crater.contact_diameter(third, impact.diameter)
-        values: dict[str, Any] = {
-            **_cubed(volume),
-            "on_line": self.si["CV_PV_line"] * _cubed(volume)["volume_um3"],
-            "third": third,
-            "contact_diameter": contact,
-            "contact_diameter_um": contact * 1e6,
-        }
-        for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
-            y = crater.depth_from_volume_ratio(self.si[name])
-            x = y * impact.radius
-            values[which] = {
-                "normalized_depth": y,
-                "over_diameter": y / 2,
-                "depth": x,
-                "depth_um": x * 1e6,
-                **_cubed(crater.cap_volume(x, impact.radius)),
-                "ratio": crater.volume_ratio(y),
-            }
-        sizes = self.si["d_min"], impact.diameter, self.si["d_max"]
-        for which, size in zip(("smallest", "average", "largest"), sizes, strict=True):
-            mass = particle_mass(size / 2, impact.particle_density)
-            velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
-            values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
-        return values
-
-    def _resistance(self) -> dict[str, Any]:
-        alpha = resistance.walker_anderson_alpha(self.si["E_t"], self.si["Y_steel"])
-        betas = {
-            "goodier_beta": resistance.goodier_beta(self.si["q_Y"]),
-            "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
-            "brinell_beta": self.si["HB_ratio"],
-        }
-        grains = {name: self.si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
-        mean = (grains["feathery"] + grains["clear"]) / 2
-        values: dict[str, Any] = betas | {
-            "alpha": alpha,
-            "least_beta": min(betas.values()),
-            "greatest_beta": max(betas.values()),
-            **grains,
-            "mean_grain": mean,
-            "clear_over_bulk": grains["clear"] / grains["bulk"],
-            "grain_over_bulk": mean / grains["bulk"],
-            "strain_rate": stream.strain_rate(self.first.velocity, self.si["L_typ"]),
-        }
-        for page, sheet in self.runs:
-            impact = sheet.impact
-            r_t = impact.target_resistance
-            stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
-            values[page.slug] = {
-                "target_resistance": r_t,
-                "centerline_stress": stress,
-                "over_copper": stress / self.si["Y_copper"],
-            }
-        return values
+    return values
 
 
 def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
@@ -468,32 +455,22 @@ def live_verdicts(
     Whether a live verdict is the proven one, a test asks.
     """
     live: dict[str, Value] = {}
-    for claim in audit.computed_claims(ledger):
-        value = values[plan.cell(place_of(str(claim.workbook))).key]
+    keys = {place: cell.key for place, cell in plan.cells()}
+    for claim in computed_claims(ledger):
+        value = values[keys[place_of(str(claim.workbook))]]
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
-    for text, what in audit.KINDS:
+    for text, what in KINDS:
         live[f"audit.{what}"] = live[f"overview.audit_{what}"] = float(verdicts.count(text))
     for name in (*findings.failing, *findings.differing):
         if ledger.claims[name].workbook:
             live[f"overview.{name}"] = live[f"audit.{name}.computed"]
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
-            value = values[plan.cell(("Table A-1", claim.place.cell)).key]
+            value = values[keys["Table A-1", claim.place.cell]]
             live |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
     return live
-
-
-def _flags(impact: Impact) -> str:
-    """The options of `coldspray workbook` for a case."""
-    name, base = ("beta-3", BETA_3) if impact.beta == BETA_3.beta else ("beta-5", BETA_5)
-    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
-    return f"--case {name}" + "".join(
-        f" --{key.replace('_', '-')} {value!r}"
-        for key, value in given.items()
-        if value is not None and value != getattr(base, key)
-    )
 
 
 def _of(thing: object, *names: str) -> dict[str, Any]:
@@ -566,16 +543,15 @@ def _verdict(value: Value, interval: Interval) -> str:
     """Whether a double lies between the interval's ends, themselves taken as doubles."""
     if not isinstance(value, float):
         return NOT_COMPUTED
-    ends = interval.lower, interval.upper
     if interval.is_point:
         # Exact text, such as 2/3, which no double is: to nine digits.
         (exact, _) = interval.ends
         inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
     else:
+        ends = interval.lower, interval.upper
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
-        rounded = Interval(low, high, interval.lower_closed, interval.upper_closed)
-        inside = rounded.contains(Fraction(value))
-    return audit.AS_PRINTED if inside else audit.OTHERWISE
+        inside = replace(interval, lower=low, upper=high).contains(Fraction(value))
+    return AS_PRINTED if inside else OTHERWISE
 
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
@@ -584,8 +560,8 @@ def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> di
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
-            difference = round(difference / float(printed.quantum), table_a1.DIGITS)
+            difference = round(difference / float(printed.quantum), steps.DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
-        verdict = table_a1.SAME_TEXT if same else table_a1.OTHER_TEXT
+        verdict = steps.SAME_TEXT if same else steps.OTHER_TEXT
         checked |= {"difference": difference, "verdict": verdict}
     return {f"table_check.{address}.{what}": number for what, number in checked.items()}

@@ -13,64 +13,13 @@ from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
-from textwrap import wrap
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
-from spreadsheets.safely import check_target, write_bytes
-
-# How each named style looks: one font, light fills, thin lines (properties as XlsxWriter's)
-
-_INK, _GRAY, _BLUE, _RED = "#000000", "#5A5A5A", "#0000FF", "#B00020"
-_YELLOW, _ORANGE, _HEAD, _RULE = "#FFF9DB", "#FFE3C2", "#E8EDF3", "#D0D7DE"
+from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan, tables
+from spreadsheets.safely import check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
-_TEXT: dict[str, Any] = {**_ARIAL, "font_color": _INK}
-_RIGHT: dict[str, Any] = {"align": "right"}
-_INDENT: dict[str, Any] = {"align": "left", "indent": 1}
-_INPUT: dict[str, Any] = {**_TEXT, "font_color": _BLUE, "border": 1, "border_color": _RULE}
-_HEADING: dict[str, Any] = {**_TEXT, "bold": True, "bg_color": _HEAD, "bottom": 1}
-
-STYLES: dict[str, dict[str, Any]] = {
-    "body": _TEXT,
-    "title": {**_TEXT, "bold": True, "font_size": 14},
-    "headline": {**_TEXT, "bold": True, "font_size": 11},
-    "note": {**_TEXT, "font_color": _GRAY, "italic": True},
-    "head": _HEADING,
-    "head right": {**_HEADING, **_RIGHT},
-    "head unit": {**_HEADING, **_INDENT},
-    "block": {**_TEXT, "bold": True},
-    "text": {**_TEXT, **_INDENT},
-    "unit": {**_TEXT, **_INDENT, "font_color": _GRAY},
-    "unit right": {**_TEXT, **_RIGHT, "font_color": _GRAY, "bottom": 1, "bottom_color": _RULE},
-    "number": {**_TEXT, **_RIGHT},
-    "result": {**_TEXT, **_RIGHT, "bold": True},
-    "message": {**_TEXT, "align": "left", "bold": True},
-    "state": {**_TEXT, **_INDENT, "bold": True},
-    "input": {**_INPUT, **_RIGHT, "bg_color": _YELLOW},
-    "inferred": {**_INPUT, **_RIGHT, "bg_color": _ORANGE},
-    "printed": {**_TEXT, **_RIGHT, "font_color": _GRAY},
-    "recorded": {**_TEXT, **_RIGHT, "font_color": _GRAY},
-    "link": {**_TEXT, "font_color": "#1F4E9E", "underline": 1},
-    # Styles of a rule change what a cell already has, so they name nothing else.
-    "ruled": {"bottom": 1, "bottom_color": _RULE},
-    "warning": {"font_color": _RED, "bold": True},
-    "changed": {"font_color": "#8A4B00", "bold": True},
-    "good": {"font_color": "#1B6E3C", "bold": True},
-}
-STYLES |= {
-    f"{name} sample": {**STYLES[name], "align": "center"}
-    for name in ("input", "inferred", "number", "printed")
-}
-"""Style name -> properties. "printed" is for what the report prints, "recorded" for other numbers
-that do not follow a change of the inputs; a "sample" looks like its style but holds no value."""
-
-DASHES = (
-    {"color": "#1F4E9E", "dash": "solid", "marker": "circle"},
-    {"color": "#C55A11", "dash": "dash", "marker": "square"},
-)
-"""How the curves of a chart differ, so that they can be told apart without color, too."""
 
 # Values and the file
 
@@ -109,13 +58,17 @@ def check(path: Path, *, force: bool = False) -> None:
         raise FileExistsError(EEXIST, problem, str(path))
 
 
-def write(path: Path, content: bytes, *, force: bool = False) -> None:
-    """Write a workbook's bytes to `path`, whole or not at all. Raises as `check` does."""
-    check(path, force=force)
-    write_bytes(path, content)
-
-
 _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
+
+_CORRECTIONS = (
+    # XlsxWriter claims to be Excel, and gives dates, of which none is true.
+    ("docProps/app.xml", rb">Microsoft Excel<", rb">coldspray<"),
+    ("docProps/app.xml", rb"<AppVersion>.*?</AppVersion>", rb""),
+    ("docProps/core.xml", rb"<dcterms:(created|modified).*?</dcterms:\1>", rb""),
+    # Where nothing is said, LibreOffice draws a smooth curve through the points.
+    ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
+)
+"""What is changed in the parts of the file: the start of a part's name, a pattern, and a text."""
 
 
 def is_own(path: Path) -> bool:
@@ -126,37 +79,9 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        parts = _unpacked(content)
-        return _sealed(parts) == content
+        return _sealed(_unpacked(content)) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
-
-
-def _sealed(parts: dict[str, bytes]) -> bytes:
-    """The file of these parts, with their digest in the place of whatever stands there."""
-    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
-    digest = sha256()
-    for name, content in parts.items():
-        digest.update(b"%s\0%d\0" % (name.encode(), len(content)))
-        digest.update(content)
-    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.hexdigest().encode())
-    return _packed(parts)
-
-
-def _finished(content: bytes) -> bytes:
-    """The file with its seal, without XlsxWriter's claim to be Excel, and without dates."""
-    parts = _unpacked(content)
-    app, core = parts["docProps/app.xml"].decode(), parts["docProps/core.xml"].decode()
-    app = app.replace(">Microsoft Excel<", ">coldspray<")
-    app = re.sub(r"<AppVersion>.*?</AppVersion>", "", app)
-    core = re.sub(r"<dcterms:(created|modified).*?</dcterms:\1>", "", core)
-    parts |= {"docProps/app.xml": app.encode(), "docProps/core.xml": core.encode()}
-    for name, part in parts.items():
-        if name.startswith("xl/charts/"):
-            # Where nothing is said, LibreOffice draws a smooth curve through the points.
-            straight = b'</c:yVal><c:smooth val="0"/>'
-            parts[name] = part.replace(b"</c:yVal>", straight)
-    return _sealed(parts)
 
 
 def _unpacked(content: bytes) -> dict[str, bytes]:
@@ -164,8 +89,11 @@ def _unpacked(content: bytes) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
-def _packed(parts: Mapping[str, bytes]) -> bytes:
-    """The archive of these parts, without the clock."""
+def _sealed(parts: dict[str, bytes]) -> bytes:
+    """The archive of these parts without the clock, their digest in place of the seal."""
+    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
+    digest = sha256(b"".join((*map(str.encode, parts), *parts.values()))).hexdigest()
+    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.encode())
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, part in parts.items():
@@ -188,21 +116,21 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
-        shared = {"num_format": number_format, "valign": "vcenter", "text_wrap": wrap}
-        return book.add_format({**STYLES[name], **shared})
+        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
+        return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
-    exact = _exact_worksheet()
+    worksheet = _worksheet()
     for sheet in plan.sheets:
-        page = book.add_worksheet(sheet.name, exact)
+        page = book.add_worksheet(sheet.name, worksheet)
         _set_up(page, sheet)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.number_format, cell.wrap)
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
         for rule in sheet.rules:
             # A format for a rule has the properties that it changes, and no font or number format.
-            look = book.add_format(STYLES[rule.style])
+            look = book.add_format(tables()["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         for address, cell in sheet.cells.items():
@@ -213,23 +141,19 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         if sheet.chart:
             _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
     book.close()
-    return _finished(buffer.getvalue())
-
-
-_LINE = 13.5
-"""Height of a line of text in points, with some room."""
+    parts = _unpacked(buffer.getvalue())
+    for start, pattern, words in _CORRECTIONS:
+        parts |= {n: re.sub(pattern, words, parts[n]) for n in parts if n.startswith(start)}
+    return _sealed(parts)
 
 
 def _set_up(page: Any, sheet: SheetPlan) -> None:
     """Scrolling, column widths, row heights and print set-up."""
     page.hide_gridlines(2)
-    page.set_default_row(_LINE + 2)
     if sheet.frozen:
         page.freeze_panes(sheet.frozen)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width)
-    for row, lines in _lines(sheet).items():
-        page.set_row(row - 1, _LINE * lines + 2)
     page.set_landscape()
     page.set_paper(1)  # US Letter
     page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
@@ -251,19 +175,6 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.ignore_errors(dict.fromkeys(kinds, everywhere))
 
 
-def _lines(sheet: SheetPlan) -> dict[int, int]:
-    """Row -> how many lines its longest wrapped text takes."""
-    lines: dict[int, int] = {}
-    for address, cell in sheet.cells.items():
-        if cell.wrap:
-            column = address.rstrip("0123456789")
-            row = int(address.removeprefix(column))
-            # Letters are narrower than the digits by which widths are counted.
-            taken = len(wrap(cell.text, max(int(1.15 * sheet.widths[column]), 1)))
-            lines[row] = max(taken, lines.get(row, 1))
-    return lines
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
     from xlsxwriter.utility import xl_cell_to_rowcol
 
@@ -277,7 +188,7 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         write = page.write_string if value else page.write_blank
         write(*place, value, style)
     else:
-        page.write_number(*place, value, style)
+        page.write_number(*place, _Exact(value), style)
     # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
         page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
@@ -298,21 +209,22 @@ def _absolute(sheet: str, cells: str) -> str:
     return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 
-def _exact_worksheet() -> type[Any]:
-    """A worksheet that stores numbers with all their digits, and "" as the text that it is.
+class _Exact(float):
+    """A number that XlsxWriter stores with all its digits; by itself, it writes 16 of them."""
 
-    XlsxWriter writes a plain number with 16 digits, which a quarter of all doubles do not survive,
-    and gives a formula whose value is "" no type, which makes the value a number without digits.
+    def __format__(self, _: str) -> str:
+        return float.__repr__(self)
+
+
+def _worksheet() -> type[Any]:
+    """A worksheet that stores a formula's value "" as the text that it is, not as a blank number.
+
     Formulas go the short way: to look in each for functions newer than Excel 2010, which ours do
     not have, and for marks in its cell's address takes half of the time.
     """
     from xlsxwriter.worksheet import CellFormulaTuple, Worksheet
 
-    class ExactWorksheet(Worksheet):  # type: ignore[misc]
-        def _xml_number_element(self, number: float, attributes: Any = ()) -> None:
-            places = "".join(f' {key}="{value}"' for key, value in attributes)
-            self.fh.write(f"<c{places}><v>{float(number)!r}</v></c>")
-
+    class Page(Worksheet):  # type: ignore[misc]
         def _write_formula(
             self, row: int, column: int, formula: str, style: Any, value: Any
         ) -> int:
@@ -327,7 +239,7 @@ def _exact_worksheet() -> type[Any]:
                 result = self._escape_data(result)
             self.fh.write(f"<c{places}><f>{self._escape_data(formula)}</f><v>{result}</v></c>")
 
-    return ExactWorksheet
+    return Page
 
 
 # Charts; XlsxWriter stores the charted values with them.
@@ -339,14 +251,14 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
     """Draw one chart on the page of `sheet`, which holds its cells."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for series, look in zip(chart.series, DASHES, strict=False):
+    for (name, x, y), look in zip(chart.series, tables()["curves"], strict=False):
         settings = {
-            "name": f"={_absolute(*series.name)}",
-            "categories": f"={_absolute(sheet, series.x)}",
-            "values": f"={_absolute(sheet, series.y)}",
+            "name": f"={_absolute(*name)}",
+            "categories": f"={_absolute(sheet, x)}",
+            "values": f"={_absolute(sheet, y)}",
             "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
         }
-        first, last = map(int, re.findall(r"\d+", series.x))
+        first, last = map(int, re.findall(r"\d+", x))
         if chart.logarithmic or last - first < 50:
             # Few points: show where they are.
             fill = {"color": look["color"]}

@@ -1,4 +1,4 @@
-"""Real spreadsheet engines, all behind one small interface.
+"""Real spreadsheet engines, all behind one small interface, and what they make of a workbook.
 
     IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
@@ -15,18 +15,20 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, NamedTuple
 
-from spreadsheets.plan import Value
+from spreadsheets.plan import Place, Value, WorkbookPlan
 
 Recalculated = dict[str, dict[str, Value]]
 """Worksheet name -> address such as "B7" -> value.
@@ -70,12 +72,8 @@ class Engine(ABC):
         """The version of the program that would be used; not asked for when it is missing."""
 
     @abstractmethod
-    def _cells(self, path: Path) -> Iterator[Cell]:
-        """Recalculate a workbook and yield its cells, blank ones included or not."""
-
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        """The same for several, in one run of the program where that saves time."""
-        return map(self._cells, paths)
+        """Recalculate workbooks and yield the cells of each, blank ones included or not."""
 
     def recalculate(self, path: Path) -> Recalculated:
         """Compute every formula of an .xlsx file again; the file itself stays as it is."""
@@ -105,8 +103,10 @@ def address(row: int, column: int) -> str:
 # From pip
 
 
-class PipEngine(Engine):
-    """An engine that is a Python package of the same name."""
+class IronCalc(Engine):
+    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
+
+    name = "ironcalc"
 
     def missing(self) -> str | None:
         if find_spec(self.name) is not None:
@@ -116,31 +116,32 @@ class PipEngine(Engine):
     def version(self) -> str:
         return version(self.name)
 
-
-class IronCalc(PipEngine):
-    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
-
-    name = "ironcalc"
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        return map(self._cells, paths)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        model, sheets = _ironcalc(self.name, path)
+        model = self._load(path)
         model.evaluate()
+        for name, sheet, row, column in self._places(model):
+            yield name, address(row, column), model.get_cell_value(sheet, row, column)
+
+    def _load(self, path: Path) -> Any:
+        import ironcalc
+
+        try:
+            return ironcalc.load_from_xlsx(str(path))
+        except ironcalc.WorkbookError as error:
+            raise EngineError(self.name, f"cannot read {path}: {error}") from error
+
+    @staticmethod
+    def _places(model: Any) -> Iterator[tuple[str, int, int, int]]:
+        """Each cell's worksheet by name and by number, its row and its column."""
+        names = [sheet["name"] for sheet in model.get_worksheets_properties()]
         for sheet, row, column in model.get_all_cells():
-            yield sheets[sheet], address(row, column), model.get_cell_value(sheet, row, column)
+            yield names[sheet], sheet, row, column
 
 
-def _ironcalc(engine: str, path: Path) -> tuple[Any, list[str]]:
-    """A workbook in IronCalc, and the names of its worksheets."""
-    import ironcalc
-
-    try:
-        model = ironcalc.load_from_xlsx(str(path))
-    except ironcalc.WorkbookError as error:
-        raise EngineError(engine, f"cannot read {path}: {error}") from error
-    return model, [sheet["name"] for sheet in model.get_worksheets_properties()]
-
-
-class Formualizer(PipEngine):
+class Formualizer(IronCalc):
     """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
 
     name = "formualizer"
@@ -158,12 +159,11 @@ class Formualizer(PipEngine):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        model, sheets = _ironcalc(self.name, path)
-        for sheet, row, column in model.get_all_cells():
-            value = workbook.get_value(sheets[sheet], row, column)
+        for sheet, _, row, column in self._places(self._load(path)):
+            value = workbook.get_value(sheet, row, column)
             if isinstance(value, dict):  # an error
                 value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
-            yield sheets[sheet], address(row, column), value
+            yield sheet, address(row, column), value
 
 
 # From the system
@@ -191,7 +191,24 @@ def run_program(
 
 
 class SystemEngine(Engine):
-    """An engine that is a program of its own."""
+    """An engine that is a program of its own. `_telling`: how its --version tells the version."""
+
+    _telling: str
+
+    @abstractmethod
+    def _program(self) -> str:
+        """The program's path. Raises LookupError with a sentence on what to install."""
+
+    def missing(self) -> str | None:
+        try:
+            self._program()
+        except LookupError as reason:
+            return str(reason)
+        return None
+
+    def version(self) -> str:
+        match = re.search(self._telling, self._run([self._program(), "--version"]))
+        return "of no known version" if match is None else match[1]
 
     def _run(self, command: list[str], workbooks: int = 1) -> str:
         limit = TIME_LIMIT_S * workbooks
@@ -204,12 +221,6 @@ class SystemEngine(Engine):
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
 
-    def _version_of(self, program: str, pattern: str) -> str:
-        match = re.search(pattern, self._run([program, "--version"]))
-        if match is None:
-            raise EngineError(self.name, f"{Path(program).name} does not tell its version")
-        return match[1]
-
 
 class LibreOffice(SystemEngine):
     """LibreOffice through UNO, its programming interface: the only way to its exact doubles.
@@ -221,23 +232,19 @@ class LibreOffice(SystemEngine):
     """
 
     name = "libreoffice"
+    _telling = r"LibreOffice\S* (\S+)"
 
-    def missing(self) -> str | None:
-        try:
-            _uno_python(_soffice())
-        except LookupError as reason:
-            return str(reason)
-        return None
-
-    def version(self) -> str:
-        return self._version_of(_soffice(), r"LibreOffice\S* (\S+)")
-
-    def _cells(self, path: Path) -> Iterator[Cell]:
-        (cells,) = self._cells_of_each([path])
-        return cells
+    def _program(self) -> str:
+        soffice = shutil.which("soffice") or shutil.which("libreoffice")
+        if soffice is None:
+            raise LookupError(
+                "LibreOffice is not installed: install the system package libreoffice-calc."
+            )
+        _uno_python(soffice)
+        return soffice
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        soffice, script = _soffice(), str(Path(__file__).with_name("uno_script.py"))
+        soffice, script = self._program(), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
             # Copies, since LibreOffice puts a lock file beside what it opens.
             copies = [
@@ -253,15 +260,6 @@ class LibreOffice(SystemEngine):
             for row, values in enumerate(rows, start=1):
                 for column, value in enumerate(values, start=1):
                     yield sheet, address(row, column), value
-
-
-def _soffice() -> str:
-    soffice = shutil.which("soffice") or shutil.which("libreoffice")
-    if soffice is None:
-        raise LookupError(
-            "LibreOffice is not installed: install the system package libreoffice-calc."
-        )
-    return soffice
 
 
 @cache
@@ -286,14 +284,17 @@ class Gnumeric(SystemEngine):
 
     name = "gnumeric"
     long_doubles = True
+    _telling = r"version '(.+)'"
 
-    def missing(self) -> str | None:
-        if shutil.which("ssconvert") is not None:
-            return None
-        return "The command ssconvert is not installed: install the system package gnumeric."
+    def _program(self) -> str:
+        if (program := shutil.which("ssconvert")) is None:
+            raise LookupError(
+                "The command ssconvert is not installed: install the system package gnumeric."
+            )
+        return program
 
-    def version(self) -> str:
-        return self._version_of("ssconvert", r"version '(.+)'")
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        return map(self._cells, paths)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -304,7 +305,8 @@ class Gnumeric(SystemEngine):
             # Without --recalc stored values would come back; without the importer's name, it would
             # take any text file for a table.
             formats = (f"--{way}port-type=Gnumeric_Excel:xlsx" for way in ("im", "ex"))
-            self._run(["ssconvert", "--recalc", *formats, str(path.resolve()), str(converted)])
+            files = str(path.resolve()), str(converted)
+            self._run([self._program(), "--recalc", *formats, *files])
             with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
                 book = load_workbook(converted, data_only=True)
         for sheet in book.worksheets:
@@ -320,16 +322,150 @@ class Gnumeric(SystemEngine):
 ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeric())
 
 
-def repairs_wrong_value(engine: Engine, folder: Path) -> bool:
+def repairs_wrong_value(engine: Engine) -> bool:
     """Plant a wrong stored value beside a formula and tell whether the engine puts it right.
 
     One that gives stored values back verifies nothing.
     """
     import xlsxwriter
 
-    path = folder / f"planted-{engine.name}.xlsx"
-    with xlsxwriter.Workbook(path) as workbook:
-        sheet = workbook.add_worksheet("planted")
-        sheet.write_number("A1", 6)
-        sheet.write_formula("A2", "=A1*7", value=41)
-    return engine.recalculate(path).get("planted", {}).get("A2") == 42
+    with TemporaryDirectory(prefix="coldspray-") as folder:
+        path = Path(folder, "planted.xlsx")
+        with xlsxwriter.Workbook(path) as workbook:
+            sheet = workbook.add_worksheet("planted")
+            sheet.write_number("A1", 6)
+            sheet.write_formula("A2", "=A1*7", value=41)
+        return engine.recalculate(path).get("planted", {}).get("A2") == 42
+
+
+# What they make of a workbook whose values are known
+
+Values = Mapping[str, Mapping[str, Value]]
+"""Sheet -> address -> value; a blank cell is absent or holds the empty text."""
+
+OF_FUNCTIONS = 32 * 2.0**-52
+"""How far a transcendental cell may lie from its value, relative to it.
+
+LN, SIN, ASIN and a cube root are within one ulp in any C library, and flip the last digit of each
+operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twelve products, with
+condition numbers of at most 2, so less than 32 ulp."""
+
+
+class Difference(NamedTuple):
+    """One cell that differs. None stands for a blank."""
+
+    sheet: str
+    cell: str
+    expected: Value | None
+    found: Value | None
+
+    @property
+    def distance(self) -> float:
+        """How far the two lie apart; infinite where they are not both numbers, but not the same."""
+        # LibreOffice hands out TRUE as 1.0, which Python takes as equal.
+        if self.expected == self.found:
+            return 0.0
+        if isinstance(self.expected, float) and isinstance(self.found, float):
+            return abs(self.expected - self.found)
+        return math.inf
+
+
+def compare(
+    expected: Values, found: Values, tolerances: Mapping[Place, float] | None = None
+) -> list[Difference]:
+    """The cells of either map whose values are not the same, in the order of `expected`.
+
+    Numbers must be the same double, except where `tolerances` allows a cell (sheet, address) a
+    distance. A sheet that only one map has differs in each of its cells.
+    """
+    allowed, differences = tolerances or {}, []
+    for sheet in dict.fromkeys([*expected, *found]):
+        wanted, got = expected.get(sheet, {}), found.get(sheet, {})
+        for cell in dict.fromkeys([*wanted, *got]):
+            # Engines cannot tell a blank cell from a formula that gives the empty text.
+            pair = (None if (v := values.get(cell)) == "" else v for values in (wanted, got))
+            left = Difference(sheet, cell, *pair)
+            if left.distance > allowed.get((sheet, cell), 0.0):
+                differences.append(left)
+    return differences
+
+
+def tolerances(
+    plan: WorkbookPlan, expected: Values, long_doubles: float = 0.0
+) -> dict[Place, float]:
+    """How far the value of a formula may lie from the expected one, where it may at all.
+
+    long_doubles: for an engine of 80-bit long doubles, the bound on the rounding errors of our
+    doubles, relative to the largest number of a cell's column, or to the cell's own where it stands
+    alone.
+    """
+    sizes: dict[str, float] = {}
+    numbers = [
+        (place, cell, abs(value))
+        for place, cell in plan.cells()
+        if cell.formula and isinstance(value := expected[place[0]].get(place[1]), float)
+    ]
+    for _, cell, number in numbers:
+        sizes[cell.column] = max(sizes.get(cell.column, 0.0), number)
+    allowed = {
+        place: OF_FUNCTIONS * number * cell.transcendental
+        + long_doubles * (sizes[cell.column] if cell.column else number)
+        for place, cell, number in numbers
+    }
+    return {place: distance for place, distance in allowed.items() if distance}
+
+
+@dataclass(slots=True)
+class EngineCheck:
+    """What one engine makes of a file.
+
+    `outcome` is "verified"; "differs", if any cell is wrong; "missing"; "echoes", if it gives
+    stored values back and so verifies nothing; or "failed". `reason` says more of the last three.
+    seconds: of one recalculation, from the file to the values. cells: formulas compared. rounded:
+    cells that differ, but within their tolerance. wrong: those beyond, and those of another kind.
+    """
+
+    engine: str
+    version: str | None = None
+    outcome: str = "verified"
+    reason: str | None = None
+    seconds: float | None = None
+    cells: int = 0
+    rounded: int = 0
+    wrong: list[Difference] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether there is nothing to complain of; a missing engine is no complaint."""
+        return self.outcome in ("verified", "missing")
+
+
+def verify(
+    path: Path, plan: WorkbookPlan, expected: Values, engine: Engine, *, long_doubles: float
+) -> EngineCheck:
+    """Recalculate a file in an engine and compare every cell with the value it must have.
+
+    Numbers must be the same double, but for the `tolerances`.
+    """
+    check = EngineCheck(engine.name)
+    if (reason := engine.missing()) is not None:
+        check.outcome, check.reason = "missing", reason
+        return check
+    try:
+        check.version = engine.version()
+        if not repairs_wrong_value(engine):
+            check.outcome = "echoes"
+            check.reason = "It verifies nothing: it gives stored values back, right or wrong."
+            return check
+        start = time.perf_counter()
+        recalculated = engine.recalculate(path)
+        check.seconds = time.perf_counter() - start
+    except EngineError as error:
+        check.outcome, check.reason = "failed", str(error)
+        return check
+    allowed = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
+    check.wrong = compare(expected, recalculated, allowed)
+    check.rounded = len(compare(expected, recalculated)) - len(check.wrong)
+    check.cells = sum(bool(cell.formula) for _, cell in plan.cells())
+    check.outcome = "differs" if check.wrong else "verified"
+    return check

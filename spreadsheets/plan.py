@@ -6,12 +6,14 @@ supplies the values never sees the formulas, so that the two can be compared.
 """
 
 import re
-from collections import Counter
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
+from string import Template
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from reference.ledger import Ledger
 from reference.units import written
@@ -29,13 +31,6 @@ Place = tuple[str, str]
 """Sheet name and address: ("Crater", "C5")."""
 
 
-class Limits(NamedTuple):
-    """The least and the greatest number that may be typed into an input, in its unit."""
-
-    least: float
-    most: float
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """One cell.
@@ -48,7 +43,8 @@ class Cell:
     LN, SIN, ASIN or a cube root, whose last digits depend on the program; all other values are the
     same double everywhere. column: names a set of cells of like size, such as the velocities of a
     sheet; their rounding errors are as large as the largest of them allows. link: where a click on
-    the text leads. limits, choices: what may be typed. wrap: long text takes several lines.
+    the text leads. limits, choices: what may be typed, the least and the greatest number in its
+    unit, or one of these texts. wrap: long text takes several lines.
     """
 
     text: str = ""
@@ -63,15 +59,9 @@ class Cell:
     transcendental: bool = False
     column: str = ""
     link: Place | None = None
-    limits: Limits | None = None
+    limits: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
     wrap: bool = False
-
-    def __post_init__(self) -> None:
-        if sum((bool(self.text), self.number is not None, bool(self.key))) > 1:
-            raise ValueError(f"a cell holds a text, a number or a key, one of them: {self!r}")
-        if self.formula and not (self.key and self.formula.startswith("=")):
-            raise ValueError(f"a formula starts with '=' and has a key: {self!r}")
 
 
 def text(words: str, style: str = "body", **more: Any) -> Cell:
@@ -103,8 +93,7 @@ def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
     return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rule:
+class Rule(NamedTuple):
     """A style that a range of cells takes while a formula, written for its first cell, is true."""
 
     cells: str
@@ -112,21 +101,13 @@ class Rule:
     style: str
 
 
-class Series(NamedTuple):
-    """One curve: the cell with its name, and the cells of its x and y, such as "A5:A25"."""
-
-    name: Place
-    x: str
-    y: str
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chart:
     """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
 
-    Axis titles name quantity and unit. With `logarithmic` both axes are. size: width and height in
-    pixels. description: says in words what the chart shows, with values by key as written:
-    "{high.depth_um:.4g}".
+    series: for each, the cell with its name and the cells of its x and y, such as "A5:A25". With
+    `logarithmic` both axes are. description: says in words what the chart shows, with values by key
+    as written: "{high.depth_um:.4g}".
     """
 
     at: str
@@ -134,16 +115,13 @@ class Chart:
     description: str
     x_title: str
     y_title: str
-    series: tuple[Series, ...]
+    series: list[tuple[Place, str, str]]
     logarithmic: bool = False
-    size: tuple[int, int] = (820, 470)
+    size: Sequence[int] = (820, 470)
 
     def described(self, values: Mapping[str, Value]) -> str:
         """The description with its values."""
         return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
-
-
-LINE_HEADS = ("Symbol", "Quantity", "Value", "Unit", "The report prints", "Equation or place")
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,9 +134,9 @@ class Line:
     """
 
     key: str
-    symbol: str
-    meaning: str
     formula: str
+    symbol: str = ""
+    meaning: str = ""
     unit: str = "1"
     source: str = ""
     claim: str = ""
@@ -171,6 +149,31 @@ class Line:
     def id(self) -> str:
         """What formulas call it: "rha.derived" is {rha_derived}."""
         return self.key.replace(".", "_")
+
+
+@cache
+def tables() -> dict[str, Any]:
+    """The tables of `sheets.toml`."""
+    return tomllib.loads(Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8"))
+
+
+def lines_of(table: str, *cases: Mapping[str, str]) -> list[Line | str]:
+    """The lines of a table of `sheets.toml`, after the head of each block.
+
+    cases: what the words that begin with "$" stand for, in each case. A line whose key has none of
+    them stands once.
+    """
+    lines: list[Line | str] = []
+    for head, block in tables()[table].items():
+        filled: dict[str, Line] = {}
+        for case in cases or ({},):
+            words = {"none": NOT_COMPUTED, **case}
+            for entry in ({"key": key, **fields} for key, fields in block.items()):
+                guard = entry.pop("guard", True)
+                texts = {name: Template(x).substitute(words) for name, x in entry.items()}
+                filled.setdefault(texts["key"], Line(**texts, guard=guard))
+        lines += [head, *filled.values()]
+    return lines
 
 
 @dataclass(slots=True, kw_only=True)
@@ -194,9 +197,9 @@ class SheetPlan:
     page_break: int | None = None
     filtered: str = ""
 
-    def put(self, **cells: Cell | None) -> None:
-        """One row, by column."""
-        self.cells |= {f"{column}{self.row}": cell for column, cell in cells.items() if cell}
+    def put(self, **cells: Cell | Literal[""] | None) -> None:
+        """One row, by column; where there is no cell, nothing."""
+        self.cells |= {f"{at}{self.row}": cell for at, cell in cells.items() if cell}
         self.row += 1
 
     def say(self, *texts: str, style: str = "note", width: int = 165) -> None:
@@ -221,21 +224,28 @@ class SheetPlan:
             under = (None if unit is None else text(unit, "unit right") for unit in units)
             self.put(**dict(zip(columns, under, strict=True)))
 
-    def table(self, columns: Sequence[tuple[str, float]], right: str, frozen: str = "A") -> None:
+    def table(self, name: str, right: str, frozen: str) -> None:
         """Heads with their columns' widths: they stay in sight and head every printed page.
 
-        frozen: the first column that scrolls.
+        name: among the `columns` of `sheets.toml`. frozen: the first column that scrolls.
         """
+        columns = tables()["columns"][name]
         letters = "ABCDEFGHIJKLM"[: len(columns)]
         self.widths = {letter: width for letter, (_, width) in zip(letters, columns, strict=True)}
         self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
         self.heads(letters, [words for words, _ in columns], right)
 
+    def draw(self, series: list[tuple[Place, str, str]], written: str) -> None:
+        """The sheet's chart of `sheets.toml`; `written` is the "$written" of its description."""
+        settings = tables()["charts"][self.name]
+        description = Template(settings["description"]).substitute(written=written)
+        self.chart = Chart(**{**settings, "description": description}, series=series)
+
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""
         first = cells.partition(":")[0]
         for words, style in styles.items():
-            self.rules.append(Rule(cells=cells, formula=f'=${first}="{words}"', style=style))
+            self.rules.append(Rule(cells, f'=${first}="{words}"', style))
 
     def lines(
         self, ledger: Ledger, part: str, lines: Sequence[Line | str], columns: str = "ABCDEF"
@@ -245,7 +255,8 @@ class SheetPlan:
         part: what its keys begin with. columns: of symbol, meaning, value, unit, printed text,
         source. A line is transcendental that calls such a function or such a line above it.
         """
-        self.heads(columns, LINE_HEADS, columns[2] + columns[4])
+        heads = [words for words, _ in tables()["columns"]["lines"]]
+        self.heads(columns, heads, columns[2] + columns[4])
         addresses: dict[str, str] = {}
         transcendental: set[str] = set()
         for number, line in enumerate(lines):
@@ -259,39 +270,29 @@ class SheetPlan:
             expression = line.formula.format_map(addresses)
             addresses[line.id] = f"{columns[2]}{self.row}"
             value = formula(
-                f"{part}.{line.key}",
-                guarded(expression) if line.guard else expression,
-                number_format=line.shown,
-                name=line.name,
-                unit=line.unit,
-                column=line.column,
+                f"{part}.{line.key}", guarded(expression) if line.guard else expression,
+                number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
                 transcendental=line.id in transcendental,
-            )
+            )  # fmt: skip
             source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
             cells = (
-                text(line.symbol, "text") if line.symbol else None,
-                text(line.meaning) if line.meaning else None,
+                line.symbol and text(line.symbol, "text"),
+                line.meaning and text(line.meaning),
                 value,
                 unit_text(line.unit),
-                printed(ledger, line.claim, line.unit) if line.claim else None,
-                text(source, "unit") if source else None,
+                line.claim and printed(ledger, line.claim, line.unit),
+                source and text(source, "unit"),
             )
             self.put(**dict(zip(columns, cells, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorkbookPlan:
-    """The sheets in order. Raises ValueError for a key or a defined name that stands twice."""
+    """The sheets in order. No key stands twice, nor does a defined name, in whatever case."""
 
     sheets: tuple[SheetPlan, ...]
     title: str
     properties: Mapping[str, str] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        cells = [cell for _, cell in self.cells()]
-        _require_unique("key", [cell.key for cell in cells if cell.key])
-        # Excel takes names that differ only in case as the same.
-        _require_unique("name", [cell.name.casefold() for cell in cells if cell.name])
 
     def cells(self) -> Iterator[tuple[Place, Cell]]:
         """Every cell with its place, sheet by sheet."""
@@ -304,11 +305,6 @@ class WorkbookPlan:
         """Key -> the place of the cell that holds it."""
         return {cell.key: place for place, cell in self.cells() if cell.key}
 
-    def cell(self, place: Place) -> Cell:
-        """The cell at a place. Raises KeyError where there is none."""
-        sheet, address = place
-        return next(each for each in self.sheets if each.name == sheet).cells[address]
-
 
 def place_of(text: str) -> Place:
     """A place that is written as in a formula, without quotes.
@@ -318,12 +314,6 @@ def place_of(text: str) -> Place:
     """
     sheet, _, address = text.rpartition("!")
     return sheet, address
-
-
-def _require_unique(what: str, items: list[str]) -> None:
-    twice = sorted(item for item, count in Counter(items).items() if count > 1)
-    if twice:
-        raise ValueError(f"{what} used twice in the workbook: {', '.join(twice)}")
 
 
 # Formulas

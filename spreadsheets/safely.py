@@ -2,10 +2,9 @@
 
 import os
 import re
-import shutil
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
-from errno import EBUSY, EINVAL, EISDIR, ENOENT, ENOTDIR
+from contextlib import ExitStack, contextmanager, suppress
+from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
 from pathlib import Path
 
 
@@ -41,22 +40,18 @@ def draft_of(path: Path) -> Iterator[Path]:
                 left.unlink(missing_ok=True)
         yield draft
         try:
-            _to_disk(draft)
+            with draft.open("r+b") as written:
+                os.fsync(written.fileno())  # a crash must not leave a name without its content
             draft.replace(target)
         except FileNotFoundError as error:
             raise OSError(EBUSY, "another run is writing this file") from error
     except OSError as error:
-        if error.errno is None:
+        # A full disk is told without a name; of several drafts, the one that fails gives its own.
+        if error.errno is None or error.filename not in (None, str(draft)):
             raise
         raise type(error)(error.errno, error.strerror, str(path)) from error
     finally:
         draft.unlink(missing_ok=True)
-
-
-def _to_disk(file: Path) -> None:
-    """A crash must not leave a name without what is in the file."""
-    with file.open("r+b") as written:
-        os.fsync(written.fileno())
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -71,65 +66,32 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
     The names may lead into folders below; none of the folders need be there yet.
     """
     for path in (folder / name for name in names):
-        there = _existing(path.parent)
+        # The nearest folder that is there; a link is there, wherever it leads.
+        there = next(p for p in path.parents if os.path.lexists(p))
         if not there.is_dir():
             raise NotADirectoryError(ENOTDIR, "is no folder; give a folder", str(there))
-        if path.parent.is_dir():
+        if not os.access(there, os.W_OK):
+            raise PermissionError(EACCES, "cannot be written to", str(there))
+        if there == path.parent:
             check_target(path)
-    with _beside(folder):
-        pass
-
-
-def _existing(folder: Path) -> Path:
-    """The folder, or the nearest above it that is there; a link is there, wherever it leads."""
-    for path in (folder, *folder.absolute().parents):
-        with suppress(FileNotFoundError, NotADirectoryError):
-            path.lstat()
-            return path
-    raise FileNotFoundError(ENOENT, "is not there", str(folder))
-
-
-@contextmanager
-def _beside(folder: Path) -> Iterator[Path]:
-    """A folder for drafts, on the same disk. Raises OSError, naming what cannot be written to.
-
-    As with `draft_of`, one that an earlier run left goes first, wherever that run began it.
-    """
-    there = _existing(folder)
-    name = folder.resolve().name
-    try:
-        for place in {there, _existing(folder.resolve().parent)}:
-            for left in place.glob(".*.part"):
-                if re.fullmatch(rf"\.{re.escape(name)}\.\d+\.part", left.name) and left.is_dir():
-                    shutil.rmtree(left, ignore_errors=True)
-        drafts = there / f".{name}.{os.getpid()}.part"
-        drafts.mkdir()
-    except OSError as error:
-        problem = f"cannot be written to: {error.strerror}"
-        raise type(error)(error.errno, problem, str(there)) from error
-    try:
-        yield drafts
-    except FileNotFoundError as error:
-        raise OSError(EBUSY, "another run is writing to this folder", str(folder)) from error
-    except OSError as error:
-        error.filename = error.filename or str(folder)  # a full disk is told without a name
-        raise
-    finally:
-        shutil.rmtree(drafts, ignore_errors=True)
 
 
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Write files by name into a folder, made if needed.
+    """Write files by name into a folder, made if needed. Raises OSError.
 
-    They are made beside the folder first and moved in when all are done. Raises OSError.
+    They take their names when all are drafted.
     """
     check_folder(folder, files)
-    with _beside(folder) as temporary:
+    with ExitStack() as drafts:
         for name, content in files.items():
-            draft = temporary / name
-            draft.parent.mkdir(parents=True, exist_ok=True)
-            draft.write_bytes(content)
-            _to_disk(draft)
-        for name in files:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (temporary / name).replace(folder / name)
+            path = folder / name
+            for parent in reversed(path.parents):
+                if not parent.exists():
+                    parent.mkdir()
+                    drafts.callback(_remove_if_empty, parent)
+            drafts.enter_context(draft_of(path)).write_bytes(content)
+
+
+def _remove_if_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()

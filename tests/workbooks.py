@@ -3,7 +3,7 @@
 import io
 import os
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,12 +28,12 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
 
 
 def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
-    """A file with each of its parts changed; a part that becomes empty is left out."""
+    """A file with its parts changed, packed as they were; one that becomes empty is left out."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
-        for name in before.namelist():
-            if part := change(name, before.read(name)):
-                after.writestr(name, part)
+        for info in before.infolist():
+            if part := change(info.filename, before.read(info)):
+                after.writestr(info, part)
     return buffer.getvalue()
 
 
@@ -73,6 +73,9 @@ class Fake(Engine):
 
     def version(self) -> str:
         return "1.0"
+
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+        return map(self._cells, paths)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         if self.failure and not path.name.startswith("planted"):

@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ from replication.reading import name_of
 from replication.text import aligned
 
 if TYPE_CHECKING:
-    from spreadsheets.verify import EngineCheck
+    from spreadsheets.engines import EngineCheck
 
 HELP = "write the live workbook"
 
@@ -36,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     """Write, and verify if asked to."""
     from replication import workbook
     from spreadsheets import emit, engines
-    from spreadsheets.verify import verify
+    from spreadsheets.safely import write_bytes
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
@@ -46,14 +47,12 @@ def run(options: argparse.Namespace) -> int:
     book = workbook.build(case, options.scheme, options.rows)
     if options.verify and all(engine.missing() for engine in engines.ENGINES):
         raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
-    emit.write(options.output, book.to_bytes(), force=options.force)
-    said, checks = [f"Written: {name_of(options.output)}"], []
-    if options.verify:
-        compared = partial(
-            verify, options.output, book.plan, book.cells, long_doubles=book.rounding
-        )
-        checks = list(map(compared, engines.ENGINES))
-        said += ["", _text(checks, book.rounding)]
+    write_bytes(options.output, book.to_bytes())
+    checks = [
+        engines.verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
+        for engine in engines.ENGINES
+        if options.verify
+    ]
     passed = all(check.passed for check in checks)
     if options.json:
         shared.print_json(
@@ -61,64 +60,50 @@ def run(options: argparse.Namespace) -> int:
                 "file": str(options.output),
                 "passed": passed if options.verify else None,
                 "long_double_bound": book.rounding,
-                "engines": _engine_records(checks),
+                "engines": [_record(check) for check in checks],
                 "warnings": list(book.warnings),
             }
         )
     elif not options.quiet:
-        print(*said, sep="\n")
+        print(f"Written: {name_of(options.output)}")
+        if checks:
+            print("", *_text(checks, book.rounding), sep="\n")
         shared.warn(options, book.warnings)
     return 0 if passed else 1
 
 
 # What the engines make of the workbook
 
-
-def _engine_records(checks: "Sequence[EngineCheck]") -> list[dict[str, Any]]:
-    import msgspec
-
-    records: list[dict[str, Any]] = msgspec.to_builtins(checks)
-    for left in (d for of in records for sheet in of["sheets"] for d in sheet["unexplained"]):
-        del left["sheet"]  # it stands above
-    return records
-
-
 _SHOWN = 5
-"""So many unexplained cells of an engine are printed; the JSON has them all."""
-
-_HEADS = ("sheet", "cells", "differ", "explained", "largest", "in tolerance")
-_UNITS = ("", "", "", "", "[ulp]", "")
+"""So many wrong cells of an engine are printed; the JSON has them all."""
 
 _LEGEND = """\
-Cells are formulas. Explained are those that an engine computes in long doubles and that lie within
-{bound:.1e} of the largest number of their column, a proven bound on the rounding of doubles. In
-tolerance are those that pass through LN, SIN, ASIN or a cube root, within the rounding of that
-chain; they do not count as different. Largest is the greatest distance of two numbers."""
+Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
+LN, SIN, ASIN or a cube root, within the rounding of that chain; and, of an engine of long doubles,
+those within {bound:.1e} of the largest number of their column, a proven bound on our rounding."""
 
 
-def _text(checks: "Sequence[EngineCheck]", bound: float) -> str:
-    """A table for each engine, then what the columns mean and the outcome."""
-    blocks = ["\n".join(_engine_lines(check)) for check in checks]
+def _record(check: "EngineCheck") -> dict[str, Any]:
+    return asdict(check) | {"wrong": [left._asdict() for left in check.wrong]}
+
+
+def _text(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
+    """A line for each engine, what is wrong with it, what the columns mean, and the outcome."""
+    rows: list[tuple[str, ...]] = [("engine", "outcome", "seconds", "cells", "rounded", "wrong")]
+    for check in checks:
+        seconds = "" if check.seconds is None else f"{check.seconds:.2f}"
+        counts = map(str, (check.cells, check.rounded, len(check.wrong)))
+        rows.append((f"{check.engine} {check.version or ''}", check.outcome, seconds, *counts))
+    yield from aligned(rows, right=True)
+    for check in checks:
+        wrong = [
+            f"{left.sheet}!{left.cell}: expected {left.expected!r}, found {left.found!r}"
+            for left in check.wrong
+        ]
+        if len(wrong) > _SHOWN:
+            wrong[_SHOWN:] = [f"and {len(wrong) - _SHOWN} more"]
+        yield from (f"{check.engine}: {words}" for words in (check.reason, *wrong) if words)
+    yield from ("", _LEGEND.format(bound=bound), "")
     ran = [check for check in checks if check.outcome != "missing"]
     good = sum(check.passed for check in ran)
-    outcome = f"{good} of {len(ran)} engines on this machine give the values of the workbook"
-    return "\n\n".join([*blocks, _LEGEND.format(bound=bound), outcome])
-
-
-def _engine_lines(check: "EngineCheck") -> Iterator[str]:
-    head = f"{check.engine} {check.version or ''}".rstrip()
-    if not check.sheets:
-        yield from (f"{head}: {check.outcome}", f"  {check.reason}")
-        return
-    yield f"{head}: {check.outcome}, {check.seconds:.2f} s"
-    rows = [
-        (s.sheet, s.cells, s.differ, s.explained, s.largest_ulps, s.tolerated) for s in check.sheets
-    ]
-    _, *columns = zip(_HEADS, *rows, strict=True)
-    total = ("all", *((max if head == "largest" else sum)(of) for head, *of in columns))
-    texts = [tuple(map(str, row)) for row in (*rows, total)]
-    yield from (f"  {line}" for line in aligned([_HEADS, _UNITS, *texts], right=True))
-    wrong = [left for sheet in check.sheets for left in sheet.unexplained]
-    yield from (f"  {left}" for left in wrong[:_SHOWN])
-    if len(wrong) > _SHOWN:
-        yield f"  and {len(wrong) - _SHOWN} more"
+    yield f"{good} of {len(ran)} engines on this machine give the values of the workbook"

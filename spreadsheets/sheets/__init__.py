@@ -1,30 +1,59 @@
-"""The sheets of the workbook and their order; the first, `Overview`, tells what the others show.
+"""The sheets of the workbook and their order; `Overview`, `Audit` and those of closed formulas.
 
-It has the results, whether they can be trusted, what the audit found, and the sheets.
+`Overview`, the first, has the results, whether they can be trusted, what the audit found, and the
+sheets. `Audit` has every claim of the ledger, with a live verdict where a cell computes it.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from itertools import zip_longest
 from textwrap import wrap
 
-from reference.ledger import Ledger
+from reference.ledger import Claim, Ledger
 from spreadsheets.plan import (
     HOME,
+    NOT_COMPUTED,
+    Cell,
+    Line,
     Rule,
     SheetPlan,
     WorkbookPlan,
     formula,
+    lines_of,
+    log1p,
     place_of,
     printed,
     recorded,
+    tables,
     text,
+    unit_text,
 )
-from spreadsheets.sheets import audit, figures, inputs, models, steps, table_a1
-from spreadsheets.sheets.audit import KINDS, Findings
+from spreadsheets.sheets import figures, inputs, steps
 from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
 PROGRAM = f"coldspray {version('coldspray')}"
+
+
+AS_PRINTED, OTHERWISE = "as printed", "not as printed"
+KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
+"""Live verdicts, and what the names of their counts end with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a finished audit tells the workbook; texts and numbers only.
+
+    counts: verdict -> how many numbers have it. verdicts, explanations: by claim. failing: claims
+    that do not follow from what the report says. differing: those that public sources contradict.
+    """
+
+    headline: str
+    counts: Mapping[str, int]
+    verdicts: Mapping[str, str]
+    explanations: Mapping[str, str]
+    failing: Sequence[str]
+    differing: Sequence[str]
 
 
 def workbook_plan(
@@ -40,30 +69,30 @@ def workbook_plan(
     the ledger has a claim computed by a cell that is none.
     """
     report, last = findings is not None, cases[-1]
-    table = table_a1.sheet(ledger, last, report)
+    table = steps.table_a1(ledger, last, report)
     sheets = [inputs.sheet(ledger, cases, report), table]
-    sheets += [table_a1.check_sheet(ledger, table)] if report else []
+    sheets += [steps.table_a1_check(ledger, table)] if report else []
     sheets += [steps.sheet(ledger, case) for case in (*cases, *coarse)]
     sheets += [
         figures.figure_3(cases),
         figures.figure_5(last),
         figures.convergence(cases),
-        models.frank_zook(ledger),
-        models.crater(ledger),
-        models.resistance(ledger, cases),
+        _frank_zook(ledger),
+        _crater(ledger),
+        _resistance(ledger, cases),
     ]
     if findings is not None:
-        sheets.append(audit.sheet(ledger, findings))
+        sheets.append(_audit(ledger, findings))
         cells = {sheet.name: sheet.cells for sheet in sheets}
-        for claim in audit.computed_claims(ledger):
+        for claim in computed_claims(ledger):
             name, address = place_of(str(claim.workbook))
             cell = cells.get(name, {}).get(address)
             if cell is None or not cell.formula:
                 raise ValueError(
                     f"claim {claim.id!r}: the workbook computes nothing in {name}!{address}"
                 )
-    said = {sheet.name: _SAID.get(sheet.name, "") for sheet in sheets}
-    said |= {case.name: _SHEET for case in cases} | {case.name: _COARSE for case in coarse}
+    kinds = {case.name: "of a case" for case in cases} | {case.name: "coarse" for case in coarse}
+    said = {sheet.name: tables()["shows"][kinds.get(sheet.name, sheet.name)] for sheet in sheets}
     first = _overview(ledger, cases, said, findings)
     return WorkbookPlan(
         sheets=(first, *sheets),
@@ -77,33 +106,6 @@ def workbook_plan(
             "same file.",
         },
     )
-
-
-_SAID = {
-    "Inputs": "Every physical number: yours and the report’s, unit, check, limits, name",
-    "Table A-1": "The first rows of the scheme, laid out as the report’s appendix prints them",
-    "Table A-1 check": "Printed, computed in full, and the difference in the last digit",
-    "Figure 3": "Depth against time, with its chart",
-    "Figure 5": "Normalized depth against velocity, with its chart (section 4)",
-    "Convergence": "Final depth at eight time steps against the depth at rest, with its chart",
-    "Frank-Zook": "Eq. 16 as printed and as derived (Eqs. 14 to 17)",
-    "Crater": "Section 2: crater volume, depth and contact diameter; particle velocities",
-    "Resistance": "β by three routes, grain strengths, centerline stress, strain rate",
-    "Audit": "Every printed number: what prints like it, computed value, verdict, its cell",
-}
-_SHEET = "All rows of the scheme down to the stop, and its final depth (appendix)"
-_COARSE = "The same with the time step of the comparison, and what that changes (section 3)"
-"""What each sheet shows, for the first of them; those of the cases apart."""
-
-
-# Overview
-
-_HOW = (
-    ("input", "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows."),
-    ("inferred", "Blue on orange: an input that the report never prints, inferred from others."),
-    ("number", "Black: a formula, stored with the value that coldspray computed for it."),
-    ("printed", "Gray: what the report prints, or what was computed once. It follows no change."),
-)
 
 
 def _block(page: SheetPlan, *words: str, right: str = "") -> None:
@@ -137,7 +139,7 @@ def _overview(
     for name, what in sheets.items():
         page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
     _block(page, "How to read it")
-    for style, what in _HOW:
+    for style, what in tables()["how_to_read"].items():
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
     page.print_area = f"A1:F{page.row - 1}"
     return page
@@ -162,16 +164,16 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
                 there = f"'{case.name}'!"
                 shown = f'=IF({there}I2="","",{there}I1&": ")&{shown[1:]}'
             cells[column] = formula(f"overview.{case.slug}.{what}", shown, style, **more)
-        if case.depth_claim:
-            cells["C"] = printed(ledger, case.depth_claim, "um")
-            cells["E"] = printed(ledger, case.ratio_claim)
+        if case.is_reports:
+            cells["C"] = printed(ledger, case.claim("depth"), "um")
+            cells["E"] = printed(ledger, case.claim("ratio"))
         page.rules += case.rules(f"F{page.row}")
         page.put(**cells)
     for words, name in (
         ("Inputs that are not the report’s", "inputs_changed"),
         ("Inputs that cannot be used", "inputs_unusable"),
     ):
-        page.rules.append(Rule(cells=f"B{page.row}", formula=f"={name}>0", style="warning"))
+        page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
         page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
 
@@ -208,3 +210,132 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
         "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "
         "as the report does with the inputs in use."
     )
+
+
+# The report's closed formulas
+
+
+def _formulas(
+    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
+) -> SheetPlan:
+    """One table under notes; its keys begin with the sheet's name."""
+    columns = zip("ABCDEF", tables()["columns"]["lines"], strict=True)
+    page = SheetPlan(name=name, widths={letter: width for letter, (_, width) in columns})
+    page.title(heading)
+    page.say(*said)
+    page.row += 1
+    page.repeated_rows, page.frozen = (page.row, page.row), f"A{page.row + 1}"
+    page.lines(ledger, name.lower().replace("-", "_"), lines)
+    return page
+
+
+def _crater(ledger: Ledger) -> SheetPlan:
+    """Section 2's geometry of a sphere pressed into a flat surface, and Eq. 1."""
+    said = (
+        "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. "
+        "Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3."
+    )
+    lines = lines_of("crater", {"third": str(ledger.value("observed-third"))})
+    return _formulas(ledger, "Crater", "Crater and particle", [said], lines)
+
+
+def _resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
+    """Beta by three routes, grain strengths, centerline stress, strain rate."""
+    words = [{"slug": c.slug, "sheet": c.name, "R_t": c.named("R_t")} for c in cases]
+    return _formulas(ledger, "Resistance", "Target resistance", [], lines_of("resistance", *words))
+
+
+def _frank_zook(ledger: Ledger) -> SheetPlan:
+    """Eq. 16 as it is printed, and as it follows from Eqs. 14 and 15."""
+    said = (
+        "Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the depth in "
+        "diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the derived "
+        "one is twice the printed one."
+    )
+    logarithms = {f"log_{which}": log1p(f"{{{which}_pressure}}") for which in ("rha", "lower")}
+    heading = "Frank-Zook depth of a noneroding penetrator"
+    return _formulas(ledger, "Frank-Zook", heading, [said], lines_of("frank_zook", logarithms))
+
+
+# Audit
+
+_HEAD_ROW = 11
+
+
+def computed_claims(ledger: Ledger) -> list[Claim]:
+    """The claims that a cell of the workbook computes."""
+    return [claim for claim in ledger.claims.values() if claim.workbook]
+
+
+def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
+    """The sheet. Each claim's entry in the ledger names the cell that computes it."""
+    last = _HEAD_ROW + len(ledger.claims)
+    verdicts = f"F{_HEAD_ROW + 1}:F{last}"
+    page = SheetPlan(name="Audit", print_area=f"A1:I{last}", filtered=f"A{_HEAD_ROW}:L{last}")
+    page.title("Audit: every number that the report prints")
+    page.say(
+        "Live verdict: whether the computed cell, with the inputs in use, prints as the report "
+        "does; From and To are the values that print so. The audit’s verdict is about the report: "
+        "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
+        width=150,
+    )
+    page.row = 6
+    page.put(A=text("Live verdicts", "block"))
+    for words, what in KINDS:
+        count = f'=COUNTIF({verdicts},"{words}")'
+        counted = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
+        page.put(A=text(words, "text"), B=counted)
+    page.row = _HEAD_ROW
+    page.table("audit", "CEHI", "B")
+    for claim in ledger.claims.values():
+        page.put(**_row(ledger, claim, findings, page.row))
+    page.color(verdicts, {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"})
+    return page
+
+
+def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
+    """A claim, and where a cell computes it the live verdict with the ends of what prints so."""
+    cells = {
+        "A": text(claim.id),
+        "B": text(claim.title, wrap=True),
+        "C": printed(ledger, claim.id, claim.unit, wrap=True),
+        "D": unit_text(claim.unit),
+        "G": text(findings.verdicts[claim.id], "text", wrap=True),
+        "J": text(str(claim.place), "unit"),
+        "L": text(findings.explanations[claim.id], "unit"),
+    }
+    if not claim.workbook:
+        return cells | {"F": text("–", "text")}
+    # Fixed decimals for most, powers of ten where those would be long.
+    size = 0 if claim.printed is None else abs(claim.printed.value)
+    shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
+    key, place, interval = f"audit.{claim.id}", place_of(claim.workbook), claim.interval()
+    for column, end in (("H", interval.lower), ("I", interval.upper)):
+        if end is not None:
+            cells[column] = recorded(float(end), number_format=shown, claim=claim.id)
+    return cells | {
+        "E": formula(
+            f"{key}.computed", "='{}'!{}".format(*place), number_format=shown, unit=claim.unit,
+            transcendental=True,  # it may hand on a value that is
+        ),
+        "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
+        "K": text(claim.workbook, "link", link=place),
+    }  # fmt: skip
+
+
+def _inside(claim: Claim, row: int) -> str:
+    """Whether E lies between H and I, ends counted as they are closed or open."""
+    interval = claim.interval()
+    verdict = f'"{AS_PRINTED}"'
+    if interval.is_point:
+        # To nine digits: no program holds 2/3, and not all round it alike.
+        near = f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"
+        verdict = f'IF({near},{verdict},"{OTHERWISE}")'
+    else:
+        if interval.upper is not None:
+            sign = "<=" if interval.upper_closed else "<"
+            verdict = f'IF(E{row}{sign}I{row},{verdict},"{OTHERWISE}")'
+        if interval.lower is not None:
+            sign = ">=" if interval.lower_closed else ">"
+            verdict = f'IF(E{row}{sign}H{row},{verdict},"{OTHERWISE}")'
+    return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'

@@ -5,9 +5,7 @@ from collections.abc import Sequence
 from spreadsheets.plan import (
     NOT_COMPUTED,
     Cell,
-    Chart,
     Rule,
-    Series,
     SheetPlan,
     formula,
     guarded,
@@ -23,11 +21,6 @@ _CHART_ROWS = 26
 def figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
     """Depth against time, one curve for each case."""
     first, series = 7, []
-    written = ", ".join(
-        f"{case.label} reaches {{{case.slug}.depth_um:.4g}} µm after "
-        f"{{figure_3.{case.slug}.time[{case.rows}]:.3g}} ns"
-        for case in cases
-    )
     page = SheetPlan(
         name="Figure 3", widths=dict.fromkeys("PQRS", 14.0), print_area=f"A1:N{5 + _CHART_ROWS}"
     )
@@ -54,16 +47,13 @@ def figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
                     f"{key}.{what}[{k}]", running, number_format=shown, column=like
                 )
         x, y = (f"{column}{first}:{column}{first + case.rows}" for column in columns)
-        series.append(Series((case.name, "I1"), x, y))
-    page.chart = Chart(
-        at="A6",
-        title="Penetration depth against time",
-        description="Line chart: depth x in µm against time in ns, one curve for each case, the "
-        f"first solid and the second dashed. As written, {written}.",
-        x_title="Time [ns]",
-        y_title="Penetration depth [µm]",
-        series=tuple(series),
+        series.append(((case.name, "I1"), x, y))
+    reached = (
+        f"{case.label} reaches {{{case.slug}.depth_um:.4g}} µm after "
+        f"{{figure_3.{case.slug}.time[{case.rows}]:.3g}} ns"
+        for case in cases
     )
+    page.draw(series, ", ".join(reached))
     return page
 
 
@@ -91,7 +81,7 @@ def figure_5(case: CaseSheet) -> SheetPlan:
     missing = f"COUNT(T{first}:T{last})<{POINTS}"
     message = f'=IF({missing},"POINTS ARE MISSING: see the sheet Inputs.","{COMPLETE}")'
     page.cells["A3"] = formula("figure_5.message", message, "message")
-    page.rules = [Rule(cells="A3", formula=f"={missing}", style="warning")]
+    page.rules = [Rule("A3", f"={missing}", "warning")]
     page.row = first - 2
     words, units = ("Point", "Velocity", "p", "c", "X/R", "X"), ("", "m/s", "–", "–", "–", "µm")
     page.heads("PQRSTU", words, "PQRSTU", units)
@@ -111,19 +101,13 @@ def figure_5(case: CaseSheet) -> SheetPlan:
                 number_format="General" if column == "Q" else "0.0000",
                 transcendental=column in "STU",
             )
-    ends = [
+    low, high = (
         f"{{figure_5.normalized_depth[{k}]:.3g}} at {{figure_5.velocity[{k}]:.4g}} m/s"
         for k in (0, POINTS - 1)
-    ]
-    page.chart = Chart(
-        at="A7",
-        title="Normalized penetration depth against impact velocity",
-        description="Line chart: normalized depth X/R at rest against impact velocity in m/s. "
-        f"As written, for {case.label}, from {ends[0]} to {ends[1]}.",
-        x_title="Impact velocity [m/s]",
-        y_title="Normalized depth X/R [–]",
-        series=(Series((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}"),),
     )
+    name = case.name, "I1"
+    series = [(name, f"Q{first}:Q{last}", f"T{first}:T{last}")]
+    page.draw(series, f"{case.label}, from {low} to {high}")
     return page
 
 
@@ -156,7 +140,7 @@ def convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page = SheetPlan(
         name="Convergence",
         widths=dict.fromkeys("ABCDEFGHIJKL", 12.0),
-        rules=[Rule(cells="A3", formula=f'=$A$3="{STALE}"', style="warning")],
+        rules=[Rule("A3", f'=$A$3="{STALE}"', "warning")],
         print_area=f"A1:L{last + 4 + _CHART_ROWS}",
         page_break=last + 2,
     )
@@ -189,21 +173,10 @@ def convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         size = columns[3]
         # Called as it was when it was computed: the head of its columns.
         whose = "Convergence", f"{columns[0]}{first - 3}"
-        series.append(Series(whose, f"B{first}:B{last}", f"{size}{first}:{size}{last}"))
+        series.append((whose, f"B{first}:B{last}", f"{size}{first}:{size}{last}"))
     page.row = last + 4
     _same_inputs(page, names)
-    page.chart = Chart(
-        at=f"A{last + 4}",
-        title="Error of the final depth against the time step",
-        description="Line chart with logarithmic axes: size of the error of the final depth in µm "
-        "against the time step in ns, the first case solid, the second dashed. "
-        f"For {', '.join(written)}.",
-        x_title="Time step [ns]",
-        y_title="|final depth - depth at rest| [µm]",
-        series=tuple(series),
-        logarithmic=True,
-        size=(690, 430),
-    )
+    page.draw(series, ", ".join(written))
     return page
 
 

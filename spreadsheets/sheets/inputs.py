@@ -7,19 +7,21 @@ within what limits a number is taken. What follows from the inputs stands apart,
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from reference.ledger import INFERRED, Ledger
 from reference.units import to_si
 from spreadsheets.plan import (
     NOT_COMPUTED,
     Cell,
-    Limits,
     Rule,
     SheetPlan,
     formula,
     guarded,
+    lines_of,
     printed,
     recorded,
+    tables,
     text,
     unit_text,
 )
@@ -28,39 +30,22 @@ from spreadsheets.sheets.steps import CaseSheet
 REPORT = "report"
 """What the switch says to take the report's inputs; with any other text, the user's are taken."""
 
-LIMITS = {
-    "m/s": Limits(1e-6, 1e6),
-    "um": Limits(1e-4, 1e6),
-    "ns": Limits(1e-6, 1e6),
-    "kg/m^3": Limits(25.0, 1e5),
-    "Pa": Limits(1e5, 1e15),
-    "MPa": Limits(1e-3, 1e6),
-    "GPa": Limits(1e-4, 1e5),
-    "ksi": Limits(1e-3, 1e5),
-    "1": Limits(1e-4, 1e4),
-}
-"""What may be typed, by unit: wide enough for any impact, and too narrow for a number in SI units
-where the sheet asks for another (2E-10 for 0.2 ns, 7E8 for 700 MPa, 8.9 for 8900 kg/m³)."""
-
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A number that is typed: its defined name, symbol, place in the ledger and unit.
+    """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
 
-    source: the id of the claim that prints it, or of an inferred input.
+    source: the id of the claim that prints it, or of an inferred input. attribute: what it is of an
+    impact, if it belongs to a case.
     """
 
     name: str
     symbol: str
     source: str
-    unit: str = "1"
-    own_limits: Limits | None = None
+    unit: str
+    limits: tuple[float, float]
     meaning: str = ""
-
-    @property
-    def limits(self) -> Limits:
-        """Its own limits, or those of its unit."""
-        return self.own_limits or LIMITS[self.unit]
+    attribute: str = ""
 
     def of_report(self, ledger: Ledger) -> float:
         """The report's number in this unit.
@@ -75,58 +60,19 @@ class Input:
 COARSE = "dt_coarse"
 """The input that only the report's own workbook has."""
 
-_CAP = Limits(1e-4, 0.5)
-"""A crater of at most half a sphere."""
+
+def _entry(name: str, symbol: str, source: str, unit: str = "1", **more: Any) -> Input:
+    limits = more.pop("limits", tables()["limits"][unit])
+    return Input(name, symbol, source, unit, tuple(limits), **more)
+
 
 _BLOCKS = {
-    "Impact": (
-        Input("V_impact", "V", "a1-initial-velocity", "m/s"),
-        Input("R_p", "R", "a1-radius", "um"),
-        Input("rho_p", "ρ_p", "a1-density", "kg/m^3"),
-        Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3"),
-        Input("dt_s", "Δt", "a-step", "ns"),
-        Input("v_stop", "v_stop", "a-stop-velocity", "m/s", Limits(0.0, 1e6)),
-        Input(COARSE, "Δt", "coarse-step", "ns"),
-    ),
-    "Target resistance": (Input("Y_t", "Y_t", "flow-stress", "MPa"),),
-    "Velocities of Figure 5": (
-        Input("V_from", "V", "figure-5-velocity-least", "m/s"),
-        Input("V_to", "V", "figure-5-velocity-greatest", "m/s"),
-    ),
-    "Craters and particles": (
-        Input("CV_PV", "CV/PV", "volume-ratio", own_limits=_CAP),
-        Input("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_CAP),
-        Input("D_mean", "D", "mean-diameter", "um"),
-        Input("d_min", "d", "particle-size-least", "um"),
-        Input("d_max", "d", "particle-size-greatest", "um"),
-        Input("observed_ratio", "X/R", "discussion-observed"),
-    ),
-    "Materials": (
-        Input("q_Y", "q/Y_t", "goodier-q"),
-        Input("E_t", "E_t", "elastic-modulus", "GPa"),
-        Input("Y_steel", "Y", "yield-strength", "MPa"),
-        Input("HB_ratio", "HB/UTS", "brinell-ratio"),
-        Input("S_feathery", "S", "strength-feathery", "ksi"),
-        Input("S_clear", "S", "strength-clear", "ksi"),
-        Input("S_bulk", "S", "strength-bulk", "ksi"),
-        Input("Y_copper", "Y_p", "copper-yield", "MPa"),
-        Input("L_typ", "L", "strain-rate-length", "um"),
-    ),
-    "Frank and Zook": (
-        Input("k_1", "k_1", "fz-k1"),
-        Input("k_t", "k_t", "fz-kt"),
-        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
-        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
-    ),
+    block: [_entry(name, **entry) for name, entry in entries.items()]
+    for block, entries in tables()["inputs"].items()
 }
 INPUTS = {entry.name: entry for block in _BLOCKS.values() for entry in block}
 """Every input that does not differ between the cases, by its name."""
 
-_COLUMNS = (
-    ("Symbol", 9.0), ("Quantity", 50.0), ("Type here", 13.0), ("Unit", 8.0), ("Check", 12.0),
-    ("In use", 14.0), ("Unit", 8.0), ("The report’s", 12.0), ("It prints", 15.0), ("Where", 27.0),
-    ("Least", 10.0), ("Greatest", 12.0), ("Name", 14.0),
-)  # fmt: skip
 _SCIENTIFIC = "0.0####E+00"
 
 _SAME, _INFERRED, _YOURS = "the report’s", "as inferred", "yours"
@@ -139,21 +85,23 @@ MESSAGES = {
 }
 
 
-def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, tuple[Input, ...]]:
+def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
     """The inputs of a workbook of these cases, in blocks; `report`: it is the report's own."""
-    blocks = dict(_BLOCKS)
-    if not report:
-        blocks["Impact"] = tuple(entry for entry in blocks["Impact"] if entry.name != COARSE)
-    resistance = "Target resistance"
-    if cases[0].resistance_given:
-        given = "target resistance, given instead of β and Y_t"
-        blocks[resistance] = (Input("R_t", "R_t", "a1-resistance", "Pa", meaning=given),)
-    else:
-        meaning = "target resistance over flow stress, {}"
-        blocks[resistance] += tuple(
-            Input(case.named("beta"), "β", case.beta_claim, meaning=meaning.format(case.name))
-            for case in cases
+    given = "target resistance, given instead of β and Y_t"
+    stress = "target resistance over flow stress, {}"
+    betas = [
+        _entry(
+            case.named("beta"), "β", f"depth-beta-{case.beta}-beta",
+            meaning=stress.format(case.name), attribute="beta",
         )
+        for case in cases
+    ]  # fmt: skip
+    blocks = {**_BLOCKS, "Target resistance": [INPUTS["Y_t"], *betas]}
+    if cases[0].resistance_given:
+        own = _entry("R_t", "R_t", "a1-resistance", "Pa", meaning=given, attribute="resistance")
+        blocks["Target resistance"] = [own]
+    if not report:
+        blocks["Impact"] = [entry for entry in blocks["Impact"] if entry.name != COARSE]
     return blocks
 
 
@@ -166,7 +114,7 @@ def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan
         "input that the report never prints, inferred from Table A-1."
     )
     page.row = 9
-    page.table(_COLUMNS, "CFHIKL", "C")
+    page.table("inputs", "CFHIKL", "C")
     first = page.row
     for block, entries in inputs_of(cases, report).items():
         page.put(A=text(block, "block"))
@@ -192,9 +140,9 @@ def sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan
     page.print_area = f"A1:J{page.row - 1}"
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     page.rules = [
-        Rule(cells=checks, formula=f"=OR({bad})", style="warning"),
-        Rule(cells=checks, formula=f'=$E{first}="{_YOURS}"', style="changed"),
-        Rule(cells="A7", formula="=inputs_unusable>0", style="warning"),
+        Rule(checks, f"=OR({bad})", "warning"),
+        Rule(checks, f'=$E{first}="{_YOURS}"', "changed"),
+        Rule("A7", "=inputs_unusable>0", "warning"),
     ]
     return page
 
@@ -241,8 +189,8 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "H": recorded(entry.of_report(ledger)),
         "I": text("nowhere", "recorded"),
         "J": text("inferred from Table A-1", "unit"),
-        "K": recorded(entry.limits.least),
-        "L": recorded(entry.limits.most),
+        "K": recorded(entry.limits[0]),
+        "L": recorded(entry.limits[1]),
         "M": text(entry.name, "unit"),
     }
     return cells if inferred else cells | _as_printed(ledger, entry.source, entry.unit)
@@ -270,25 +218,24 @@ def _factor(unit: str) -> str:
 
 
 def _derived(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
-    """The rows of what follows from the inputs; what is not in SI units is used nowhere else."""
-    rows = [
-        ("D_p", "D", "particle diameter", "=2*R_p", "m", "a1-diameter"),
-        ("M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", "a1-mass"),
-        *(
-            (case.named("R_t"), "R_t", f"target resistance, {case.name}",
-             f"={case.named('beta')}*Y_t", "Pa", "a1-resistance" if case.slug == "high" else "")
-            for case in cases
-            if not case.resistance_given
-        ),
-        ("half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns", "a-half-step"),
-        ("mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
-         "particle-radius"),
-    ]  # fmt: skip
-    for name, symbol, meaning, expression, unit, claim in rows:
-        in_si = unit not in _SI
+    """The rows of what follows from the inputs."""
+    words = [
+        {
+            "R_t": case.named("R_t"),
+            "sheet": case.name,
+            "beta": case.named("beta"),
+            "claim": "a1-resistance" if case.slug == "high" else "",
+        }
+        for case in cases
+    ]
+    for line in lines_of("derived", *words):
+        if isinstance(line, str) or (cases[0].resistance_given and line.key == "R_t"):
+            continue
+        in_si = line.unit not in _SI
         value = formula(
-            f"inputs.{name}", guarded(expression), unit=unit, name=name if in_si else "",
-            number_format=_SCIENTIFIC if in_si else "General",
+            f"inputs.{line.key}", guarded(line.formula), unit=line.unit,
+            name=line.key if in_si else "", number_format=_SCIENTIFIC if in_si else "General",
         )  # fmt: skip
-        cells = {"A": text(symbol, "text"), "B": text(meaning), "F": value, "G": unit_text(unit)}
-        page.put(**cells, **(_as_printed(ledger, claim, unit) if claim else {}))
+        cells = {"A": text(line.symbol, "text"), "B": text(line.meaning), "F": value}
+        more = _as_printed(ledger, line.claim, line.unit) if line.claim else {}
+        page.put(**cells, G=unit_text(line.unit), **more)

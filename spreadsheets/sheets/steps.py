@@ -1,4 +1,4 @@
-"""The sheets of a case: the scheme row by row down to the stop, and what is read off the last row.
+"""The sheets of a case: the scheme row by row to the stop, its result, and the report's Table A-1.
 
 Below the stop follow rows that stay blank until an input needs them. If even they do not suffice,
 the sheet says so instead of giving a depth; if the time step is too long for the motion, too.
@@ -6,9 +6,24 @@ the sheet says so instead of giving a depth; if the time step is too long for th
 
 from dataclasses import dataclass
 
-from reference.ledger import Ledger
+from reference.ledger import Claim, Ledger
 from reference.units import written
-from spreadsheets.plan import NOT_COMPUTED, Cell, Line, Rule, SheetPlan, formula, log1p, text
+from spreadsheets.plan import (
+    HOME,
+    NOT_COMPUTED,
+    Cell,
+    Line,
+    Rule,
+    SheetPlan,
+    formula,
+    lines_of,
+    log1p,
+    printed,
+    recorded,
+    tables,
+    text,
+    unit_text,
+)
 
 FIRST_ROW = 10
 """Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
@@ -32,24 +47,26 @@ class CaseSheet:
 
     slug: "low" or "high" where two cases stand side by side, "case" where one is alone; its keys
     and defined names carry it. label: what tells it from the other, as written ("β = 5"). steps,
-    rows: those in use and those prepared, after row 0. resistance_given: the target resistance is
-    an input and not the product of beta and the flow stress. beta_claim: where the report prints
-    its beta. depth_claim, ratio_claim: where it prints its results, if the case is the report's.
-    longer: the command that writes a longer workbook. coarse: with the step `dt_coarse`.
+    rows: those in use and those prepared, after row 0. beta: the beta, "3" or "5", of the report's
+    case beside which it stands. is_reports: it is that case. resistance_given: the target
+    resistance is an input and not the product of beta and the flow stress. coarse: with the step
+    `dt_coarse`.
     """
 
     name: str
     slug: str
     label: str
-    steps: int
-    rows: int
     scheme: str
-    beta_claim: str
-    depth_claim: str = ""
-    ratio_claim: str = ""
-    longer: str = ""
-    resistance_given: bool = False
+    beta: str
+    is_reports: bool
+    resistance_given: bool
+    steps: int = 0
+    rows: int = 0
     coarse: bool = False
+
+    def claim(self, what: str) -> str:
+        """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
+        return f"{what}-beta-{self.beta}" if self.is_reports else ""
 
     def named(self, symbol: str) -> str:
         """The defined name of this case's `symbol`: R_t_low beside R_t_high, or R_t alone."""
@@ -67,7 +84,7 @@ class CaseSheet:
     def rules(self, cells: str) -> list[Rule]:
         """How cells look that say whether the run can be trusted."""
         return [
-            Rule(cells=cells, formula=f"={self.result('trust')}={state}", style=style)
+            Rule(cells, f"={self.result('trust')}={state}", style)
             for state, style in ((0, "warning"), (1, "changed"))
         ]
 
@@ -101,33 +118,14 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-_HEADS = ("Row", "Time", "dx/dt initial", "x", "d²x/dt²", "dx/dt final", "x", "dx/dt middle")
-_COLUMNS = {
-    "A": ("index", "1", "General", ""),
-    "B": ("time", "s", "0.00E+00", ""),
-    "C": ("velocity_initial", "m/s", "0.000", "velocity"),
-    "D": ("depth", "m", "0.0000E+00", "depth"),
-    "E": ("deceleration", "m/s^2", "0.0000E+00", "deceleration"),
-    "F": ("velocity_final", "m/s", "0.000", "velocity"),
-    "G": ("depth_um", "um", "0.0000", "depth_um"),
-    "H": ("velocity_middle", "m/s", "0.000", "velocity"),
-}
-"""Column -> the end of its keys, its unit, its number format, and the cells of like size; the last
-is that of the centered scheme."""
-
 _WIDTHS = {"I": 8.0, "J": 33.0, "K": 13.0, "L": 7.0, "M": 24.0, "N": 26.0}
 
 
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case."""
     columns = "ABCDEFGH" if case.scheme == "centered" else "ABCDEFG"
-    widths = {
-        "A": 5.0,
-        **dict.fromkeys("BCDEF", 11.0),
-        "G": 8.0,
-        "H": 3.0 if "H" not in columns else 13.0,
-    }
-    page = SheetPlan(name=case.name, widths=widths | _WIDTHS)
+    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, **_WIDTHS}
+    page = SheetPlan(name=case.name, widths={**widths, "H": 13.0 if "H" in columns else 3.0})
     _head(page, case, columns)
     page.row = FIRST_ROW - 2
     page.lines(ledger, case.part, _results(case), "IJKLMN")
@@ -138,8 +136,8 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (FIRST_ROW - 2, FIRST_ROW - 1)
     page.print_area = f"A1:M{last}"
     page.rules = [
-        Rule(cells=used, formula=f"=ISNUMBER($A{FIRST_ROW})", style="ruled"),
-        Rule(cells="I2", formula="=ISTEXT($I$2)", style="changed"),
+        Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
+        Rule("I2", "=ISTEXT($I$2)", "changed"),
         *case.rules("A3"),
     ]
     return page
@@ -147,7 +145,6 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
 
 def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
     """The title with the live β, the state of the run, notes, and the heads of the columns."""
-    more = f"; for more: {case.longer}" if case.longer else ", and no workbook takes more."
     page.title("Rigid-body penetration, row by row")
     state = formula(f"{case.part}.message", _message(case), "message", name=case.result("message"))
     page.put(A=state)
@@ -155,7 +152,8 @@ def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
         f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
         "The run stops with the first row below v_stop; printed pages end with the last row as "
-        f"written. {case.rows} rows are prepared{more}",
+        f"written. {case.rows} rows are prepared; coldspray workbook prepares N, up to {MAX_ROWS}, "
+        "with the same options and --rows N.",
         width=205,
     )
     page.cells["I1"] = text(case.label, "title")
@@ -168,8 +166,9 @@ def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
         page.cells["I1"] = formula(f"{case.part}.label", label, "title")
         page.cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
     page.row = FIRST_ROW - 2
-    units = [written(_COLUMNS[column][1]) or None for column in columns]
-    page.heads(columns, _HEADS[: len(columns)], columns, units)
+    rows = [tables()["rows"][column] for column in columns]
+    units = [written(row["unit"]) or None for row in rows]
+    page.heads(columns, [row["head"] for row in rows], columns, units)
 
 
 def step_formulas(
@@ -225,13 +224,13 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
     formulas["G"] = where_running(row, f"D{row}*1000000")
     cells = {}
     for column, expression in formulas.items():
-        what, unit, shown, like = _COLUMNS[column]
+        shown = tables()["rows"][column]
         cells[f"{column}{row}"] = formula(
-            f"{case.part}.row[{step}].{what}",
+            f"{case.part}.row[{step}].{shown['key']}",
             expression,
-            number_format=shown if step or column == "C" else "General",
-            unit=unit,
-            column=like and f"{case.part}.{like}",
+            number_format=shown["shown"] if step or column == "C" else "General",
+            unit=shown["unit"],
+            column=shown["column"] and f"{case.part}.{shown['column']}",
         )
     return cells
 
@@ -239,9 +238,6 @@ def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
 # The block beside the rows
 
 KEPT_NAME = "The sheet keeps the name with which it was written."
-YES_NO = '"yes";;"no"'
-"""Shows 1 and 0; a truth value would show as TRUE in one program and as 1 in another."""
-
 COMPLETE = "Complete: the velocity is below v_stop."
 REVERSED = "Complete, but the last step reverses the velocity."
 DOUBTFUL = "DO NOT TRUST THIS RUN: the time step is too long."
@@ -258,80 +254,33 @@ def _message(case: CaseSheet) -> str:
     return f'=IF(ISNUMBER({stopped}),{run},"{INVALID}")'
 
 
+_RESULTS = (
+    "stopped", "final_depth", "depth_um", "normalized_depth", "steps", "stop_time",
+    "final_velocity", "exact_depth_um", "trust",
+)  # fmt: skip
+"""The lines with defined names."""
+
+
 def _results(case: CaseSheet) -> list[Line | str]:
-    lines: list[Line | str] = [
-        "",  # no title here, since every printed page repeats this row
-        *_inputs(case),
-        "Result of the sheet",
-        *_result(case),
-        "Without time steps: Eqs. 12 and 13 integrated to rest",
-        *_exact(case),
-        "Is the time step short enough?",
-        *_doubts(case),
-    ]
-    if case.coarse:
-        fine = case.named("depth_um")
-        over = f'=IF({fine}>0,{{depth_um}}/{fine},"{NOT_COMPUTED}")'
-        lines += [
-            "Against the sheet with the step dt_s",
-            Line("fine_depth_um", "X", "final depth with dt_s", f"={fine}", "um",
-                 claim=case.depth_claim),
-            Line("over_fine", "", "depth of this sheet over that", over,
-                 claim="coarse-step-remark", shown="0.00%"),
-        ]  # fmt: skip
-    return lines
-
-
-def _inputs(case: CaseSheet) -> list[Line]:
-    inputs = (
-        ("radius", "R", "particle radius", "R_p", "m"),
-        ("particle_density", "ρ_p", "particle density", "rho_p", "kg/m^3"),
-        ("mass", "M", "particle mass", "M_p", "kg"),
-        ("diameter", "D", "particle diameter", "D_p", "m"),
-        ("velocity", "V", "impact velocity", "V_impact", "m/s"),
-        ("resistance", "R_t", "target resistance", case.named("R_t"), "Pa"),
-        ("target_density", "ρ_t", "target density", "rho_t", "kg/m^3"),
-        ("step", "Δt", "time step", case.step_name, "s"),
-        ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
-    )
-    return [
-        Line(what, symbol, meaning, f"={name}", unit, shown="0.0000E+00")
-        for what, symbol, meaning, name, unit in inputs
-    ]
-
-
-def _result(case: CaseSheet) -> list[Line]:
-    def cells(column: str) -> str:
-        return f"{column}{FIRST_ROW}:{column}{case.last_row}"
-
-    # COUNT calculates the rows from the top; LibreOffice loses itself if asked for the last first.
-    count = f"COUNT({cells('A')})"
-    time, depth, velocity = (f"INDEX({cells(column)},{count})" for column in "BDF")
-    depth_claim, ratio_claim = ("", "") if case.coarse else (case.depth_claim, case.ratio_claim)
-    results = (
-        ("final_depth", "X", "final penetration depth", depth, "m", "0.0000E+00", "", "depth"),
-        ("depth_um", "X", "the same", "{final_depth}*1000000", "um", "0.0000", depth_claim,
-         "depth_um"),
-        ("normalized_depth", "X/R", "normalized depth", "{final_depth}/R_p", "1", "0.0000",
-         ratio_claim, ""),
-        ("steps", "", "steps taken", f"{count}-1", "1", "0", "", ""),
-        ("stop_time", "t", "time of the final row", time, "s", "0.0000E+00", "", ""),
-        ("final_velocity", "v", "velocity that ends it", f"IF({{steps}}>0,{velocity},V_impact)",
-         "m/s", "0.0000", "", "velocity"),
-    )  # fmt: skip
-    stopped = f'=IF(ISNUMBER(A{FIRST_ROW}),IF({velocity}<v_stop,1,0),"{NOT_COMPUTED}")'
-    return [
-        Line("stopped", "", "the rows reach the stop", stopped, shown=YES_NO,
-             name=case.result("stopped"), guard=False),
-        *(
-            Line(what, symbol, meaning, f'=IF({{stopped}}=1,{expression},"{NOT_COMPUTED}")', unit,
-                 "" if claim else "Appendix", claim, shown, name=case.result(what),
-                 column=like and f"{case.part}.{like}", guard=False)
-            for what, symbol, meaning, expression, unit, shown, claim, like in results
-        ),
-        Line("excess", "", "X/R over the observed X/R", "={normalized_depth}/observed_ratio",
-             claim="excess", shown="0.00"),
-    ]  # fmt: skip
+    """The lines of the block, from `sheets.toml`."""
+    own = case.is_reports and not case.coarse
+    work, rest = rest_depth("{pressure}", "{c}")
+    words = {
+        **{name: case.result(name) for name in _RESULTS},
+        **{column: f"{column}{FIRST_ROW}:{column}{case.last_row}" for column in "ABDF"},
+        "part": case.part,
+        "first": f"A{FIRST_ROW}",
+        "R_t": case.named("R_t"),
+        "step": case.step_name,
+        "work": work,
+        "rest": rest,
+        "depth_claim": case.claim("depth") if own else "",
+        "ratio_claim": case.claim("ratio") if own else "",
+        "unclaimed": "" if own else "Appendix",
+        "fine": case.named("depth_um"),
+        "fine_claim": case.claim("depth"),
+    }
+    return lines_of("case", words) + (lines_of("coarse", words) if case.coarse else [])
 
 
 def rest_depth(pressure: str, c: str) -> tuple[str, str]:
@@ -341,32 +290,131 @@ def rest_depth(pressure: str, c: str) -> tuple[str, str]:
     return f"=4*rho_p/(3*rho_t)*{log1p(pressure)}", f"=IF({c}<=2/3,{shallow},1/3+{c})"
 
 
-def _exact(case: CaseSheet) -> list[Line]:
-    c, depth = rest_depth("{pressure}", "{c}")
-    return [
-        Line("pressure", "p", "dynamic pressure over R_t",
-             f"=rho_t*V_impact*V_impact/2/{case.named('R_t')}", source="ρ_t V²/2R_t",
-             shown="0.0000E+00"),
-        Line("c", "c", "work over the particle’s inertia", c, source="(4ρ_p/3ρ_t) ln(1 + p)",
-             shown="0.0000E+00"),
-        Line("exact_normalized_depth", "X/R", "normalized depth at rest", depth,
-             source="root of y² - y³/3 = c, or 1/3 + c"),
-        Line("exact_depth_um", "X", "penetration depth at rest",
-             "={exact_normalized_depth}*R_p*1000000", "um", "R times the line above",
-             name=case.result("exact_depth_um")),
-    ]  # fmt: skip
+# Table A-1: the report has it cell for cell in A1:F12; every number format gives the text that the
+# report prints, 6E-10 in General included. From column H on stands the printed text itself.
+
+TABLE_ROWS = 5
+"""Rows of the table, row 0 (the impact itself) included."""
+
+_FIRST = 8
 
 
-def _doubts(case: CaseSheet) -> list[Line]:
-    """What tells that the time step is too long for the motion."""
-    serious = "IF({travel}>travel_most,1,IF({over_exact}>1+excess_most,1,IF({steps}=0,1,0)))"
-    trust = f"IF({serious}=1,0,IF({{final_velocity}}<-v_stop,1,2))"
-    return [
-        Line("travel", "Δt V/R", "radii passed in one step at V",
-             f"={case.step_name}*V_impact/R_p", source="too long above travel_most"),
-        Line("over_exact", "", "depth over the depth at rest",
-             "=IF({stopped}=1,{normalized_depth}/{exact_normalized_depth},"
-             f'"{NOT_COMPUTED}")', source="too long above 1 + excess_most", guard=False),
-        Line("trust", "", "2 sound, 1 with a warning, 0 do not use",
-             f"=IF({{stopped}}=1,{trust},0)", shown="0", name=case.result("trust"), guard=False),
-    ]  # fmt: skip
+def _claims(ledger: Ledger) -> dict[str, Claim]:
+    """Address in the table -> the claim that is printed there."""
+    return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
+
+
+def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
+    """The table for a case: the report's is the one of beta = 5.
+
+    report: with the printed text beside it, in columns H to M.
+    """
+    claims, resistance, centered = _claims(ledger), case.named("R_t"), case.scheme == "centered"
+    columns = "ABCDEFG" if centered else "ABCDEF"
+    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
+    page = SheetPlan(name="Table A-1", widths=widths)
+    cells = page.cells
+
+    def live(address: str, what: str, expression: str) -> None:
+        """A cell in the unit of what is printed there, and as it is: "6E-10" or "2.00E-10"."""
+        claim = claims.get(address)
+        shown = "0.00E+00" if claim is None or "." in claim.text else "General"
+        unit = "m/s" if claim is None else claim.unit
+        cells[address] = formula(f"table.{what}", expression, number_format=shown, unit=unit)
+
+    above, heads = tables()["table_a1"]["above"], tables()["table_a1"]["columns"]
+    for row, (label, (what, symbol)) in enumerate(above.items(), start=1):
+        cells[f"A{row}"] = text(label)
+        live(f"B{row}", what, f"={resistance if symbol == 'R_t' else symbol}")
+    for column in columns:
+        head = heads[column]["head"]
+        cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
+    for step in range(TABLE_ROWS):
+        row = _FIRST + step
+        if step:
+            time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
+            middle = "G" if centered else ""
+            formulas = step_formulas(row, step == 1, time, resistance, case.step_name, middle)
+        else:
+            starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
+            ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
+            formulas = {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
+        for column, expression in formulas.items():
+            live(f"{column}{row}", f"row[{step}].{heads[column]['key']}", expression)
+    if report:
+        cells |= _as_printed(ledger, claims)
+    page.row = 14
+    page.say(
+        f"Table A-1, rigid body penetration. Columns A to {columns[-1]} are live, "
+        f"with the inputs of {case.name}."
+        + (" Columns H to M are the report’s text." if report else ""),
+        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
+    )
+    cells["A18"] = text(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    return page
+
+
+def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
+    """The table as the report prints it, in columns H to M."""
+    shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
+    table = tables()["table_a1"]
+    cells = {f"H{row}": text(label, "unit") for row, label in enumerate(table["above"], start=1)}
+    for column, there in shifted.items():
+        if head := table["columns"][column]["head"]:
+            cells[f"{there}{_FIRST - 1}"] = text(head, "unit right")
+    for address, claim in claims.items():
+        cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
+    return cells
+
+
+DIGITS = 4
+"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
+
+SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
+
+
+def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
+    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
+    page = SheetPlan(name="Table A-1 check")
+    page.title("Table A-1: printed and computed")
+    page.say(
+        "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
+        "minus printed, in units of the last printed digit; up to 0.5 it prints the same."
+    )
+    page.row = 6
+    page.table("table_a1_check", "DEFH", "B")
+    first = page.row
+    for address, claim in _claims(ledger).items():
+        page.put(**_check(claim, address, page.row, table))
+    verdicts = f"G{first}:G{page.row - 1}"
+    page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})
+    return page
+
+
+def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
+    assert claim.printed is not None
+    key, there = f"table_check.{address}", f"='{table.name}'!{address}"
+    difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
+    if claim.is_exact:
+        difference, same = f"E{row}-D{row}", f"F{row}=0"
+    verdict = f'IF({same},"{SAME_TEXT}","{OTHER_TEXT}")'
+    cells = (
+        text(address, "link", link=(table.name, address)),
+        text(claim.title),
+        unit_text(claim.unit),
+        recorded(
+            float(claim.printed.value), claim=claim.id,
+            number_format=table.cells[address].number_format,
+        ),
+        formula(
+            f"{key}.computed", there, number_format="0.0000000000000000E+00", unit=claim.unit
+        ),
+        # Rounding is done by each program in its own way: it may cost a last digit.
+        formula(
+            f"{key}.difference", f'=IF(ISNUMBER(E{row}),{difference},"–")', "result",
+            number_format="0.0000", transcendental=True,
+        ),
+        formula(f"{key}.verdict", f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")', "text"),
+        recorded(float(claim.printed.quantum), number_format="0E+00"),
+    )  # fmt: skip
+    return dict(zip("ABCDEFGH", cells, strict=True))

@@ -421,28 +421,25 @@ def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) ->
 
 
 def test_what_a_killed_run_left_goes_and_nothing_else(tmp_path: Path) -> None:
-    """It lies beside the folder if that was not there yet, and in it if it was."""
-    out = tmp_path / "out"
-    left = [tmp_path / ".out.12.part", out / ".out.345.part"]
-    of_others = [tmp_path / name for name in (".out.part", ".other.12.part", ".outs.1.part")]
-    for folder in (*left, *of_others):
-        (folder / "figures").mkdir(parents=True)
-        (folder / "figures" / "a.svg").write_text("half")
-    write_folder(out, {"a": b"new"})
-    assert [folder.exists() for folder in left] == [False, False]
-    assert all((folder / "figures" / "a.svg").exists() for folder in of_others)
-    assert state(out) == {"a": b"new"}
+    left, of_others = ".a.12.part", [".a.part", ".other.12.part", ".as.1.part"]
+    for name in (left, *of_others):
+        (tmp_path / name).write_text("half")
+    write_folder(tmp_path, {"a": b"new"})
+    assert {path.name for path in tmp_path.iterdir()} == {"a", *of_others}
+
+
+def test_a_folder_that_cannot_be_filled_is_as_it_was(tmp_path: Path) -> None:
+    with pytest.raises(TypeError):
+        write_folder(tmp_path / "out", {"c/d": b"new", "e": None})
+    assert state(tmp_path) == {}
 
 
 def test_of_two_runs_to_one_folder_the_one_that_lost_its_drafts_says_so(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-
     class Slow(dict[str, bytes]):
         def items(self) -> Any:
             yield "a", b"slow"
-            write_folder(out, {"a": b"fast"})
-            yield "b", b"slow"
+            write_folder(tmp_path, {"a": b"fast"})
 
-    with pytest.raises(OSError, match="another run is writing to this folder"):
-        write_folder(out, Slow(a=b"", b=b""))
-    assert state(tmp_path) == {"out": None, "out/a": b"fast"}
+    with pytest.raises(OSError, match="another run is writing this file"):
+        write_folder(tmp_path, Slow(a=b""))
+    assert state(tmp_path) == {"a": b"fast"}

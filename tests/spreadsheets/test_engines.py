@@ -1,4 +1,7 @@
-"""Every engine recalculates, gives exact values in one common shape, and fails in one line."""
+"""Every engine recalculates, gives exact values in one common shape, and fails in one line.
+
+And what is said of an engine that does, or does not, give the values that a workbook must have.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +10,23 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import xlsxwriter
 from workbooks import BY_NAME, Fake, usable
 
-from spreadsheets import engines
-from spreadsheets.engines import Engine, EngineError, Recalculated
+from spreadsheets import emit, engines
+from spreadsheets.engines import (
+    Difference,
+    Engine,
+    EngineCheck,
+    EngineError,
+    Recalculated,
+    compare,
+    verify,
+)
+from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
 
 WRONG = 12345
 """Stored beside every formula: to come back, a right value must have been computed."""
@@ -87,19 +100,17 @@ def recalculated(engine: Engine, workbook: Path) -> Recalculated:
     return result
 
 
-def test_engine_tells_its_version(engine: Engine) -> None:
+def test_an_engine_gives_each_value_as_documented(
+    engine: Engine, recalculated: Recalculated
+) -> None:
+    """Exact numbers, and no chart sheet."""
     major, minor, *_ = engine.version().split(".")
     assert (major + minor).isdigit()
-
-
-def test_numbers_are_exact(engine: Engine, recalculated: Recalculated) -> None:
-    error = LONG_DOUBLE_ERROR if engine.long_doubles else 0.0
+    assert list(recalculated) == ["Formulas", "It's & <odd>"]
+    assert recalculated["It's & <odd>"] == {"AB30": 6.0}
+    sheet, error = recalculated["Formulas"], LONG_DOUBLE_ERROR if engine.long_doubles else 0.0
     for place, (_, expected) in NUMBERS.items():
-        assert abs(recalculated["Formulas"][place] - expected) <= error * expected, place
-
-
-def test_other_values_are_as_documented(engine: Engine, recalculated: Recalculated) -> None:
-    sheet = recalculated["Formulas"]
+        assert abs(sheet[place] - expected) <= error * expected, place
     others = {place: value for place, (_, value) in OTHERS.items() if value is not None}
     typed = INPUTS | {"D1": "<b> & 'c'\nd ", "D2": True, "D3": 45000.0, "D4": "12"}
     assert {at: value for at, value in sheet.items() if at not in NUMBERS} == others | typed
@@ -108,27 +119,14 @@ def test_other_values_are_as_documented(engine: Engine, recalculated: Recalculat
     assert {type(sheet[place]) for place in ("C3", "C4", "D2")} == {boolean}
 
 
-def test_every_worksheet_with_values_is_there_but_no_chart_sheet(
-    recalculated: Recalculated,
-) -> None:
-    assert list(recalculated) == ["Formulas", "It's & <odd>"]
-    assert recalculated["It's & <odd>"] == {"AB30": 6.0}
-
-
-DAMAGES: dict[str, Callable[[bytes], bytes]] = {
-    "text": lambda _: b"a,b\n1,2\n",
-    "half": lambda whole: whole[:2000],
-}
-
-
-@pytest.mark.parametrize("damage", DAMAGES)
 def test_unreadable_file_is_a_one_line_error(
-    engine: Engine, tmp_path: Path, workbook: Path, damage: str
+    engine: Engine, tmp_path: Path, workbook: Path
 ) -> None:
     path = tmp_path / "damaged.xlsx"
-    path.write_bytes(DAMAGES[damage](workbook.read_bytes()))
-    with pytest.raises(EngineError, match=f"^{engine.name}: [^\n]+$"):
-        engine.recalculate(path)
+    for content in (b"a,b\n1,2\n", workbook.read_bytes()[:2000]):
+        path.write_bytes(content)
+        with pytest.raises(EngineError, match=f"^{engine.name}: [^\n]+$"):
+            engine.recalculate(path)
 
 
 def test_missing_engine_says_what_to_install(
@@ -193,3 +191,103 @@ def test_libreoffice_may_want_a_restart(
     real, started = shutil.which("soffice"), tmp_path / "started"
     engine = office(f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81')
     assert engine.recalculate(workbook)["Formulas"]["B1"] == 0.1 + 0.2
+
+
+# What they make of a workbook whose values are known
+
+SMALL = 0.1 + 0.2 - 0.29
+CELLS = {
+    "A1": Cell(key="a"),
+    "B1": Cell(key="small", formula="=A1+0.2-0.29", column="like"),
+    "B2": Cell(key="half", formula="=5*A1", column="like"),
+    "B3": Cell(key="log", formula="=LN(A1)", transcendental=True),
+    "B4": Cell(key="alone", formula="=A1*3"),
+}
+PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Empty")), title="t")
+VALUES = {"a": 0.1, "small": SMALL, "half": 0.5, "log": math.log(0.1), "alone": 0.1 * 3}
+EXPECTED = emit.cell_values(PLAN, VALUES)
+BOUND = 1e-14
+"""Of half, the largest of its column, 5e-15: so much may SMALL be off, too."""
+
+
+@pytest.fixture
+def check(tmp_path: Path) -> Callable[..., EngineCheck]:
+    """What is said of an engine that gives what is right, but for the cells it is told to give."""
+    path = tmp_path / "w.xlsx"
+    path.write_bytes(emit.to_bytes(PLAN, VALUES))
+
+    def check(
+        told: dict[str, Any], expected: dict[str, Any] = EXPECTED, **more: Any
+    ) -> EngineCheck:
+        surplus = tuple(("S", address, told[address]) for address in told.keys() - CELLS.keys())
+        cells = {**EXPECTED["S"], **told}
+        engine = Fake(
+            lambda s, at, value: cells[at] if s == "S" else value,
+            **{"surplus": surplus, **more},
+        )
+        return verify(path, PLAN, expected, engine, long_doubles=BOUND)
+
+    return check
+
+
+@pytest.mark.parametrize(
+    ("told", "tolerated"),
+    [
+        ({}, (True, True)),
+        # Just beyond the bound, of another kind, an input, or a cell that nobody planned.
+        ({"B2": 0.5 + 6e-15}, (False, False)),
+        ({"B1": SMALL + 6e-15}, (False, False)),
+        ({"B4": 0.3 + 4e-15}, (False, False)),
+        ({"B2": None}, (False, False)),
+        ({"B2": "0.5"}, (False, False)),
+        ({"B2": "#NUM!"}, (False, False)),
+        ({"A1": 0.1 + 2e-17}, (False, False)),
+        ({"Z9": 1.0}, (False, False)),
+        ({"B3": math.log(0.1) * (1 + 2e-14)}, (False, False)),
+        # What is small for a function, for its column, or for itself.
+        ({"B3": math.nextafter(math.log(0.1), 0.0)}, (True, True)),
+        ({"B2": math.nextafter(0.5, 1.0)}, (False, True)),
+        ({"B1": SMALL + 4e-15, "B2": 0.5 - 4e-15}, (False, True)),
+        ({"B4": 0.3 + 2e-15}, (False, True)),
+    ],
+    ids=str,
+)
+def test_one_wrong_cell_is_enough(
+    check: Callable[..., EngineCheck], told: dict[str, Any], tolerated: tuple[bool, bool]
+) -> None:
+    """One ulp of any cell but a function's is a difference, except to an engine of long doubles."""
+    for long_doubles, good in zip((False, True), tolerated, strict=True):
+        result = check(told, long_doubles=long_doubles)
+        assert (result.outcome, result.passed) == ("verified" if good else "differs", good)
+        assert [left.cell for left in result.wrong] == ([] if good else list(told))
+        assert (result.version, result.cells, result.rounded) == ("1.0", 4, len(told) * good)
+
+
+@pytest.mark.parametrize(
+    ("engine", "outcome", "reason"),
+    [
+        (Fake(told=lambda *_: 41.0), "echoes", "It verifies nothing: it gives stored"),
+        (Fake(reason="Install it."), "missing", "Install it."),
+        (Fake(failure="out of luck"), "failed", "fake: out of luck"),
+    ],
+)
+def test_an_engine_that_gives_no_values(
+    tmp_path: Path, engine: Fake, outcome: str, reason: str
+) -> None:
+    result = verify(tmp_path / "w.xlsx", PLAN, EXPECTED, engine, long_doubles=BOUND)
+    assert (result.outcome, result.passed, result.cells) == (outcome, outcome == "missing", 0)
+    assert (result.reason or "").startswith(reason)
+
+
+def test_a_sheet_that_is_lost_or_new_is_seen(check: Callable[..., EngineCheck]) -> None:
+    lost = {**EXPECTED, "Lost": {"A1": 1.0}}
+    assert check({}, lost).wrong == [Difference("Lost", "A1", 1.0, None)]
+    assert check({}, surplus=(("New", "A1", 1.0),)).wrong == [Difference("New", "A1", None, 1.0)]
+
+
+def test_empty_text_is_blank_and_only_named_cells_are_allowed_a_distance() -> None:
+    expected = {"S": {"A1": 10.0, "A2": 10.0, "A3": True}}
+    result = {"S": {"A1": 10.1, "A2": 10.1, "A3": True, "B1": ""}}
+    (left,) = compare(expected, result, {("S", "A1"): 0.2})
+    assert left == Difference("S", "A2", 10.0, 10.1)
+    assert len(compare(expected, result, {("S", "A1"): 0.05})) == 2  # it is not relative

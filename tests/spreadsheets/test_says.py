@@ -16,7 +16,7 @@ from replication.error import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Recalculated
 from spreadsheets.plan import NOT_COMPUTED, Value
-from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
+from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.figures import CURRENT, STALE
 from spreadsheets.sheets.inputs import INPUTS, MESSAGES
 from spreadsheets.sheets.steps import (
@@ -143,26 +143,23 @@ def pages(
     return {name: Page(emitted, values) for name, values in zip(names, result, strict=True)}
 
 
-def no_cell_ever_shows_an_error(pages: dict[str, Page]) -> None:
-    assert {name: list(page.errors)[:3] for name, page in pages.items() if [*page.errors]} == {}
-
-
-def what_is_typed_is_answered(pages: dict[str, Page]) -> None:
+def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
+    """One test for each program, which recalculates all the files once."""
+    report = pages["nothing"]
     for name, page in pages.items():
         said = TYPED[name][1]
+        assert [*page.errors][:3] == [], name
         assert {key: page[key] for key in said} == said, name
-
-
-def what_is_not_computed_is_called_so_and_not_wrong(pages: dict[str, Page]) -> None:
-    for name in (name for name in pages if TYPED[name][1].get("inputs.unusable")):
-        page = pages[name]
-        assert page.verdicts(OTHERWISE) <= FAILING, name
-        assert page["audit.sphere-length-ratio.verdict"] == AS_PRINTED  # it hangs on no input
-        assert page.verdicts(NOT_COMPUTED), name
-        assert page["audit.none"] == page["overview.audit_none"] == len(page.verdicts(NOT_COMPUTED))
-
-
-def only_what_hangs_on_an_input_goes_with_it(pages: dict[str, Page]) -> None:
+        # Whatever input was changed: the depth at rest alone would not tell a step or a stop.
+        same = name in ("nothing", "report", "not a cap", "no hardness")
+        assert page["convergence.message"] == (CURRENT if same else STALE), name
+        if said.get("inputs.unusable"):  # what is not computed is called so, and not wrong
+            missing = page.verdicts(NOT_COMPUTED)
+            assert page.verdicts(OTHERWISE) <= FAILING, name
+            assert page["audit.sphere-length-ratio.verdict"] == AS_PRINTED  # it hangs on no input
+            assert missing
+            assert page["audit.none"] == page["overview.audit_none"] == len(missing)
+    # Only what hangs on an input goes with it.
     assert pages["no hardness"].verdicts(NOT_COMPUTED) == {
         "brinell-beta", "beta-range-least", "beta-range-greatest",
     }  # fmt: skip
@@ -175,47 +172,24 @@ def only_what_hangs_on_an_input_goes_with_it(pages: dict[str, Page]) -> None:
     if "pascals" in pages:
         assert pages["pascals"]["audit.goodier-beta.verdict"] == AS_PRINTED
         assert pages["pascals"]["audit.walker-anderson-alpha.verdict"] == NOT_COMPUTED
-        assert pages["not a cap"]["high.depth_um"] == pages["nothing"]["high.depth_um"]
+        assert pages["not a cap"]["high.depth_um"] == report["high.depth_um"]
         assert pages["not a cap"]["audit.observed-depth.verdict"] == NOT_COMPUTED
-
-
-def the_ladder_says_whose_it_is(pages: dict[str, Page]) -> None:
-    """Whatever input was changed: the depth at rest alone would not tell a step or a stop."""
-    for name, page in pages.items():
-        same = name in ("nothing", "report", "not a cap", "no hardness")
-        assert page["convergence.message"] == (CURRENT if same else STALE), name
     for key in ("figure_3.high.message", "overview.high.message"):
         assert str(pages["another beta"][key]).startswith("β = 4: ")
-
-
-def the_switch_brings_the_reports_inputs_back(pages: dict[str, Page]) -> None:
-    page, report = pages["report"], pages["nothing"]
+    # The switch brings the report's inputs back.
     another = {*(f"inputs.{name}.typed" for name in TYPED["report"][0]), "inputs.from"}
-    for key in page.emitted.book.values:
-        assert key in another | {"inputs.message"} or page[key] == report[key], key
+    for key in report.emitted.book.values:
+        assert key in another | {"inputs.message"} or pages["report"][key] == report[key], key
 
 
-def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
-    """One test for each program, which recalculates all the files once."""
-    no_cell_ever_shows_an_error(pages)
-    what_is_typed_is_answered(pages)
-    what_is_not_computed_is_called_so_and_not_wrong(pages)
-    only_what_hangs_on_an_input_goes_with_it(pages)
-    the_ladder_says_whose_it_is(pages)
-    the_switch_brings_the_reports_inputs_back(pages)
-
-
-@pytest.mark.parametrize(
-    ("step", "kinds"),
-    [
+def test_doubts_are_those_of_the_command() -> None:
+    """Where the workbook, above, doubts its run: as it reverses, or for more."""
+    for step, kinds in (
         (0.2e-9, ["reversed"]),
         (12e-9, ["reversed", "coarse"]),  # though the depth is not beyond
         (40e-9, ["reversed", "coarse", "deep"]),
-    ],
-)
-def test_doubts_are_those_of_the_command(step: float, kinds: list[str]) -> None:
-    """Where the workbook, above, doubts its run: as it reverses, or for more."""
-    assert list(warnings(run(replace(BETA_5, step=step)))) == kinds
+    ):
+        assert list(warnings(run(replace(BETA_5, step=step)))) == kinds
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
