@@ -112,7 +112,7 @@ class _Diff:
         self.differences: list[Difference] = []
 
     def add(
-        self, kind: str, cells: Sequence[Position], was: object, now: object, text: str
+        self, kind: str, cells: Sequence[Position], was: Value | None, now: Value | None, text: str
     ) -> None:
         """Add a difference at the first of some cells; layout first, last digits last."""
         place, sheets = cells[0], list(self.after.book.sheets)
@@ -121,8 +121,7 @@ class _Diff:
             rank = (1, self.after.order.get(place, -1), kind == "value")
         if text.startswith(_LAST):
             rank = (2, *rank)
-        old, new = (v if isinstance(v, float | str) or v is None else str(v) for v in (was, now))
-        self.differences.append(Difference(place, kind, old, new, text, tuple(cells), rank))
+        self.differences.append(Difference(kind, tuple(cells), was, now, text, rank))
 
     # ---- where each cell has gone
 
@@ -203,7 +202,7 @@ class _Diff:
     def group(
         self,
         pairs: Sequence[tuple[Position, Position]],
-        compare: Callable[[Position, Position], tuple[object, object, str] | None],
+        compare: Callable[[Position, Position], tuple[Value | None, Value | None, str] | None],
         kind: str,
     ) -> None:
         """Differences of one kind, those of neighbouring cells in a column as one."""
@@ -214,7 +213,9 @@ class _Diff:
             more = f", also in {after} after it" if len(run) > 1 else ""
             self.add(kind, run, was, now, text + more)
 
-    def formulas(self, old: Position, new: Position) -> tuple[object, object, str] | None:
+    def formulas(
+        self, old: Position, new: Position
+    ) -> tuple[Value | None, Value | None, str] | None:
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
@@ -241,7 +242,7 @@ class _Diff:
         """Whether a cell that is gone, or was blank, is where another is read now."""
         return old not in self.before.values or (old == new and new not in self.there)
 
-    def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
+    def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
             if self.tolerance.equal(a, b):

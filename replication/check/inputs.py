@@ -32,8 +32,6 @@ from replication.models import crater
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-_ROUNDED = 12
-"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _MAX_CANDIDATES = 4_000
 _MAX_CHOICES = 64
 _FOLLOWS = {
@@ -295,7 +293,7 @@ def _settled(
 
 def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examination:
     """A table with these cells as inputs, and the report's where there are none."""
-    powers, slips = _powers(table, chosen)
+    powers = _powers(table, chosen)
     columns = {
         role: {
             k: scaled(value, Fraction(10) ** powers[role])
@@ -328,23 +326,11 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     rows = Rows(columns, case, REPORT)
-    return Examination(table, inputs, rows, case, powers, slips, negative, _digits(table))
+    return Examination(table, inputs, rows, case, powers, negative)
 
 
-def _digits(table: Table) -> int | None:
-    """How many digits the table's numbers have, if they are typed and rounded; else None."""
-    roles = [role for role in ("depth", "deceleration") if role in table.lines]
-    cells = [(role, k) for role in roles for k in range(1, table.steps + 1)]
-    if any(table.place(role, k) in table.calculation.formulas for role, k in cells):
-        return None
-    numbers = (number for role, k in cells if (number := table.number(role, k)))
-    texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
-    most = max((len(text.strip("0")) for text in texts), default=17)
-    return most if most <= _ROUNDED else None
-
-
-def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], dict[str, int]]:
-    """The power of ten of each column, and by how much the units of some heads contradict it.
+def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
+    """The power of ten of each column.
 
     The rows tie the units together: dx = v dt and dv = a dt. Of the powers that may be meant, those
     that contradict the fewest units named, then the fewest of these ties, then none at all, then
@@ -396,12 +382,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
         if step and named.get("time") is not None and "step" in inputs:
             against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
-        # Numbers that are all in SI as they stand are, if the step is a hundred times another.
-        odd = any(powers.values()) or slower > 0 or faster > 2
-        options.append(((against, untied, odd, slower + faster), powers))
-    powers = min(options, key=lambda option: option[0])[1]
-    off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
-    return powers, {role: power for role, power in off.items() if power}
+        options.append(((against, untied, slower + faster), powers))
+    return min(options, key=lambda option: option[0])[1]
 
 
 def _round(ratio: float) -> int:
@@ -489,7 +471,7 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
-        agreed = examination.following(case, intended)
+        agreed = replace(examination.following(case), intended=intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
             inputs = dict(examination.inputs)

@@ -5,11 +5,10 @@ from collections import Counter
 from typing import Any
 
 from replication.check.diff import Comparison
-from replication.check.examination import Difference, Examination
-from replication.check.table import address, area_of
+from replication.check.examination import Examination
+from replication.check.table import address
 from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check, HeldNumber
-from spreadsheets.foreign import Position
 
 
 def check_record(check: Check) -> dict[str, Any]:
@@ -19,8 +18,8 @@ def check_record(check: Check) -> dict[str, Any]:
         "verdict": _verdict(check),
         "clean": check.first is None,
         "summary": check.summary,
-        "first": check.first and _difference(check.first),
-        "differences": [_difference(d) for d in check.differences],
+        "first": check.first and check.first.record(),
+        "differences": [d.record() for d in check.differences],
         "taken": [_taken(f) for f in check.examinations],
         "final_depths": [_depth(f) for f in check.examinations],
         "claims": [_claim(number) for number in check.numbers],
@@ -41,8 +40,8 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
         "verdict": f"{verdict}." if differences else "Equal: every cell holds the same.",
         "clean": not differences,
         "summary": dict(Counter(d.kind for d in differences)),
-        "first": _difference(differences[0]) if differences else None,
-        "differences": [_difference(d) for d in differences],
+        "first": differences[0].record() if differences else None,
+        "differences": [d.record() for d in differences],
         "taken": [],
         "final_depths": [],
         "claims": [],
@@ -56,30 +55,6 @@ def _finite(value: Any) -> Any:
     if isinstance(value, list):
         return [_finite(entry) for entry in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _difference(difference: Difference) -> dict[str, Any]:
-    """One difference; `cells` is the range that it concerns, `count` how many cells."""
-    return {
-        "sheet": difference.place[0],
-        "cell": address(difference.place),
-        "kind": difference.kind,
-        "expected": difference.expected,
-        "found": difference.found,
-        "explanation": difference.explanation,
-        "cells": _range(difference.cells),
-        "count": len(difference.cells),
-        "final_depth": difference.effect,
-    }
-
-
-def _range(cells: tuple[Position, ...]) -> str:
-    """Some cells as one range, if they are one."""
-    sheets, rows, columns = (set(each) for each in zip(*cells, strict=True))
-    area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
-    if len(cells) != area or len(sheets) > 1:
-        return f"{address(cells[0])} and {count(len(cells) - 1, 'cell')} more"
-    return area_of(("", min(rows), min(columns)), ("", max(rows), max(columns)))
 
 
 def _verdict(check: Check) -> str:
@@ -138,7 +113,7 @@ def _taken(f: Examination) -> dict[str, Any]:
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": f.rules.name,
+        "scheme": f.rows.rules.name,
         "columns": {
             role: {
                 "cells": table.area(role),

@@ -25,6 +25,8 @@ _GAP = 3
 _ABOVE = 6
 """How far above its first number a line's head may stand."""
 _MAX_LINES = 60
+_ROUNDED = 12
+"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
 _CLOSE = 0.02
@@ -317,6 +319,18 @@ class Table:
         """Every cell of the table -> its role and row."""
         rows = range(self.steps + 1)
         return {self.place(role, k): (role, k) for role in self.lines for k in rows}
+
+    @cached_property
+    def digits(self) -> int | None:
+        """How many digits its numbers have, if they are typed and rounded; else None."""
+        lines = [line for role, line in self.lines.items() if role in ("depth", "deceleration")]
+        rows = range(self.zero + 1, self.zero + self.steps + 1)
+        if any(line.formula(at) for line in lines for at in rows):
+            return None
+        numbers = (number for line in lines for at in rows if (number := line.at(at)))
+        texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
+        most = max((len(text.strip("0")) for text in texts), default=17)
+        return most if most <= _ROUNDED else None
 
 
 def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:

@@ -283,12 +283,10 @@ def _unmet(numbers: Sequence[HeldNumber], f: Examination) -> Iterator[Difference
     for number in numbers:
         if not number.met:
             claim = number.claim
-            yield Difference(
-                number.place, "printed number", claim.text, number.found,
-                f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
-                f"({claim.place}), which stands for values in {claim.interval()}",
-                (number.place,), (3, *f.rank(number.place)),
-            )  # fmt: skip
+            text = f"the report prints {with_unit(claim.shown, claim.unit)} for {claim.title} "
+            text += f"({claim.place}), which stands for values in {claim.interval()}"
+            place, rank = (number.place,), (3, *f.rank(number.place))
+            yield Difference("printed number", place, claim.text, number.found, text, rank)
 
 
 # ---- stored values
@@ -326,12 +324,9 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
         more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
         ranks = [f.rank(run[0]) for f in examinations]
-        yield Difference(
-            run[0], "stale value", str(value) if isinstance(value, bool) else value,
-            str(stored) if isinstance(stored, bool) else stored,
-            f"the stored value is not what the formula gives{more}", tuple(run),
-            next((r for r in ranks if r[0] < 2), ranks[0]),  # of the table that it belongs to
-        )  # fmt: skip
+        rank = next((r for r in ranks if r[0] < 2), ranks[0])  # of the table that it belongs to
+        text = f"the stored value is not what the formula gives{more}"
+        yield Difference("stale value", tuple(run), value, stored, text, rank)
 
 
 def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
@@ -347,6 +342,5 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
     for reason, places in reasons.items():
         formulas = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}"
         formula = calculation.book[places[0]].formula
-        yield Difference(
-            places[0], "not calculated", None, formula, f"{formulas}: {reason}", tuple(places), (9,)
-        )
+        text = f"{formulas}: {reason}"
+        yield Difference("not calculated", tuple(places), None, formula, text, (9,))
