@@ -58,11 +58,6 @@ class Check:
         """The fault from which, in order of calculation, the rest follow."""
         return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
 
-    @property
-    def summary(self) -> dict[str, int]:
-        """How many differences of each kind."""
-        return dict(Counter(d.kind for d in self.differences))
-
 
 def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     """Check somebody's workbook of the scheme.

@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     check_files(options, options.file)
     from replication.check.examination import KINDS
-    from replication.check.record import check_record
+    from replication.check.show import check_record
     from replication.check.workbook import check
 
     mapping = {}

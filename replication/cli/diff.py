@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """Compare, and say what was found: 1 if anything differs."""
     check_files(options, options.first, options.second)
     from replication.check.diff import KINDS, Tolerance, diff
-    from replication.check.record import diff_record
+    from replication.check.show import diff_record
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     both = options.first, options.second

@@ -19,9 +19,8 @@ from hypothesis import strategies as st
 from replication.cases import BETA_3, BETA_5
 from replication.check.examination import KINDS
 from replication.check.inputs import report_inputs
-from replication.check.record import check_record
 from replication.check.scheme import BRAKES, REPORT, Case, march
-from replication.check.show import safe, text
+from replication.check.show import check_record, safe, text
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
@@ -152,7 +151,7 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
     result = check(written(f, tmp_path))
     (examination,) = result.examinations
     assert END not in examination.table.lines
-    assert examination.rules.name == "centered"
+    assert examination.rows.rules.name == "centered"
     assert result.first.place == (s, 7, 5)
 
 
