@@ -19,12 +19,11 @@ from typing import NamedTuple
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
 from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
-from spreadsheets.foreign import MAX_FORMULA, Book, Position, Value
+from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, MAX_FORMULA, Book, Position, Value
 
 MAX_DEPTH = 64
 """Levels of nesting in Excel. One engine ends the process at some thousands."""
 _MAX_EXPANSIONS = 200
-LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""

@@ -24,9 +24,9 @@ from spreadsheets.recalculation import Calculation, Piece, calculate
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
 
-LAST_DIGITS = 1e-14
-"""Relative distance within which only the last digits differ: files may keep 15 of them."""
-_LAST = "only the last digits of the values differ"
+LAST = "only the last digits of the values differ"
+_LAST_DIGITS = 1e-14
+"""Relative distance within which that is said: files may keep 15 of them."""
 
 _MAX_BLOCKS = 200
 _MAX_SIMILAR = 2_500
@@ -53,57 +53,37 @@ class Tolerance:
             return True
         if self.ulp and abs(a - b) <= self.ulp * math.ulp(max(abs(a), abs(b))):
             return True
-        return self.digits is not None and _print_alike(a, b, self.digits)
-
-
-def _print_alike(a: float, b: float, digits: int) -> bool:
-    """Whether two numbers have the same digits, or one is the other rounded, ties either way.
-
-    >>> _print_alike(9.476105709802965e-07, 9.47610570980297e-07, 15)
-    True
-    >>> _print_alike(10.037311494880546, 10.0373114948806, 15)
-    True
-    """
-    texts = [f"{number:.{digits - 1}e}" for number in (a, b)]
-    half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - digits}")
-    rounded = float(texts[0]) == a or float(texts[1]) == b
-    noise = 4 * Decimal(math.ulp(a))  # what was rounded may itself differ in its last bits
-    near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + noise
-    return texts[0] == texts[1] or (rounded and near)
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """What `coldspray diff` has found, in order of calculation.
-
-    Places are those of the second workbook, if it has them.
-    """
-
-    calculations: tuple[Calculation, Calculation]
-    differences: list[Difference]
-
-    @property
-    def last_digits(self) -> list[Difference]:
-        """The differences that only the last digits show."""
-        return [d for d in self.differences if d.explanation.startswith(_LAST)]
+        if self.digits is None:
+            return False
+        texts = [f"{number:.{self.digits - 1}e}" for number in (a, b)]
+        # One may be the other rounded, ties either way; that may itself differ in its last bits.
+        half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - self.digits}")
+        near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + 4 * Decimal(math.ulp(a))
+        rounded = float(texts[0]) == a or float(texts[1]) == b
+        return texts[0] == texts[1] or (rounded and near)
 
 
 def diff(
     a: Path, b: Path, *, values_only: bool = False, allowed: Tolerance | None = None
-) -> Comparison:
+) -> "Comparison":
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
-    before, after = calculate(read(a)), calculate(read(b))
-    comparison = _Diff(before, after, allowed or Tolerance())
+    comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
     comparison.layout()
-    pairs = sorted(comparison.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+    where = comparison.where
+    pairs = sorted(where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
     if not values_only:
         comparison.group(pairs, comparison.formulas, "formula")
     comparison.group(pairs, comparison.values, "value")
-    return Comparison((before, after), sorted(comparison.differences, key=lambda d: d.rank))
+    comparison.differences.sort(key=lambda d: d.rank)
+    return comparison
 
 
-class _Diff:
-    """Collects differences; `where` is where each cell of the first workbook is in the second."""
+class Comparison:
+    """What `coldspray diff` has found, in order of calculation, and where.
+
+    `where` is where each cell of the first workbook is in the second. Places of differences are
+    those of the second workbook, if it has them.
+    """
 
     def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
@@ -119,7 +99,7 @@ class _Diff:
         rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
         if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
             rank = (1, self.after.order.get(place, -1), kind == "value")
-        if text.startswith(_LAST):
+        if text.startswith(LAST):
             rank = (2, *rank)
         self.differences.append(Difference(kind, tuple(cells), was, now, text, rank))
 
@@ -131,13 +111,12 @@ class _Diff:
         for name in self.before.book.sheets:
             if name not in sheets:
                 self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
-            elif sheets[name] != name:
-                place = (sheets[name], 1, 1)
-                self.add("moved", [place], name, sheets[name], "the sheet is renamed")
         for name in self.after.book.sheets:
             if name not in sheets.values():
                 self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
         for name, partner in sheets.items():
+            if name != partner:
+                self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
             self.align(name, partner)
 
     def align(self, name: str, partner: str) -> None:
@@ -247,8 +226,8 @@ class _Diff:
         if isinstance(a, float) and isinstance(b, float):
             if self.tolerance.equal(a, b):
                 return None
-            small = math.isclose(a, b, rel_tol=LAST_DIGITS)
-            return a, b, _LAST if small else "the values differ"
+            small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
+            return a, b, LAST if small else "the values differ"
         return None if a == b else (a, b, "the contents differ")
 
 

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
-from replication.check.diff import Comparison
+from replication.check.diff import LAST, Comparison
 from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
 from replication.check.words import INPUTS, count, unit_text
@@ -52,13 +52,13 @@ def check_record(check: Check) -> dict[str, Any]:
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
     """The document of `coldspray diff --json`; `expected` is the first workbook's."""
-    differences = comparison.differences
+    differences, calculations = comparison.differences, (comparison.before, comparison.after)
     cells = sum(len(d.cells) for d in differences if d.kind in ("formula", "value"))
     verdict = f"{count(len(differences), 'difference')}, in the contents of {count(cells, 'cell')}"
-    if last := len(comparison.last_digits):
+    if last := sum(d.explanation.startswith(LAST) for d in differences):
         verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     verdict = f"{verdict}." if differences else "Equal: every cell holds the same."
-    return _record(comparison.calculations, verdict, differences, next(iter(differences), None))
+    return _record(calculations, verdict, differences, next(iter(differences), None))
 
 
 def _record(

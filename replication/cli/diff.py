@@ -38,8 +38,8 @@ def run(options: argparse.Namespace) -> int:
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     both = options.first, options.second
     comparison = diff(*both, values_only=options.values_only, allowed=allowed)
-    record, after = diff_record(comparison), comparison.calculations[1]
-    return put(options, record, comparison.differences, after, KINDS)
+    record = diff_record(comparison)
+    return put(options, record, comparison.differences, comparison.after, KINDS)
 
 
 def _share(text: str) -> float:
