@@ -166,10 +166,15 @@ _REFERENCES = (  # a cell or some, whole columns, whole rows
 )
 
 
+class _Tokenizer(Tokenizer):
+    SN_RE = re.compile(r"(?:\d+\.?\d*|\.\d+)[Ee]$")
+    """What stands before the sign of an exponent: openpyxl knows 2E-10, but not 0.2E-9 or 22E-6."""
+
+
 @lru_cache(maxsize=4096)
 def _tokens(text: str) -> tuple[Token, ...]:
     """The tokens of a formula; names mean the same again and again."""
-    return tuple(Tokenizer(text).items)
+    return tuple(_Tokenizer(text).items)
 
 
 class _Reader:

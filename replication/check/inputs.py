@@ -220,9 +220,13 @@ def _hinted(table: Table) -> Report:
 
 
 def _like_the_report(cell: Input, values: Iterable[float], role: str) -> bool:
-    """Whether it has the digits of the report's; a number without a unit has no other power."""
+    """Whether it has the digits of the report's; a number without a unit has no other power.
+
+    Nor has the stop velocity of 1 m/s: a power of ten is a factor between units.
+    """
     powers = (power_of_ten(cell.si / value) for value in values)
-    return any(p == 0 or (p is not None and INPUTS[role] != "1") for p in powers)
+    scalable = INPUTS[role] != "1" and role != "stop_velocity"
+    return any(p == 0 or (p is not None and scalable) for p in powers)
 
 
 def _distance(cell: Input, values: Iterable[float]) -> float:
@@ -292,8 +296,11 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
         for role in table.lines
     }
     brakes = columns.get("deceleration", {})
-    # By the first rows: where a motion goes wrong, its deceleration may change its sign.
-    negative = median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
+    # By the first rows: where a motion goes wrong, its deceleration may change its sign. If there
+    # the velocity rises, the sign is wrong.
+    speeds = list(islice((columns.get("velocity_initial") or columns["velocity_final"]).values(), 6))
+    slows = speeds[-1] < speeds[0]
+    negative = slows and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
     inputs = _completed(table, chosen, columns)

@@ -97,6 +97,9 @@ def _calibrate(f: Examination) -> None:
     for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
+        between = f.derived.get({"particle_density": "mass", "flow_stress": "resistance"}.get(role, ""))
+        if between and math.isclose(between.si, getattr(f.intended, between.role), rel_tol=1e-8):
+            continue  # the rows take it from a cell that has it right
         factor = Fraction(10) ** power
         value = scaled(own.si, factor)
         changed = f.following(f.case.with_input(role, value, float(factor)))
@@ -125,6 +128,7 @@ def _derived(f: Examination) -> None:
     rows, stated = replace(f.case, own_mass=None, own_diameter=None), f.intended
     if "beta" in known and "flow_stress" in known:
         stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
+        _product(f, known["beta"], known["flow_stress"], stated.resistance)
     for role, of in (
         ("diameter", ("radius",)),
         ("mass", ("radius", "particle_density")),
@@ -137,6 +141,24 @@ def _derived(f: Examination) -> None:
             continue
         if cell and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, getattr(stated, role), sources)
+
+
+def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
+    """A target resistance that the rows take, though the cells of its factors give another."""
+    used = f.inputs["resistance"]
+    if used.how not in ("rows", "formulas", "report") or math.isclose(used.si, stated, rel_tol=1e-6):
+        return
+    role, at = f.rows.shows("brake", 1)
+    cells = f.cells(role, at)
+    taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
+    where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
+    text = (
+        f"the rows take {taken} for the target resistance, {times} times the flow stress; "
+        f"beta is {beta.si:g} in {where}"
+    )
+    change = _changed("resistance", used.si, 1.0)
+    f.intended = f.intended.with_input("resistance", stated)
+    f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
 
 
 def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
@@ -179,6 +201,7 @@ def _other_inputs(f: Examination) -> None:
         role: own
         for role, own in f.inputs.items()
         if role in report and own.how not in ("report", "assumed", "follows")
+        if getattr(f.intended, role, own.si) == own.si
         if role != "mass" or lone_mass
         if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
     }
@@ -192,7 +215,9 @@ def _other_inputs(f: Examination) -> None:
             if INPUTS[name] == INPUTS[role] and any(_near(own.si, value) for value in values):
                 text += f"; {quantity(own.si, role)} is {title(name)} there"
         kind, change = "other input", None
-        if len(off) == 1 and (power := power_of_ten(own.si / nearest)):
+        # Units mostly lie a thousand apart; a tenth or ten times as much is a choice.
+        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
+        if power and power % 3 == 0:
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, own.si, own.si / nearest)
             f.intended = f.intended.with_input(role, nearest, nearest / own.si)

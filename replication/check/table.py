@@ -499,3 +499,24 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             return at if at < last - 1 and ended else last
     return last
+
+
+def results(table: Table) -> Iterator[tuple[str, Position]]:
+    """Cells beside or below a label that says final depth, or depth over radius.
+
+    A cell below it that numbers follow is the first of a list, not a result.
+    """
+    for (sheet, row, column), text in table.calculation.values.items():
+        kind = result_of(text) if isinstance(text, str) else None
+        if kind is not None:
+            for down, right in ((0, 1), (0, 2), (1, 0)):
+                place = (sheet, row + down, column + right)
+                inside = any(line.covers(place) for line in table.every_line)
+                after = (sheet, row + 2, column) if down else None
+                if (
+                    table.calculation.number(place) is not None
+                    and table.calculation.number(after) is None
+                    and not inside
+                ):
+                    yield kind, place
+                    break

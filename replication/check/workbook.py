@@ -240,7 +240,7 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
 
 def _results(f: Examination, case: str, alone: bool) -> Iterator[HeldNumber]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
-    cells = dict(_labelled(f.table)) if alone else {}
+    cells = dict(results(f.table)) if alone else {}
     depth = f.rows("depth", f.table.steps)
     if f.ends and depth is not None and "depth" not in cells:
         yield _judged(f"depth-{case}", f.table.place("depth", f.table.steps), Fraction(depth))
@@ -253,19 +253,6 @@ def _results(f: Examination, case: str, alone: bool) -> Iterator[HeldNumber]:
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
         elif kind == "ratio":
             yield _judged(f"ratio-{case}", place, Fraction(value))
-
-
-def _labelled(table: Table) -> Iterator[tuple[str, Position]]:
-    """Cells beside or below a label that says final depth, or depth over radius."""
-    for (sheet, row, column), text in table.calculation.values.items():
-        kind = result_of(text) if isinstance(text, str) else None
-        if kind is not None:
-            for down, right in ((0, 1), (0, 2), (1, 0)):
-                place = (sheet, row + down, column + right)
-                inside = any(line.covers(place) for line in table.every_line)
-                if table.calculation.number(place) is not None and not inside:
-                    yield kind, place
-                    break
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
