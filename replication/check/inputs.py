@@ -298,9 +298,9 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
     brakes = columns.get("deceleration", {})
     # By the first rows: where a motion goes wrong, its deceleration may change its sign. If there
     # the velocity rises, the sign is wrong.
-    speeds = list(islice((columns.get("velocity_initial") or columns["velocity_final"]).values(), 6))
-    slows = speeds[-1] < speeds[0]
-    negative = slows and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
+    speeds = columns.get("velocity_initial") or columns["velocity_final"]
+    first, *_, last = islice(speeds.values(), 4)
+    negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
     inputs = _completed(table, chosen, columns)

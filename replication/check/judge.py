@@ -33,7 +33,7 @@ from replication.check.scheme import (
     march,
     orders,
 )  # fmt: skip
-from replication.check.table import Line, Table, address, runs
+from replication.check.table import Line, Table, address, results, runs
 from replication.check.words import (
     INPUTS,
     power_of_ten,
@@ -89,6 +89,10 @@ def _changed(role: str, value: float, by: float) -> Change:
     return partial(Case.with_input, role=role, value=value, by=by)
 
 
+_BETWEEN = {"particle_density": "mass", "flow_stress": "resistance"}
+"""The cell by way of which the rows take an input."""
+
+
 def _calibrate(f: Examination) -> None:
     """An input that the rows take in another unit than its label says."""
     if f.agreement(BRAKES) >= 0.5:
@@ -97,9 +101,9 @@ def _calibrate(f: Examination) -> None:
     for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
-        between = f.derived.get({"particle_density": "mass", "flow_stress": "resistance"}.get(role, ""))
+        between = f.derived.get(_BETWEEN.get(role, "")) if own.unit else None
         if between and math.isclose(between.si, getattr(f.intended, between.role), rel_tol=1e-8):
-            continue  # the rows take it from a cell that has it right
+            continue  # it has its unit, and the rows take it from a cell that has it right
         factor = Fraction(10) ** power
         value = scaled(own.si, factor)
         changed = f.following(f.case.with_input(role, value, float(factor)))
@@ -146,7 +150,8 @@ def _derived(f: Examination) -> None:
 def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
     """A target resistance that the rows take, though the cells of its factors give another."""
     used = f.inputs["resistance"]
-    if used.how not in ("rows", "formulas", "report") or math.isclose(used.si, stated, rel_tol=1e-6):
+    solved = used.how in ("rows", "formulas", "report")
+    if not solved or math.isclose(used.si, stated, rel_tol=1e-6):
         return
     role, at = f.rows.shows("brake", 1)
     cells = f.cells(role, at)
@@ -655,13 +660,16 @@ def _stop(f: Examination) -> None:
         return  # the rules that the rows follow do not lead to the stop by themselves
     of = f"{whole:,}" if whole < MOST_ROWS else f"more than {MOST_ROWS:,}"
     text = f"{text.format('before')}: {steps} of {of} steps"
-    # With other inputs, or the report's other beta, rows prepared for those before run out, and an
-    # excerpt has few; but who leaves off shortly before the report does stops at another velocity.
+    # With other inputs, or the report's other beta, rows prepared for those before run out; an
+    # excerpt has few, none of which is called the final depth. But who leaves off shortly before
+    # the report does stops at another velocity.
     changed = any(difference.kind == "other input" for difference in f.differences)
     cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
     prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
     place = f.table.place(role, steps)
-    if changed or prepared or 2 * steps < whole:
+    named = (each for kind, each in results(f.table) if kind == "depth")
+    shown = any(a.corner in f.table.places for each in named for a in f.calculation.areas(each))
+    if changed or prepared or (2 * steps < whole and not shown):
         f.add("not calculated", [place], None, text)
     else:
         f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)

@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import pairwise, product
 from statistics import median
 
-from replication.check.words import COLUMNS, column_roles, is_unit, unit_in
+from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
 

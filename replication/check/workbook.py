@@ -12,9 +12,9 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.inputs import find, numbers_beside, report_inputs
-from replication.check.judge import judge
-from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
-from replication.check.words import COLUMNS, INPUTS, count, result_of
+from replication.check.judge import OTHER_STOP, judge
+from replication.check.table import LEAST, Line, address, lines, results, runs, tables
+from replication.check.words import COLUMNS, INPUTS, count
 from replication.reading import place as named
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
@@ -76,6 +76,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         examinations = [find(table, beside, cells) for table in read_tables]
     for f in examinations:
         judge(f)
+        _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
         *(d for v in examinations for d in v.differences),
@@ -253,6 +254,21 @@ def _results(f: Examination, case: str, alone: bool) -> Iterator[HeldNumber]:
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
         elif kind == "ratio":
             yield _judged(f"ratio-{case}", place, Fraction(value))
+
+
+def _misread(f: Examination) -> None:
+    """Results that do not read the last row of a table that ends as it should."""
+    steps, stops = f.table.steps, any(d.change == OTHER_STOP for d in f.differences)
+    for kind, place in results(f.table) if f.ends and not stops else ():
+        areas = (area for area in f.calculation.areas(place) if area.cells == 1)
+        read = (f.table.places.get(area.corner) for area in areas)
+        for role, k in filter(None, read):
+            if role == "depth" and k != steps:
+                what = "the final depth" if kind == "depth" else "the depth over the radius"
+                text = f"{what} reads row {k} of the table, not {steps}, its last"
+                wanted = f.table.place("depth", steps)
+                formula = f.calculation.book[place].formula
+                f.add("odd formula", [place], address(wanted), text, formula)
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
