@@ -30,10 +30,11 @@ from replication.check.scheme import (
     REPORT,
     Case,
     Rule,
+    contact,
     march,
     orders,
 )  # fmt: skip
-from replication.check.table import Line, Table, address, results, runs
+from replication.check.table import LEAST, Line, Table, address, results, runs
 from replication.check.words import (
     INPUTS,
     power_of_ten,
@@ -59,6 +60,7 @@ def judge(f: Examination) -> None:
         _derived(f)
     _other_inputs(f)
     if f.table.digits is None:
+        _drifting(f)
         _scheme(f)
         _each_cell(f)
         _typed_inputs(f)
@@ -287,7 +289,62 @@ def _plain(value: float) -> bool:
     return whole or value in (0.5, 1.5, 12.0) or power_of_ten(abs(value)) is not None
 
 
+# ---- references and areas: what beside the columns of the scheme spoils them
+
+
+def _drifting(f: Examination) -> None:
+    """References to a cell beside the table that move on from row to row, as no $ fixes them."""
+    lines, number = f.table.every_line, f.calculation.number
+    inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
+    for line in lines:
+        every = [(line.place(at), line.formula(at)) for at in range(line.first, line.last + 1)]
+        formulas = [(place, formula) for place, formula in every if formula is not None]
+        shape = formulas[-1][1].shape if formulas else ()
+        alike = [(place, formula) for place, formula in formulas if formula.shape == shape]
+        for pieces in zip(*(formula.pieces for _, formula in alike), strict=True):
+            read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
+            beside = [p for p in read if not any(each.covers(p) for each in lines)]
+            moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
+            strays = None in map(number, beside) or inputs & set(beside[1:])
+            if moves and strays and number(read[0]) is not None:
+                cells = [place for place, _ in alike[1:]]
+                cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
+                text = (
+                    f"its column reads {cell}, which no $ fixes: this row reads {here}, and so on"
+                )
+                f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
+
+
+_NO_CONTACT = "this area is not that of the contact at the depth of its row"
+
+
+def _area(f: Examination) -> tuple[Line, set[int]] | None:
+    """The column beside the table whose area brakes the rows, and the rows where it is wrong."""
+    if "deceleration" not in f.rows.columns:
+        return None
+    for line in f.table.helpers:
+        factors: dict[int, tuple[float, float]] = {}
+        for k in range(1, f.table.steps + 1):
+            x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
+            number = line.at(f.table.zero + k)
+            if x and v is not None and a is not None and number:
+                stress = 0.5 * f.case.target_density * v * v + f.case.resistance
+                force = a * f.case.mass / stress
+                factors[k] = force / number, force / (math.pi * contact(f.case, x))
+        unit = median([by for by, _ in factors.values()]) if len(factors) >= LEAST else 0.0
+        if power_of_ten(unit) is not None and all(_near(by, unit) for by, _ in factors.values()):
+            return line, {k for k, (_, share) in factors.items() if not _near(share, 1.0)}
+    return None
+
+
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
+
+
+def _is_explained(f: Examination, part: str) -> bool:
+    """Whether it is known already why the rows do not follow a rule of the scheme."""
+    place = f.table.place(*f.rows.shows(part, 3))
+    read = {place, *(area.corner for area in f.calculation.areas(place))}
+    return any(line.covers(p) for p in f.accused & read for line in f.table.every_line)
 
 
 def _scheme(f: Examination) -> None:
@@ -297,14 +354,16 @@ def _scheme(f: Examination) -> None:
         starts = (rule for rule in KNOWN["start"] if f.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT.start)
     unknown = []
-    for part in ("advance", "brake", "end"):
-        if part == "end" and "deceleration" not in f.table.lines:
-            continue  # the brake is known by it
+    # Without a column for the deceleration, the brake is known by the velocity that it makes.
+    parts = ("advance", "brake", "end") if "deceleration" in f.table.lines else ("advance", "brake")
+    for part in parts:
         own, *others = KNOWN[part]
         shares = {own: f.share(part, own)}
         if shares[own] < 0.9:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
+        if (best != own or shares[best] < 0.5) and _is_explained(f, part):
+            continue
         if shares[best] < 0.5:
             unknown.append(part)
         else:
@@ -340,18 +399,23 @@ def _named(f: Examination) -> None:
         role, at = rows.shows(part, first)
         wanted = rows.wanted(role, at) if role == fills else None
         cells = f.cells(role, at, at if part == "start" else None)
+        if part == "brake" and (area := _area(f)) and area[1]:
+            line, rows_off = area
+            cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
         text = f"{rule.name}: {rule.says}"
         f.add("other scheme", cells, f.shown(role, wanted), text, change={part: rule})
 
 
 def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
-    own = f.table.lines[role]
+    area = _area(f) if part == "brake" else None
+    own = area[0] if area and area[1] else f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
-        return "other scheme", "these cells follow no scheme that this program knows", own
+        text = "these cells follow no scheme that this program knows"
+        return "other scheme", text if own in f.table.lines.values() else _NO_CONTACT, own
     what, base, constant = "step", f.case.step, "the time step"
     if part == "brake":
         what, base, constant = "force", math.pi, "pi"
@@ -429,6 +493,7 @@ def _each_cell(f: Examination) -> None:
     read = {area.corner for area in areas if area.cells == 1}
     spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
     wrong: dict[Position, tuple[str, str, float | None]] = {}
+    area = _area(f)
     for place, (role, k) in f.table.places.items():
         expected = f.rows.wanted(role, k)
         if place in odd:
@@ -443,6 +508,9 @@ def _each_cell(f: Examination) -> None:
             continue
         elif _fails(f, role, k, expected, place in read):
             kind, text = _lone(f, role, k, expected)
+            if area and role == "deceleration" and k in area[1]:
+                place, expected = area[0].place(f.table.zero + k), None
+                text = _NO_CONTACT
         else:
             continue
         value = f.rows.columns[role].get(k)
