@@ -64,6 +64,7 @@ def judge(f: Examination) -> None:
         _scheme(f)
         _each_cell(f)
         _typed_inputs(f)
+        _texts(f)
         _order(f)
     else:
         _as_rounded(f, f.table.digits)
@@ -258,6 +259,15 @@ def _typed_inputs(f: Examination) -> None:
             where = address(own.place, with_sheet=own.place[0] != cells[0][0])
             text = f"{title(own.role)} is typed into {title(role)}: a change of {where} is lost"
             f.add("typed constant", cells, where, text, formula)
+
+
+def _texts(f: Examination) -> None:
+    """Numbers that stand as texts in cells that the rows read."""
+    cells = f.calculation.texts.keys() & (f.read | f.table.places.keys())
+    for place in sorted(cells - f.accused):
+        text = f.calculation.texts[place]
+        says = "it is a text, not a number: not every program calculates with it"
+        f.add("typed number", [place], float(text), says, repr(text))
 
 
 def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) -> bool:
@@ -574,7 +584,8 @@ def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, 
             if shapes[place] != usual:
                 yield place, _odd(formulas[place], pattern, calculation)
         elif (typed := calculation.values.get(place)) is not None:
-            what = _WHAT.get(type(typed), "a number")
+            kind = str if place in calculation.texts else type(typed)
+            what = _WHAT.get(kind, "a number")
             stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
             yield place, ("typed number", stand)
 
