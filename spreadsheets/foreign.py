@@ -286,12 +286,6 @@ class _Reader:
                     raise WorkbookError(_TOO_MUCH)
                 yield chunk
 
-    def count(self, formula: bool) -> None:
-        self.cells += 1
-        self.formulas += formula
-        if self.cells > MAX_CELLS or self.formulas > MAX_FORMULAS:
-            raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
-
 
 class _Tree(ET.TreeBuilder):
     """A part as a tree; elements with one of these names are taken out of it as they end."""
@@ -350,7 +344,10 @@ class _Sheet:
             formula = None if own is None else self.formula(own)
             value = self.value(kind, parts)
             if formula is not None or value is not None:
-                self.reader.count(formula is not None)
+                self.reader.cells += 1
+                self.reader.formulas += formula is not None
+                if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
+                    raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
                 array = own is not None and own.get("t") in ("array", "dataTable")
                 self.cells[self.row, self.column] = Cell(formula, value, kind == "e", array)
 

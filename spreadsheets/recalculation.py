@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import accumulate
 from typing import NamedTuple
 
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
@@ -142,13 +143,10 @@ class Formula:
 def parse(text: str, place: Position, book: Book) -> Formula:
     """Read a formula at its place in a book. Never fails: what cannot be read is an obstacle."""
     reader = _Reader(place, book)
-    depth = deepest = 0
-    for character in text if len(text) > MAX_DEPTH else "":
-        depth += (character in "([{") - (character in ")]}")
-        deepest = max(deepest, depth)
+    depths = accumulate((character in "([{") - (character in ")]}") for character in text)
     if len(text) > MAX_FORMULA:
         reader.obstacle = f"it has more than {MAX_FORMULA:,} characters"
-    elif deepest > MAX_DEPTH:
+    elif len(text) > MAX_DEPTH < max(depths):
         reader.obstacle = f"it is nested more than {MAX_DEPTH} levels deep"
     else:
         with suppress(TokenizerError, IndexError, ValueError):

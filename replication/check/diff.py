@@ -6,7 +6,7 @@ inserted row is one, and each formula is compared with where its references have
 """
 
 import math
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
@@ -16,7 +16,7 @@ from pathlib import Path
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.examination import Difference
-from replication.check.table import area_of, runs
+from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, Piece, calculate
@@ -29,8 +29,7 @@ _LAST_DIGITS = 1e-14
 """Relative distance within which that is said: files may keep 15 of them."""
 
 _MAX_BLOCKS = 200
-_MAX_SIMILAR = 2_500
-"""Blocks to look for elsewhere, and pairs of lines to compare with each other."""
+"""Blocks to look for elsewhere."""
 
 Cell = tuple[int, int]
 
@@ -144,10 +143,9 @@ class Comparison:
             # It stands elsewhere if the same cells are there at the same distances.
             new_block = by_form.pop(_form(block, left), None)
             if new_block is not None:
-                (row, column), (new_row, new_column) = _corner(block), _corner(new_block)
-                for r, c in block:
-                    put((r, c), (r - row + new_row, c - column + new_column))
-                was, now = _span(block), _span(new_block)
+                for cell, there in zip(block, new_block, strict=True):
+                    put(cell, there)
+                was, now = span(block), span(new_block)
                 if was != now:  # else only its rows or columns were not known again
                     cells = [(partner, *cell) for cell in new_block]
                     self.add("moved", cells, was, now, f"{was} now stands at {now}")
@@ -159,7 +157,7 @@ class Comparison:
     def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
         """Cells that only one of two sheets has, block by block."""
         for block in _blocks(cells):
-            was, now = (None, _span(block)) if kind == "added" else (_span(block), None)
+            was, now = (None, span(block)) if kind == "added" else (span(block), None)
             are = "is" if len(block) == 1 else "are"
             text = f"{count(len(block), 'cell')} {are} {what}"
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
@@ -297,28 +295,12 @@ def _matched(
     for tag, i1, i2, j1, j2 in SequenceMatcher(None, gone, come).get_opcodes():
         if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
             pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
-        elif tag == "replace" and (i2 - i1) * (j2 - j1) <= _MAX_SIMILAR:
-            similar = _similar(gone[i1:i2], come[j1:j2])
-            pairs += [(start + i1 + i, start + j1 + j) for i, j in similar]
     return {a[i]: b[j] for i, j in sorted(pairs)}
 
 
 def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
     """How many entries two lists have in common before the first that differs."""
     return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
-
-
-def _similar(
-    old: Sequence[tuple[str, ...]], new: Sequence[tuple[str, ...]]
-) -> Iterator[tuple[int, int]]:
-    """Lines of two lists that are mostly the same, in their order."""
-    after = 0
-    for i, line in enumerate(old):
-        for j in range(after, len(new)):
-            if line and SequenceMatcher(None, line, new[j]).ratio() > 0.5:
-                yield i, j
-                after = j + 1
-                break
 
 
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
@@ -341,14 +323,5 @@ def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
 
 def _form(block: Sequence[Cell], cells: Mapping[Cell, str]) -> frozenset[tuple[int, int, str]]:
     """A block by its cells' distances from its corner and what they are."""
-    top, left = _corner(block)
+    top, left = block[0][0], min(column for _, column in block)
     return frozenset((row - top, column - left, cells[row, column]) for row, column in block)
-
-
-def _corner(block: Sequence[Cell]) -> Cell:
-    return min(row for row, _ in block), min(column for _, column in block)
-
-
-def _span(block: Sequence[Cell]) -> str:
-    last = max(row for row, _ in block), max(column for _, column in block)
-    return area_of(("", *_corner(block)), ("", *last))

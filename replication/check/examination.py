@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule
-from replication.check.table import Table, address, area_of
+from replication.check.table import Table, address, span
 from replication.check.words import COLUMNS, count, scaled
 from spreadsheets.foreign import Position, Value
 
@@ -52,7 +52,7 @@ class Difference:
         """As JSON has it; `cells` is the range that it concerns, `count` how many cells."""
         sheets, rows, columns = (set(each) for each in zip(*self.cells, strict=True))
         area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
-        cells = area_of(("", min(rows), min(columns)), ("", max(rows), max(columns)))
+        cells = span(cell[1:] for cell in self.cells)
         if len(self.cells) != area or len(sheets) > 1:
             cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
         expected, found = (

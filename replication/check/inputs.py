@@ -247,7 +247,10 @@ def _as_role(cell: Input, role: str, report: Report) -> Input:
         factor = to_si(cell.unit)
     elif INPUTS[role] != "1" and role in report and cell.si > 0:
         ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
-        same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
+        odd = () if INPUTS[role] == "Pa" else (-1, 1)
+        powers = (power_of_ten(ratio) for ratio in ratios)
+        # Ten times another is no unit but that of pressure, dyn/cm² in Pa.
+        same = next((p for p in powers if p is not None and p not in odd), None)
         factor = Fraction(10) ** (_thousands(ratios[0]) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
 

@@ -592,7 +592,7 @@ def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, 
 
 def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
     """Whether a formula unlike its column has a number where the others have a reference."""
-    text = _short(calculation.book[formula.place].formula or "")
+    text = calculation.book[formula.place].formula
     usual = _filled(pattern, formula.place, calculation)
     typed = Counter(formula.literals) - Counter(pattern.literals)
     if typed and len(formula.areas) < len(pattern.areas):
@@ -608,12 +608,7 @@ def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
     text = calculation.book[pattern.place].formula or ""
     with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
         text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
-    return _short(text)
-
-
-def _short(text: str) -> str:
-    """A formula, cut where it would fill the screen."""
-    return text if len(text) <= 90 else f"{text[:87]}..."
+    return text
 
 
 def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:

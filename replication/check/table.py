@@ -186,9 +186,15 @@ def address(place: Position, with_sheet: bool = False) -> str:
     return f"{quoted}!{cell}" if with_sheet else cell
 
 
-def area_of(first: Position, last: Position) -> str:
-    """The cells from one to another, as an address without the sheet."""
-    return address(first) if first == last else f"{address(first)}:{address(last)}"
+def span(cells: Iterable[tuple[int, int]]) -> str:
+    """The area that reaches over cells, each by row and column, as an address.
+
+    >>> span([(9, 4), (8, 5)]), span([(1, 1)])
+    ('D8:E9', 'A1')
+    """
+    rows, columns = zip(*cells, strict=True)
+    corners = (("", end(rows), end(columns)) for end in (min, max))
+    return ":".join(dict.fromkeys(map(address, corners)))
 
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
@@ -267,7 +273,7 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 # ---- tables
 
 
-@dataclass(frozen=True)
+@dataclass
 class Table:
     """One run of the scheme: its columns by role, and the row of the sheet that is its row 0.
 
@@ -280,25 +286,10 @@ class Table:
     steps: int
     helpers: tuple[Line, ...] = ()
 
-    @property
-    def calculation(self) -> Calculation:
-        """The workbook that it stands in."""
-        return self.lines["depth"].calculation
-
-    @property
-    def sheet(self) -> str:
-        """The sheet that it stands on."""
-        return self.lines["depth"].sheet
-
-    @property
-    def across(self) -> bool:
-        """Whether its steps run to the right."""
-        return self.lines["depth"].across
-
-    @property
-    def every_line(self) -> tuple[Line, ...]:
-        """Its columns, and those beside them."""
-        return (*self.lines.values(), *self.helpers)
+    def __post_init__(self) -> None:
+        depth = self.lines["depth"]
+        self.calculation, self.sheet, self.across = depth.calculation, depth.sheet, depth.across
+        self.every_line = (*self.lines.values(), *self.helpers)
 
     def place(self, role: str, k: int) -> Position:
         """The cell of a role in row k."""
@@ -312,7 +303,7 @@ class Table:
         """The cells of a role, as an address."""
         every = range(self.steps + 1)
         rows = [k for k in every if self.number(role, k) is not None] or every
-        return area_of(self.place(role, rows[0]), self.place(role, rows[-1]))
+        return span(self.place(role, k)[1:] for k in (rows[0], rows[-1]))
 
     @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:

@@ -220,6 +220,7 @@ def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -
 )  # fmt: skip
 @settings(max_examples=12, deadline=None)
 @example(velocity=500, radius=11e-6, densities=8000, strength=3.5e9, share=1.8e-4)  # 4 ps
+@example(velocity=100, radius=11e-5, densities=2000, strength=3e7, share=8e-3)
 def test_a_right_sheet_of_other_inputs_is_clean(
     tmp_path_factory: pytest.TempPathFactory,
     velocity: float, radius: float, densities: float, strength: float, share: float,
