@@ -148,7 +148,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
 
 def _set_up(page: Any, sheet: SheetPlan) -> None:
-    """Scrolling, column widths, row heights and print set-up."""
+    """Scrolling, column widths and print set-up."""
     page.hide_gridlines(2)
     if sheet.frozen:
         page.freeze_panes(sheet.frozen)

@@ -13,14 +13,14 @@ import subprocess
 import zipfile
 import zlib
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 from posixpath import join, normpath
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
 from openpyxl.formula.translate import Translator, TranslatorError
@@ -40,8 +40,9 @@ MAX_ENTRIES = 10_000
 MAX_CELLS = 400_000
 MAX_FORMULAS = 60_000
 """A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
-MAX_PART = 8 * 2**20
-"""Bytes of a part that is held as a tree: the list of sheets, names, relations."""
+MAX_ELEMENTS = 4_000_000
+"""Elements of a part's XML: a sheet has four for a cell with a formula, at most."""
+LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 MAX_TEXT = 32_767
 """Characters of a cell in Excel."""
 MAX_FORMULA = 8_192
@@ -126,14 +127,18 @@ def read(path: Path) -> Book:
     if path.stat().st_size > MAX_FILE:
         raise WorkbookError(f"{path}: has more than {MAX_FILE >> 20} MB; {_LIMITS}")
     if _is_xlsx(path):
-        return _read(path)
+        with _opened(path, path) as reader:
+            return reader.book()
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             sealed = file.read(len(_SEALED)) == _SEALED
         what = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
         raise WorkbookError(f"{path}: {what}; give an .xlsx or .xlsm file without a password")
-    with TemporaryDirectory(prefix="coldspray-") as folder:
-        book = _read(_converted(path, Path(folder)), shown=path)
+    with (
+        TemporaryDirectory(prefix="coldspray-") as folder,
+        _opened(_converted(path, Path(folder)), path) as reader,
+    ):
+        book = reader.book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     return Book(path, book.sheets, book.names, (note, *book.notes))
 
@@ -142,12 +147,6 @@ def _is_xlsx(path: Path) -> bool:
     with suppress(zipfile.BadZipFile, zlib.error, ValueError), zipfile.ZipFile(path) as archive:
         return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
     return False
-
-
-def _read(path: Path, shown: Path | None = None) -> Book:
-    shown = shown or path
-    with _opened(path, shown) as reader:
-        return reader.book()
 
 
 @contextmanager
@@ -219,7 +218,9 @@ class _Reader:
         main = next((p for k, p in root.values() if k == "officeDocument"), "xl/workbook.xml")
         tree, related = self.tree(main), self.relations(main)
         strings = next((p for k, p in related.values() if k == "sharedStrings"), None)
-        texts = self.parse(strings, _Strings()) if strings in self.parts else []
+        texts: list[str] = []
+        if strings in self.parts:
+            self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
         tables: dict[str, _Table] = {}
         names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
@@ -228,7 +229,9 @@ class _Reader:
             kind, part = related[identity]
             if kind == "worksheet":
                 name = sheet.attrib["name"]
-                sheets[name] = self.parse(part, _Sheet(self, texts))
+                cells = _Sheet(self, texts)
+                self.tree(part, _Tree(row=cells.take))
+                sheets[name] = cells.filled()
                 tables |= self.tables(part, name)
         if not sheets:
             raise WorkbookError("has no worksheet")
@@ -268,76 +271,58 @@ class _Reader:
             if r.attrib.get("TargetMode") != "External"
         }
 
-    def tree(self, part: str) -> ET.Element:
-        return cast(ET.Element, self.parse(part, _Tree(), MAX_PART))
-
-    def parse(self, part: str, target: Any, limit: int = MAX_UNPACKED) -> Any:
-        """Feed a part to a target."""
-        parser = ET.XMLParser(target=target)
-        for chunk in self.chunks(part, limit):
+    def tree(self, part: str, tree: "_Tree | None" = None) -> ET.Element:
+        parser = ET.XMLParser(target=tree or _Tree())
+        for chunk in self.chunks(part):
             parser.feed(chunk)
         return parser.close()
 
-    def chunks(self, part: str, limit: int = MAX_UNPACKED) -> Iterator[bytes]:
+    def chunks(self, part: str) -> Iterator[bytes]:
         """What a part unpacks to, counting what comes out of the archive, not what it says."""
-        taken = 0
         with self.archive.open(self.parts[part]) as stream:
             while chunk := stream.read(2**16):
                 self.left -= len(chunk)
-                taken += len(chunk)
-                if self.left < 0 or taken > limit:
+                if self.left < 0:
                     raise WorkbookError(_TOO_MUCH)
                 yield chunk
 
-    def count(self, formula: bool) -> None:
-        self.cells += 1
-        self.formulas += formula
-        if self.cells > MAX_CELLS or self.formulas > MAX_FORMULAS:
-            raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
 
+class _Tree(ET.TreeBuilder):
+    """A part as a tree; elements with one of these names are taken out of it as they end."""
 
-class _Refusing:
+    def __init__(self, **takers: Callable[[ET.Element], object]) -> None:
+        super().__init__()
+        self.takers, self.elements = takers, 0
+
     def doctype(self, *_: object) -> None:
         raise WorkbookError("is refused: its XML declares a document type, which no workbook needs")
 
+    def start(self, tag: Any, attributes: Any) -> ET.Element:
+        self.elements += 1
+        if self.elements > MAX_ELEMENTS:
+            raise WorkbookError(_TOO_MUCH)
+        return super().start(tag, attributes)
 
-class _Tree(_Refusing, ET.TreeBuilder):
-    pass
-
-
-class _Strings(_Refusing):
-    """The shared strings, without what is said about their pronunciation."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-        self.pieces: list[str] = []
-        self.taking = self.aside = False
-
-    def start(self, tag: str, _: Mapping[str, str]) -> None:
-        name = tag.rpartition("}")[2]
-        if name == "si":
-            self.pieces = []
-        self.aside = self.aside or name == "rPh"
-        self.taking = name == "t" and not self.aside
-
-    def data(self, text: str) -> None:
-        if self.taking:
-            self.pieces.append(text)
-
-    def end(self, tag: str) -> None:
-        name = tag.rpartition("}")[2]
-        self.taking = False
-        if name == "rPh":
-            self.aside = False
-        if name == "si":
-            self.texts.append("".join(self.pieces)[:MAX_TEXT])
-
-    def close(self) -> list[str]:
-        return self.texts
+    def end(self, tag: Any) -> ET.Element:
+        element = super().end(tag)
+        if taker := self.takers.get(_name(element)):
+            taker(element)
+            element.clear()
+        return element
 
 
-class _Sheet(_Refusing):
-    """The cells of a worksheet."""
+def _name(element: ET.Element) -> str:
+    return element.tag.rpartition("}")[2]
+
+
+def _text(string: ET.Element) -> str:
+    """A string of one or several pieces, without what is said about their pronunciation."""
+    pieces = (piece for part in string if _name(part) != "rPh" for piece in part.iter())
+    return "".join(piece.text or "" for piece in pieces if _name(piece) == "t")[:MAX_TEXT]
+
+
+class _Sheet:
+    """Collects the cells of a worksheet, row by row."""
 
     def __init__(self, reader: _Reader, texts: list[str]) -> None:
         self.reader, self.texts = reader, texts
@@ -345,50 +330,33 @@ class _Sheet(_Refusing):
         self.masters: dict[str, tuple[str, str]] = {}
         self.arrays: list[tuple[str, str]] = []
         self.row = self.column = 0
-        self.kind = "n"
-        self.formula: Mapping[str, str] | None = None
-        self.pieces: dict[str, list[str]] = {}
-        self.tag = ""
-        self.inside = False
 
-    def start(self, tag: str, attributes: Mapping[str, str]) -> None:
-        name = tag.rpartition("}")[2]
-        if name == "row":
-            self.row, self.column = int(attributes.get("r", self.row + 1)), 0
-        elif name == "c":
+    def take(self, row: ET.Element) -> None:
+        self.row, self.column = int(row.get("r", self.row + 1)), 0
+        for cell in row:
             self.column += 1
-            if address := attributes.get("r"):
+            if address := cell.get("r"):
                 self.row, self.column = _corner(address)
-            if not (0 < self.row <= 1_048_576 and 0 < self.column <= 16_384):
+            if not (0 < self.row <= LAST_ROW and 0 < self.column <= LAST_COLUMN):
                 raise WorkbookError(f"is damaged: no cell can be at {address!r}")
-            self.kind = attributes.get("t", "n")
-            self.formula, self.pieces, self.inside = None, {}, True
-        elif self.inside and name == "f":
-            self.formula = dict(attributes)
-        self.tag = name if self.inside else ""
-
-    def data(self, text: str) -> None:
-        if self.tag in ("v", "f", "t"):
-            self.pieces.setdefault(self.tag, []).append(text)
-
-    def end(self, tag: str) -> None:
-        self.tag = ""
-        if tag.rpartition("}")[2] == "c" and self.inside:
-            self.inside = False
-            formula, (value, error) = self.filled(), self.value()
+            kind, parts = cell.get("t", "n"), {_name(part): part for part in cell}
+            own = parts.get("f")
+            formula = None if own is None else self.formula(own)
+            value = self.value(kind, parts)
             if formula is not None or value is not None:
-                self.reader.count(formula is not None)
-                array = self.formula is not None and self.formula.get("t") in ("array", "dataTable")
-                self.cells[self.row, self.column] = Cell(formula, value, error, array)
+                self.reader.cells += 1
+                self.reader.formulas += formula is not None
+                if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
+                    raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
+                array = own is not None and own.get("t") in ("array", "dataTable")
+                self.cells[self.row, self.column] = Cell(formula, value, kind == "e", array)
 
-    def filled(self) -> str | None:
-        """The cell's formula; a shared one, filled into the cell."""
-        if self.formula is None:
-            return None
-        text = "".join(self.pieces.get("f", ()))[: MAX_FORMULA + 1]
-        kind, here = self.formula.get("t"), f"{get_column_letter(self.column)}{self.row}"
+    def formula(self, element: ET.Element) -> str | None:
+        """A cell's formula; a shared one, filled into the cell."""
+        text = (element.text or "")[: MAX_FORMULA + 1]
+        kind, here = element.get("t"), f"{get_column_letter(self.column)}{self.row}"
         if kind == "shared":
-            index = self.formula.get("si", "")
+            index = element.get("si", "")
             if text:
                 self.masters[index] = text, here
             elif index in self.masters:
@@ -398,26 +366,28 @@ class _Sheet(_Refusing):
                 except TranslatorError as error:
                     raise WorkbookError(f"is damaged: {error} at {here}") from error
         if kind == "array" and text:
-            self.arrays.append((self.formula.get("ref", here), f"={text}"))
+            self.arrays.append((element.get("ref", here), f"={text}"))
         return f"={text}" if text else None
 
-    def value(self) -> tuple[Value | None, bool]:
-        """The cell's value, and whether it is an error."""
-        text = "".join(self.pieces.get("t" if self.kind == "inlineStr" else "v", ()))
-        match self.kind if text else "":
-            case "":
-                return None, False
+    def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:
+        """A cell's value."""
+        if kind == "inlineStr":
+            return (_text(parts["is"]) if "is" in parts else "") or None
+        text = (parts["v"].text if "v" in parts else None) or ""
+        if not text:
+            return None
+        match kind:
             case "s":
-                return self.texts[int(text)] or None, False
+                return self.texts[int(text)] or None
             case "b":
-                return text.strip() not in ("0", "false"), False
-            case "e" | "str" | "d" | "inlineStr":
-                return text[:MAX_TEXT], self.kind == "e"
+                return text.strip() not in ("0", "false")
+            case "e" | "str" | "d":
+                return text[:MAX_TEXT]
         number = float(text)
         # A writer that stores nan or inf stores what no engine reads: the same as nothing.
-        return (number, False) if math.isfinite(number) else (None, False)
+        return number if math.isfinite(number) else None
 
-    def close(self) -> dict[tuple[int, int], Cell]:
+    def filled(self) -> dict[tuple[int, int], Cell]:
         """The cells, with the text of an array formula in each cell that it fills."""
         for ref, text in self.arrays:
             left, top, right, bottom = (end or 1 for end in range_boundaries(ref))

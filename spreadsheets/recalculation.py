@@ -14,17 +14,17 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import accumulate
 from typing import NamedTuple
 
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
 from openpyxl.utils.cell import column_index_from_string, get_column_letter
 
-from spreadsheets.foreign import MAX_FORMULA, Book, Position, Value
+from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, MAX_FORMULA, Book, Position, Value
 
 MAX_DEPTH = 64
 """Levels of nesting in Excel. One engine ends the process at some thousands."""
 _MAX_EXPANSIONS = 200
-LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 
 MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
@@ -143,13 +143,10 @@ class Formula:
 def parse(text: str, place: Position, book: Book) -> Formula:
     """Read a formula at its place in a book. Never fails: what cannot be read is an obstacle."""
     reader = _Reader(place, book)
-    depth = deepest = 0
-    for character in text if len(text) > MAX_DEPTH else "":
-        depth += (character in "([{") - (character in ")]}")
-        deepest = max(deepest, depth)
+    depths = accumulate((character in "([{") - (character in ")]}") for character in text)
     if len(text) > MAX_FORMULA:
         reader.obstacle = f"it has more than {MAX_FORMULA:,} characters"
-    elif deepest > MAX_DEPTH:
+    elif len(text) > MAX_DEPTH < max(depths):
         reader.obstacle = f"it is nested more than {MAX_DEPTH} levels deep"
     else:
         with suppress(TokenizerError, IndexError, ValueError):
@@ -167,10 +164,15 @@ _REFERENCES = (  # a cell or some, whole columns, whole rows
 )
 
 
+class _Tokenizer(Tokenizer):
+    SN_RE = re.compile(r"(?:\d+\.?\d*|\.\d+)[Ee]$")  # type: ignore[misc]  # there it is final
+    """What stands before the sign of an exponent: openpyxl knows 2E-10, but not 0.2E-9 or 22E-6."""
+
+
 @lru_cache(maxsize=4096)
 def _tokens(text: str) -> tuple[Token, ...]:
     """The tokens of a formula; names mean the same again and again."""
-    return tuple(Tokenizer(text).items)
+    return tuple(_Tokenizer(text).items)
 
 
 class _Reader:
@@ -259,13 +261,15 @@ class Calculation:
     """A book, its formulas parsed, and the value of every cell.
 
     `values` holds what each cell is worth: computed where that was possible, stored where not.
-    `uncomputed` gives the reason for each formula that was not computed.
+    `uncomputed` gives the reason for each formula that was not computed. `texts` are numbers that
+    stand as texts in cells that formulas read; in `values` they are numbers.
     """
 
     book: Book
     formulas: Mapping[Position, Formula]
     values: Mapping[Position, Value]
     uncomputed: Mapping[Position, str] = field(default_factory=dict)
+    texts: Mapping[Position, str] = field(default_factory=dict)
 
     def number(self, place: Position | None) -> float | None:
         """The value of a cell, if it is a number."""
@@ -346,8 +350,11 @@ def calculate(book: Book) -> Calculation:
     """Compute a book's formulas, all but those that are refused."""
     formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
     reasons = _refused(book, formulas)
-    computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
+    typed = _numbers_as_text(book, formulas)
+    computed = _computed(book, typed, {p: f for p, f in formulas.items() if p not in reasons})
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
+    texts = {place: str(values[place]) for place in typed}
+    values |= typed
     for place, value in computed.items():
         stored = book[place]
         wrong = isinstance(value, str) and value.startswith("#")
@@ -356,7 +363,22 @@ def calculate(book: Book) -> Calculation:
             reasons[place] = f"the engine gives {value}"
         else:
             values[place] = value
-    return Calculation(book, formulas, values, reasons)
+    return Calculation(book, formulas, values, reasons, texts)
+
+
+_NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")
+
+
+def _numbers_as_text(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
+    """Typed texts that are numbers, and that formulas read: most programs calculate with them."""
+    areas = (area for formula in formulas.values() for area in formula.areas if area.cells == 1)
+    read = {area.corner for area in areas if area.sheet in book.sheets} - formulas.keys()
+    texts = {place: book[place].value for place in read}
+    return {
+        place: float(text)
+        for place, text in texts.items()
+        if isinstance(text, str) and _NUMBER.fullmatch(text) and math.isfinite(float(text))
+    }
 
 
 def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, str]:
@@ -385,8 +407,10 @@ def _filled(area: Area, book: Book) -> Area:
     return area._replace(bottom=max(bottom, area.top), right=max(right, area.left))
 
 
-def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
-    """What each formula gives."""
+def _computed(
+    book: Book, typed: Mapping[Position, Value], formulas: Mapping[Position, Formula]
+) -> dict[Position, Value]:
+    """What each formula gives, with other values `typed` into some cells."""
     import ironcalc
 
     if not formulas:
@@ -400,14 +424,15 @@ def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position
         model.rename_sheet(index, name)
     for (sheet, row, column), cell in book.cells():
         formula, at = formulas.get((sheet, row, column)), (number[sheet], row, column)
+        value = typed.get((sheet, row, column), cell.value)
         if formula is not None:
             model.update_cell_with_formula(*at, formula.for_engine(called))
-        elif isinstance(cell.value, bool):
-            model.update_cell_with_bool(*at, cell.value)
-        elif isinstance(cell.value, float):
-            model.update_cell_with_number(*at, cell.value)
-        elif cell.value is not None:
-            model.update_cell_with_text(*at, cell.value)
+        elif isinstance(value, bool):
+            model.update_cell_with_bool(*at, value)
+        elif isinstance(value, float):
+            model.update_cell_with_number(*at, value)
+        elif value is not None:
+            model.update_cell_with_text(*at, value)
     model.evaluate()
     return {
         (sheet, row, column): value

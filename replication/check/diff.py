@@ -6,7 +6,7 @@ inserted row is one, and each formula is compared with where its references have
 """
 
 import math
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import SequenceMatcher
@@ -16,7 +16,7 @@ from pathlib import Path
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.examination import Difference
-from replication.check.table import area_of, runs
+from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
 from spreadsheets.recalculation import Calculation, Piece, calculate
@@ -24,13 +24,12 @@ from spreadsheets.recalculation import Calculation, Piece, calculate
 KINDS = ("added", "removed", "moved", "formula", "value")
 """What `diff` calls the differences that it finds."""
 
-LAST_DIGITS = 1e-14
-"""Relative distance within which only the last digits differ: files may keep 15 of them."""
-_LAST = "only the last digits of the values differ"
+LAST = "only the last digits of the values differ"
+_LAST_DIGITS = 1e-14
+"""Relative distance within which that is said: files may keep 15 of them."""
 
 _MAX_BLOCKS = 200
-_MAX_SIMILAR = 2_500
-"""Blocks to look for elsewhere, and pairs of lines to compare with each other."""
+"""Blocks to look for elsewhere."""
 
 Cell = tuple[int, int]
 
@@ -53,57 +52,37 @@ class Tolerance:
             return True
         if self.ulp and abs(a - b) <= self.ulp * math.ulp(max(abs(a), abs(b))):
             return True
-        return self.digits is not None and _print_alike(a, b, self.digits)
-
-
-def _print_alike(a: float, b: float, digits: int) -> bool:
-    """Whether two numbers have the same digits, or one is the other rounded, ties either way.
-
-    >>> _print_alike(9.476105709802965e-07, 9.47610570980297e-07, 15)
-    True
-    >>> _print_alike(10.037311494880546, 10.0373114948806, 15)
-    True
-    """
-    texts = [f"{number:.{digits - 1}e}" for number in (a, b)]
-    half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - digits}")
-    rounded = float(texts[0]) == a or float(texts[1]) == b
-    noise = 4 * Decimal(math.ulp(a))  # what was rounded may itself differ in its last bits
-    near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + noise
-    return texts[0] == texts[1] or (rounded and near)
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """What `coldspray diff` has found, in order of calculation.
-
-    Places are those of the second workbook, if it has them.
-    """
-
-    calculations: tuple[Calculation, Calculation]
-    differences: list[Difference]
-
-    @property
-    def last_digits(self) -> list[Difference]:
-        """The differences that only the last digits show."""
-        return [d for d in self.differences if d.explanation.startswith(_LAST)]
+        if self.digits is None:
+            return False
+        texts = [f"{number:.{self.digits - 1}e}" for number in (a, b)]
+        # One may be the other rounded, ties either way; that may itself differ in its last bits.
+        half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - self.digits}")
+        near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + 4 * Decimal(math.ulp(a))
+        rounded = float(texts[0]) == a or float(texts[1]) == b
+        return texts[0] == texts[1] or (rounded and near)
 
 
 def diff(
     a: Path, b: Path, *, values_only: bool = False, allowed: Tolerance | None = None
-) -> Comparison:
+) -> "Comparison":
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
-    before, after = calculate(read(a)), calculate(read(b))
-    comparison = _Diff(before, after, allowed or Tolerance())
+    comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
     comparison.layout()
-    pairs = sorted(comparison.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+    where = comparison.where
+    pairs = sorted(where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
     if not values_only:
         comparison.group(pairs, comparison.formulas, "formula")
     comparison.group(pairs, comparison.values, "value")
-    return Comparison((before, after), sorted(comparison.differences, key=lambda d: d.rank))
+    comparison.differences.sort(key=lambda d: d.rank)
+    return comparison
 
 
-class _Diff:
-    """Collects differences; `where` is where each cell of the first workbook is in the second."""
+class Comparison:
+    """What `coldspray diff` has found, in order of calculation, and where.
+
+    `where` is where each cell of the first workbook is in the second. Places of differences are
+    those of the second workbook, if it has them.
+    """
 
     def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
@@ -112,17 +91,16 @@ class _Diff:
         self.differences: list[Difference] = []
 
     def add(
-        self, kind: str, cells: Sequence[Position], was: object, now: object, text: str
+        self, kind: str, cells: Sequence[Position], was: Value | None, now: Value | None, text: str
     ) -> None:
         """Add a difference at the first of some cells; layout first, last digits last."""
         place, sheets = cells[0], list(self.after.book.sheets)
         rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
         if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
             rank = (1, self.after.order.get(place, -1), kind == "value")
-        if text.startswith(_LAST):
+        if text.startswith(LAST):
             rank = (2, *rank)
-        old, new = (v if isinstance(v, float | str) or v is None else str(v) for v in (was, now))
-        self.differences.append(Difference(place, kind, old, new, text, tuple(cells), rank))
+        self.differences.append(Difference(kind, tuple(cells), was, now, text, rank))
 
     # ---- where each cell has gone
 
@@ -132,13 +110,12 @@ class _Diff:
         for name in self.before.book.sheets:
             if name not in sheets:
                 self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
-            elif sheets[name] != name:
-                place = (sheets[name], 1, 1)
-                self.add("moved", [place], name, sheets[name], "the sheet is renamed")
         for name in self.after.book.sheets:
             if name not in sheets.values():
                 self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
         for name, partner in sheets.items():
+            if name != partner:
+                self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
             self.align(name, partner)
 
     def align(self, name: str, partner: str) -> None:
@@ -166,10 +143,9 @@ class _Diff:
             # It stands elsewhere if the same cells are there at the same distances.
             new_block = by_form.pop(_form(block, left), None)
             if new_block is not None:
-                (row, column), (new_row, new_column) = _corner(block), _corner(new_block)
-                for r, c in block:
-                    put((r, c), (r - row + new_row, c - column + new_column))
-                was, now = _span(block), _span(new_block)
+                for cell, there in zip(block, new_block, strict=True):
+                    put(cell, there)
+                was, now = span(block), span(new_block)
                 if was != now:  # else only its rows or columns were not known again
                     cells = [(partner, *cell) for cell in new_block]
                     self.add("moved", cells, was, now, f"{was} now stands at {now}")
@@ -181,7 +157,7 @@ class _Diff:
     def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
         """Cells that only one of two sheets has, block by block."""
         for block in _blocks(cells):
-            was, now = (None, _span(block)) if kind == "added" else (_span(block), None)
+            was, now = (None, span(block)) if kind == "added" else (span(block), None)
             are = "is" if len(block) == 1 else "are"
             text = f"{count(len(block), 'cell')} {are} {what}"
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
@@ -203,7 +179,7 @@ class _Diff:
     def group(
         self,
         pairs: Sequence[tuple[Position, Position]],
-        compare: Callable[[Position, Position], tuple[object, object, str] | None],
+        compare: Callable[[Position, Position], tuple[Value | None, Value | None, str] | None],
         kind: str,
     ) -> None:
         """Differences of one kind, those of neighbouring cells in a column as one."""
@@ -214,7 +190,9 @@ class _Diff:
             more = f", also in {after} after it" if len(run) > 1 else ""
             self.add(kind, run, was, now, text + more)
 
-    def formulas(self, old: Position, new: Position) -> tuple[object, object, str] | None:
+    def formulas(
+        self, old: Position, new: Position
+    ) -> tuple[Value | None, Value | None, str] | None:
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
@@ -241,13 +219,13 @@ class _Diff:
         """Whether a cell that is gone, or was blank, is where another is read now."""
         return old not in self.before.values or (old == new and new not in self.there)
 
-    def values(self, old: Position, new: Position) -> tuple[object, object, str] | None:
+    def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
             if self.tolerance.equal(a, b):
                 return None
-            small = math.isclose(a, b, rel_tol=LAST_DIGITS)
-            return a, b, _LAST if small else "the values differ"
+            small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
+            return a, b, LAST if small else "the values differ"
         return None if a == b else (a, b, "the contents differ")
 
 
@@ -317,28 +295,12 @@ def _matched(
     for tag, i1, i2, j1, j2 in SequenceMatcher(None, gone, come).get_opcodes():
         if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
             pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
-        elif tag == "replace" and (i2 - i1) * (j2 - j1) <= _MAX_SIMILAR:
-            similar = _similar(gone[i1:i2], come[j1:j2])
-            pairs += [(start + i1 + i, start + j1 + j) for i, j in similar]
     return {a[i]: b[j] for i, j in sorted(pairs)}
 
 
 def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
     """How many entries two lists have in common before the first that differs."""
     return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
-
-
-def _similar(
-    old: Sequence[tuple[str, ...]], new: Sequence[tuple[str, ...]]
-) -> Iterator[tuple[int, int]]:
-    """Lines of two lists that are mostly the same, in their order."""
-    after = 0
-    for i, line in enumerate(old):
-        for j in range(after, len(new)):
-            if line and SequenceMatcher(None, line, new[j]).ratio() > 0.5:
-                yield i, j
-                after = j + 1
-                break
 
 
 def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
@@ -361,14 +323,5 @@ def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
 
 def _form(block: Sequence[Cell], cells: Mapping[Cell, str]) -> frozenset[tuple[int, int, str]]:
     """A block by its cells' distances from its corner and what they are."""
-    top, left = _corner(block)
+    top, left = block[0][0], min(column for _, column in block)
     return frozenset((row - top, column - left, cells[row, column]) for row, column in block)
-
-
-def _corner(block: Sequence[Cell]) -> Cell:
-    return min(row for row, _ in block), min(column for _, column in block)
-
-
-def _span(block: Sequence[Cell]) -> str:
-    last = max(row for row, _ in block), max(column for _, column in block)
-    return area_of(("", *_corner(block)), ("", *last))

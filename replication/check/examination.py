@@ -1,16 +1,14 @@
 """What is known of one table: its inputs, the scheme that its rows follow, its differences."""
 
-import math
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import Any
 
-from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule, Rules
-from replication.check.table import Line, Table, runs
-from replication.check.words import COLUMNS, scaled
-from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation
+from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule
+from replication.check.table import Table, address, span
+from replication.check.words import COLUMNS, count, scaled
+from spreadsheets.foreign import Position, Value
 
 KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "operation order",
@@ -19,11 +17,53 @@ KINDS = (
 NO_FAULT = frozenset({"other input", "not calculated"})
 """Kinds that are said, and leave a workbook clean."""
 
-Text = float | str | None
-
 NEAR = 1e-12
 """Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
 worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
+
+Change = Callable[[Case], Case] | Mapping[str, Rule]
+"""What a difference makes of the report's sheet: another case, or other rules for some parts."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One way in which a workbook parts from the report's sheet.
+
+    `cells` are all that it concerns, the first of them the one to look at. `rank` orders
+    differences as their cells are calculated. `effect` is the final depth [m] that this difference
+    alone would give, by the `change` that it makes.
+    """
+
+    kind: str
+    cells: tuple[Position, ...]
+    expected: Value | None
+    found: Value | None
+    explanation: str
+    rank: tuple[float, ...]
+    change: Change | None = field(default=None, compare=False)
+    effect: float | None = None
+
+    @property
+    def place(self) -> Position:
+        """The cell to look at."""
+        return self.cells[0]
+
+    def record(self) -> dict[str, Any]:
+        """As JSON has it; `cells` is the range that it concerns, `count` how many cells."""
+        sheets, rows, columns = (set(each) for each in zip(*self.cells, strict=True))
+        area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
+        cells = span(cell[1:] for cell in self.cells)
+        if len(self.cells) != area or len(sheets) > 1:
+            cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
+        expected, found = (
+            str(value).upper() if isinstance(value, bool) else value
+            for value in (self.expected, self.found)
+        )
+        return {
+            "sheet": self.place[0], "cell": address(self.place), "kind": self.kind,
+            "expected": expected, "found": found, "explanation": self.explanation,
+            "cells": cells, "count": len(self.cells), "final_depth": self.effect,
+        }  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -50,13 +90,12 @@ class Examination:
 
     `rows` are those of the table with the case and the rules that they follow, `intended` is the
     case that they should: the two differ where a cell for mass, diameter or resistance does not
-    hold what its own inputs give. `powers` of ten lie between its columns and SI units; `slips` are
-    units of heads that contradict them: role -> the power of ten that is wrong. `negative`:
-    decelerations are negative in the workbook. `digits`: how many digits the numbers have, if they
-    are typed and rounded. `read` are all cells outside the table that it reads; `derived` those
-    that hold mass, diameter or resistance; `unread` labelled inputs that it does not read.
-    `right_depth` [m] is that of the report's scheme with the table's inputs, None if it does not
-    end. `differing` counts the cells that differ from that run, causes and consequences alike.
+    hold what its own inputs give. `powers` of ten lie between its columns and SI units. `negative`:
+    decelerations are negative in the workbook. `read` are all cells outside the table that it
+    reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs that it
+    does not read. `right_depth` [m] is that of the report's scheme with the table's inputs, None if
+    it does not end. `differing` counts the cells that differ from that run, causes and consequences
+    alike.
     """
 
     table: Table
@@ -64,35 +103,30 @@ class Examination:
     rows: Rows
     intended: Case
     powers: Mapping[str, int]
-    slips: Mapping[str, int]
     negative: bool
-    digits: int | None = None
     read: frozenset[Position] = frozenset()
     derived: Mapping[str, Input] = field(default_factory=dict)
     unread: tuple[Input, ...] = ()
-    differences: list["Difference"] = field(default_factory=list)
+    differences: list[Difference] = field(default_factory=list)
     right_depth: float | None = None
     differing: int = 0
 
-    @property
-    def calculation(self) -> Calculation:
-        """The workbook."""
-        return self.table.calculation
+    def __post_init__(self) -> None:
+        self.calculation = self.table.calculation
 
     @property
     def case(self) -> Case:
         """The case that the rows follow."""
         return self.rows.case
 
-    def following(self, case: Case, intended: Case | None = None) -> "Examination":
-        """The same table whose rows follow, and should follow, another case."""
-        rows = replace(self.rows, case=case)
-        return replace(self, rows=rows, intended=intended or self.intended)
+    def following(self, case: Case) -> "Examination":
+        """The same table whose rows follow another case."""
+        return replace(self, rows=replace(self.rows, case=case))
 
     def followed(self, part: str, rule: Rule, numbers: Iterable[int]) -> Iterator[bool | None]:
         """Whether each of some rows follows a rule; None where cells are missing."""
         rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
-        near = NEAR if self.digits is None else 10.0 ** (2 - self.digits)
+        near = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)
         for k in numbers:
             role, at = rows.shows(part, k)
             wanted, value = rows.wanted(role, at), rows(role, at)
@@ -126,11 +160,6 @@ class Examination:
         return self.rows("depth", self.table.steps)
 
     @property
-    def rules(self) -> Rules:
-        """The scheme that the rows follow."""
-        return self.rows.rules
-
-    @property
     def ends(self) -> bool:
         """Whether the rows go down to the stop."""
         return not any(d.kind == "not calculated" for d in self.differences)
@@ -145,24 +174,20 @@ class Examination:
         self,
         kind: str,
         cells: Sequence[Position],
-        expected: Text,
+        expected: Value | None,
         text: str,
-        found: Text = None,
-        change: Callable[[Case], Case] | Mapping[str, Rule] | None = None,
+        found: Value | None = None,
+        change: Change | None = None,
     ) -> None:
         """Add a difference that concerns some cells, the first of them the one to look at.
 
         What is `found` is what that cell holds, unless something else is given.
         """
-        content = self.calculation.values.get(cells[0])
-        if found is None and content is not None:
-            found = str(content).upper() if isinstance(content, bool) else content
-        if isinstance(expected, float) and not math.isfinite(expected):
-            expected = None
-        order = self.rank(cells[0])
-        self.differences.append(
-            Difference(cells[0], kind, expected, found, text, tuple(cells), order, None, change)
+        held = self.calculation.values.get(cells[0]) if found is None else found
+        difference = Difference(
+            kind, tuple(cells), expected, held, text, self.rank(cells[0]), change
         )
+        self.differences.append(difference)
 
     def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
         """The cells of a column from a row on."""
@@ -176,11 +201,6 @@ class Examination:
         sign = -1.0 if role == "deceleration" and self.negative else 1.0
         return sign * scaled(value, Fraction(10) ** -self.powers[role])
 
-    def literals(self, line: Line) -> set[float]:
-        """The numbers typed into a column's formulas."""
-        formulas = (line.formula(self.table.zero + k) for k in range(self.table.steps + 1))
-        return {abs(number) for formula in formulas if formula for number in formula.literals}
-
     def rank(self, place: Position) -> tuple[float, ...]:
         """When a cell is calculated: inputs, then row by row, then what rests on the table."""
         if place in self.table.places:
@@ -191,32 +211,3 @@ class Examination:
                 return (1, (line.index(place) or 0) - self.table.zero, 2.5)
         order = self.calculation.order.get(place, -1)
         return (0 if place in self.read or order < 0 else 2, order)
-
-
-@dataclass(frozen=True)
-class Difference:
-    """One way in which a workbook parts from the report's sheet, at one place.
-
-    `cells` are all that it concerns, the first of them `place`. `rank` orders differences as their
-    cells are calculated. `effect` is the final depth [m] that this difference alone would give,
-    `change` what it makes of the report's scheme: another case or other rules.
-    """
-
-    place: Position
-    kind: str
-    expected: Text
-    found: Text
-    explanation: str
-    cells: tuple[Position, ...]
-    rank: tuple[float, ...]
-    effect: float | None = None
-    change: Callable[[Case], Case] | Mapping[str, Rule] | None = field(default=None, compare=False)
-
-
-def joined(differences: Sequence[Difference], across: bool) -> Iterator[Difference]:
-    """Differences of single cells; those of neighbours with the same kind and cause as one."""
-    at = {d.place: d for d in differences}
-    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
-    causes = {p: (d.kind, re.sub(number, "#", d.explanation)) for p, d in at.items()}
-    for run in runs(causes, across):
-        yield replace(at[run[0]], cells=tuple(run))

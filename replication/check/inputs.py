@@ -16,7 +16,7 @@ from statistics import median
 from reference.ledger import claims_of_case, load
 from reference.units import to_si
 from replication.check.examination import Examination, Input
-from replication.check.scheme import BRAKES, REPORT, Case, Rows, Rule, contact
+from replication.check.scheme import BRAKES, REPORT, Case, Rows, contact
 from replication.check.table import Table, address
 from replication.check.words import (
     INPUTS,
@@ -32,8 +32,6 @@ from replication.models import crater
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
-_ROUNDED = 12
-"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _MAX_CANDIDATES = 4_000
 _MAX_CHOICES = 64
 _FOLLOWS = {
@@ -68,14 +66,13 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     ValueError, saying what to give, when two cells could be the same input and the rows do not
     decide.
     """
-    calculation, report = table.calculation, report_inputs()
-    formulas = calculation.formulas
+    calculation, formulas = table.calculation, table.calculation.formulas
     from_table = _read((place for place in table.places if place in formulas), calculation)
     read = {place: far for place, far in from_table.items() if place not in table.places}
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     nearest = {
         role: _nearest(cells, read, calculation)
-        for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
+        for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
     }
     choices = {
         role: [cell for cell in cells if not calculation.areas(cell.place)] or cells
@@ -83,9 +80,13 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
         if role not in _FOLLOWS or any(not calculation.areas(cell.place) for cell in cells)
     }
     for role, place in mapped.items():
-        choices[role] = [_mapped(role, place, candidates, calculation)]
+        value = calculation.number(place)
+        if value is None:
+            raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
+        known = next((c for c in candidates if c.place == place), Input("", value, place, ""))
+        choices[role] = [replace(_as_role(known, role, report_inputs()), how="--map")]
     labelled = [c for c in candidates if read and c.label and c.place not in {*read, *formulas}]
-    unread = _by_role(labelled, report, True)
+    unread = _by_role(labelled, True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
@@ -187,26 +188,24 @@ Report = Mapping[str, tuple[float, ...]]
 
 
 def _by_role(
-    cells: Sequence[Input], report: Report, all_read: bool = False
+    cells: Sequence[Input], all_read: bool, hints: Report | None = None
 ) -> dict[str, list[Input]]:
     """Cells by role: first those whose label has one meaning, then by value for roles left over."""
+    report = hints or report_inputs()
     by_role: dict[str, list[Input]] = {}
     for cell in cells:
         if len(cell.roles) == 1:
             (role,) = cell.roles
             by_role.setdefault(role, []).append(_as_role(cell, role, report))
-
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
-        alike = (role for role in report if by_value and _like_the_report(cell, role, report))
+        alike = (role for role in report if by_value and _like_the_report(cell, report[role], role))
         left = [role for role in cell.roles or alike if role not in by_role]
         if len(cell.roles) != 1 and left:
-            nearest = min(left, key=lambda role: _distance(cell, role, report))
-            how = cell.how if cell.roles else "value"
-            by_role.setdefault(nearest, []).append(
-                replace(_as_role(cell, nearest, report), how=how)
-            )
+            nearest = min(left, key=lambda role: _distance(cell, report.get(role, ())))
+            own = replace(_as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
+            by_role.setdefault(nearest, []).append(own)
     return by_role
 
 
@@ -214,51 +213,46 @@ def _hinted(table: Table) -> Report:
     """The report's values, and those that the table itself shows of velocity and step."""
     report = report_inputs()
     speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
-    first = tuple(islice((speed for speed in speeds if speed), 1))
+    first = tuple(islice(filter(None, speeds), 1))
     before, after = table.number("time", 2), table.number("time", 3)
     step = (after - before,) if before is not None and after and after > before else ()
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
-def _like_the_report(cell: Input, role: str, report: Report) -> bool:
-    """Whether it has the digits of the report's; a number without a unit has no other power."""
-    powers = (power_of_ten(cell.si / value) for value in report[role])
-    return any(p == 0 or (p is not None and INPUTS[role] != "1") for p in powers)
+def _like_the_report(cell: Input, values: Iterable[float], role: str) -> bool:
+    """Whether it has the digits of the report's; a number without a unit has no other power.
+
+    Nor has the stop velocity of 1 m/s: a power of ten is a factor between units.
+    """
+    powers = (power_of_ten(cell.si / value) for value in values)
+    scalable = INPUTS[role] != "1" and role != "stop_velocity"
+    return any(p == 0 or (p is not None and scalable) for p in powers)
 
 
-def _distance(cell: Input, role: str, report: Report) -> float:
+def _distance(cell: Input, values: Iterable[float]) -> float:
     """How many powers of ten away from the report's it is."""
-    si = scaled(cell.si, to_si(cell.unit)) if cell.unit else cell.si
+    si = scaled(cell.si, to_si(cell.unit or "1"))
     if not 0 < si < math.inf:
         return math.inf
-    return min((abs(math.log10(si / value)) for value in report.get(role, ())), default=9.0)
+    return min((abs(math.log10(si / value)) for value in values), default=9)
 
 
-def _as_role(cell: Input, role: str, report: Report | None = None) -> Input:
+def _as_role(cell: Input, role: str, report: Report) -> Input:
     """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
 
     If it has the digits of the report's, any power of ten will do.
     """
-    report = report or report_inputs()
     factor = Fraction(1)
     if INPUTS[role] != "1" and cell.unit:
         factor = to_si(cell.unit)
     elif INPUTS[role] != "1" and role in report and cell.si > 0:
         ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
-        same = next((p for r in ratios if (p := power_of_ten(r)) is not None), None)
+        odd = () if INPUTS[role] == "Pa" else (-1, 1)
+        powers = (power_of_ten(ratio) for ratio in ratios)
+        # Ten times another is no unit but that of pressure, dyn/cm² in Pa.
+        same = next((p for p in powers if p is not None and p not in odd), None)
         factor = Fraction(10) ** (_thousands(ratios[0]) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
-
-
-def _mapped(
-    role: str, place: Position, candidates: Sequence[Input], calculation: Calculation
-) -> Input:
-    """The cell that the user named."""
-    value = calculation.number(place)
-    if value is None:
-        raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
-    known = next((cell for cell in candidates if cell.place == place), None)
-    return replace(_as_role(known or Input("", value, place, ""), role), how="--map")
 
 
 # ---- the examination that the rows agree with
@@ -295,7 +289,7 @@ def _settled(
 
 def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examination:
     """A table with these cells as inputs, and the report's where there are none."""
-    powers, slips = _powers(table, chosen)
+    powers = _powers(table, chosen)
     columns = {
         role: {
             k: scaled(value, Fraction(10) ** powers[role])
@@ -305,19 +299,17 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
         for role in table.lines
     }
     brakes = columns.get("deceleration", {})
-    # By the first rows: where a motion goes wrong, its deceleration may change its sign.
-    negative = median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
+    # By the first rows: where a motion goes wrong, its deceleration may change its sign. If there
+    # the velocity rises, the sign is wrong.
+    speeds = columns.get("velocity_initial") or columns["velocity_final"]
+    first, *_, last = islice(speeds.values(), 4)
+    negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
     inputs = _completed(table, chosen, columns)
     for own in inputs.values():
         if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
-            place = own.place
-            if own.role == "velocity" and place is None:
-                line = next(table.lines[role] for role in columns if "velocity" in role)
-                zeros = (at for at in range(line.first, line.last + 1) if not line.at(at))
-                place = table.calculation.source(line.place(next(zeros, line.first)))
-            where = "its rows" if place is None else address(place, True)
+            where = address(own.place, True) if own.place else f"the table on {table.sheet!r}"
             raise ValueError(
                 f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
                 f"zero; if another cell is meant, give --map {own.role}=CELL"
@@ -328,23 +320,11 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     rows = Rows(columns, case, REPORT)
-    return Examination(table, inputs, rows, case, powers, slips, negative, _digits(table))
+    return Examination(table, inputs, rows, case, powers, negative)
 
 
-def _digits(table: Table) -> int | None:
-    """How many digits the table's numbers have, if they are typed and rounded; else None."""
-    roles = [role for role in ("depth", "deceleration") if role in table.lines]
-    cells = [(role, k) for role in roles for k in range(1, table.steps + 1)]
-    if any(table.place(role, k) in table.calculation.formulas for role, k in cells):
-        return None
-    numbers = (number for role, k in cells if (number := table.number(role, k)))
-    texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
-    most = max((len(text.strip("0")) for text in texts), default=17)
-    return most if most <= _ROUNDED else None
-
-
-def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], dict[str, int]]:
-    """The power of ten of each column, and by how much the units of some heads contradict it.
+def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
+    """The power of ten of each column.
 
     The rows tie the units together: dx = v dt and dv = a dt. Of the powers that may be meant, those
     that contradict the fewest units named, then the fewest of these ties, then none at all, then
@@ -396,12 +376,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> tuple[dict[str, int], 
         if step and named.get("time") is not None and "step" in inputs:
             against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
-        # Numbers that are all in SI as they stand are, if the step is a hundred times another.
-        odd = any(powers.values()) or slower > 0 or faster > 2
-        options.append(((against, untied, odd, slower + faster), powers))
-    powers = min(options, key=lambda option: option[0])[1]
-    off = {role: (named[role] or 0) - p for role, p in powers.items() if named[role] is not None}
-    return powers, {role: power for role, power in off.items() if power}
+        options.append(((against, untied, slower + faster), powers))
+    return min(options, key=lambda option: option[0])[1]
 
 
 def _round(ratio: float) -> int:
@@ -478,10 +454,23 @@ def _shortest(value: float, near: float) -> float:
 
 
 def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Examination:
-    """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed."""
+    """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed.
+
+    The report's values first; with mass, diameter and resistance as they should be, then as the
+    cells `feeding` the rows hold them; then what the rows themselves say.
+    """
     unknown = [role for role, own in examination.inputs.items() if own.how == "report"]
     typed = _typed(examination.table.calculation) if unknown else set()
-    for tried, how, rules, fed in _hypotheses(examination, unknown, typed, feeding):
+    values = product(*(report_inputs()[role] for role in unknown))
+    of_report = [dict(zip(unknown, each, strict=True)) for each in values]
+    solved = {}
+    for role, value in _solved(examination).items():
+        if role in unknown:  # a number that some formula has, or the shortest decimal
+            near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
+            solved[role] = next(near, _shortest(value, 1e-8))
+    brakes = (BRAKES[:2], BRAKES)
+    tries = product(((), *_fed(examination, feeding)), brakes, ["report"], of_report)
+    for fed, rules, how, tried in (*tries, ((), BRAKES[:2], "rows", solved)):
         case, intended = examination.case, examination.intended
         for role, value in tried.items():
             if value == getattr(case, role):
@@ -489,7 +478,7 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
-        agreed = examination.following(case, intended)
+        agreed = replace(examination.following(case), intended=intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
             inputs = dict(examination.inputs)
@@ -499,31 +488,6 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
             return replace(agreed, inputs=inputs, derived={cell.role: cell for cell in fed})
     assumed = {role: replace(examination.inputs[role], how="assumed") for role in unknown}
     return replace(examination, inputs={**examination.inputs, **assumed})
-
-
-def _hypotheses(
-    examination: Examination,
-    unknown: Sequence[str],
-    typed: set[float],
-    feeding: Mapping[str, Input],
-) -> Iterator[tuple[dict[str, float], str, Sequence[Rule], Sequence[Input]]]:
-    """What the unknown inputs may be, how that is known, by which rules, and with which cells fed.
-
-    The report's values first; with mass, diameter and resistance as they should be, then as the
-    cells `feeding` the rows hold them; then what the rows themselves say.
-    """
-    values = product(*(report_inputs()[role] for role in unknown))
-    of_report = [dict(zip(unknown, each, strict=True)) for each in values]
-    rules = (BRAKES[:2], BRAKES)
-    for fed, brakes, tried in product(((), *_fed(examination, feeding)), rules, of_report):
-        yield tried, "report", brakes, fed
-    solved = {}
-    # With the report's particle, if no cell holds it.
-    for role, value in _solved(examination).items():
-        if role in unknown:  # a number that some formula has, or the shortest decimal
-            near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
-            solved[role] = next(near, _shortest(value, 1e-8))
-    yield solved, "rows", BRAKES[:2], ()
 
 
 def _fed(examination: Examination, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:

@@ -1,31 +1,40 @@
 """What is wrong with one table: each difference with its kind, place and cause.
 
 Units and inputs first, then the scheme: a column in which most cells follow another rule than the
-report's is one difference, named by that rule. Then every cell by itself (`cells`), and the stop.
+report's is one difference, named by that rule. Then every cell by itself, by what the cells before
+it give and by what its column is: a wrong one is found where it stands, and what follows from it is
+not accused. Then the stop.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from itertools import product
+from functools import partial
+from itertools import pairwise, product
 from statistics import median
 
-from replication.check.cells import each_cell, order, types
-from replication.check.examination import NEAR, Difference, Examination, Input
+from reference.units import to_si
+from replication.check.examination import NEAR, Change, Difference, Examination, Input
 from replication.check.inputs import report_inputs
 from replication.check.scheme import (
     BEYOND,
     BRAKES,
+    FILLS,
     KNOWN,
     MOST_ROWS,
     PARTS,
     REPORT,
     Case,
     Rule,
+    contact,
     march,
+    orders,
 )  # fmt: skip
-from replication.check.table import Line, address
+from replication.check.table import LEAST, Line, Table, address, results, runs
 from replication.check.words import (
     INPUTS,
     power_of_ten,
@@ -37,6 +46,7 @@ from replication.check.words import (
     unit_text,
 )  # fmt: skip
 from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation, Formula
 
 OTHER_STOP: Mapping[str, Rule] = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
@@ -45,17 +55,19 @@ OTHER_STOP: Mapping[str, Rule] = {}
 def judge(f: Examination) -> None:
     """Find every difference between a table and the report's sheet, but for printed numbers."""
     _units(f)
-    if f.digits is None:
+    if f.table.digits is None:
         _calibrate(f)
         _derived(f)
     _other_inputs(f)
-    if f.digits is None:
+    if f.table.digits is None:
+        _drifting(f)
         _scheme(f)
-        each_cell(f)
+        _each_cell(f)
         _typed_inputs(f)
-        order(f)
+        _texts(f)
+        _order(f)
     else:
-        _as_rounded(f, f.digits)
+        _as_rounded(f, f.table.digits)
     _stop(f)
     _effects(f)
 
@@ -65,48 +77,23 @@ def judge(f: Examination) -> None:
 
 def _units(f: Examination) -> None:
     """Units in heads that contradict the rest."""
-    for role, slip in f.slips.items():
-        line, right = f.table.lines[role], unit_text(role, f.powers[role])
+    for role, line in f.table.lines.items():
+        named = power_of_ten(float(to_si(line.unit or "1")))
+        if line.unit in (None, "1") or named in (None, f.powers[role]):
+            continue
+        right, slip = unit_text(role, f.powers[role]), abs((named or 0) - f.powers[role])
         place = line.unit_place or f.table.place(role, 1)
         text = f"the head gives {title(role)} in {line.unit}, but the numbers are in {right}"
-        f.add("unit", [place], right, f"{text}, a factor of 1e{abs(slip)}", line.unit)
+        f.add("unit", [place], right, f"{text}, a factor of 1e{slip}", line.unit)
 
 
-def _changed(role: str, value: float, by: float) -> Callable[[Case], Case]:
-    """What makes of a case the one with another input."""
-    return lambda case: case.with_input(role, value, by)
+def _changed(role: str, value: float, by: float) -> Change:
+    """The change to another input, `by` times the one before."""
+    return partial(Case.with_input, role=role, value=value, by=by)
 
 
-def _other_inputs(f: Examination) -> None:
-    """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
-    report, density = report_inputs(), f.inputs["particle_density"]
-    lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
-    off = {
-        role: own
-        for role, own in f.inputs.items()
-        if role in report and own.how not in ("report", "assumed", "follows")
-        if role != "mass" or lone_mass
-        if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
-    }
-    for role, own in off.items():
-        alike = [value for value in report[role] if power_of_ten(own.si / value) is not None]
-        nearest = min(alike or report[role], key=lambda value: abs(value - own.si))
-        text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
-        if role == "target_density":
-            text += ", inferred, since the report prints none"
-        for name, values in report.items():
-            if INPUTS[name] == INPUTS[role] and any(_near(own.si, value) for value in values):
-                text += f"; {quantity(own.si, role)} is {title(name)} there"
-        if own.how == "rows":
-            text += "; no cell holds it, it is solved back from the rows"
-        kind, change = "other input", None
-        if len(off) == 1 and (power := power_of_ten(own.si / nearest)):
-            kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
-            change = _changed(role, own.si, own.si / nearest)
-            f.intended = f.intended.with_input(role, nearest, nearest / own.si)
-        place = own.place or f.table.place("depth", 1)
-        solved = own.si if own.place is None else None
-        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, solved, change)
+_BETWEEN = {"particle_density": "mass", "flow_stress": "resistance"}
+"""The cell by way of which the rows take an input."""
 
 
 def _calibrate(f: Examination) -> None:
@@ -117,26 +104,26 @@ def _calibrate(f: Examination) -> None:
     for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
+        between = f.derived.get(_BETWEEN.get(role, "")) if own.unit else None
+        if between and math.isclose(between.si, getattr(f.intended, between.role), rel_tol=1e-8):
+            continue  # it has its unit, and the rows take it from a cell that has it right
         factor = Fraction(10) ** power
         value = scaled(own.si, factor)
-        change = _changed(role, value, float(factor))
-        changed = f.following(change(f.case))
+        changed = f.following(f.case.with_input(role, value, float(factor)))
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
         if own.unit and any(_near(value, number) for number in report_inputs()[role]):
             taken = replace(own, si=value, factor=own.factor * factor)
             f.inputs = {**f.inputs, role: taken}
-            f.intended = change(f.intended)
+            f.intended = f.intended.with_input(role, value, float(factor))
             right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
             text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
             f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
         else:
             expected = scaled(own.si, 1 / factor / own.factor)
-            text = (
-                f"the formulas take {title(role)} as {quantity(value, role)}, not "
-                f"{quantity(own.si, role)}: a factor of 1e{abs(power)} is missing"
-            )
+            text = f"the formulas take {title(role)} as {quantity(value, role)}, {times_too(power)}"
+            change = _changed(role, value, float(factor))
             f.add("unit", [own.place], expected, text, change=change)
         return
 
@@ -145,14 +132,14 @@ def _derived(f: Examination) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
     known = {own.role: own for own in (*f.unread, *f.inputs.values())}
     spoilt = any(difference.change for difference in f.differences)
-    rows, intended = replace(f.case, own_mass=None, own_diameter=None), f.intended
-    resistance = intended.resistance
+    rows, stated = replace(f.case, own_mass=None, own_diameter=None), f.intended
     if "beta" in known and "flow_stress" in known:
-        resistance = known["beta"].si * known["flow_stress"].si
-    for role, wanted, of in (
-        ("diameter", 2 * intended.radius, ("radius",)),
-        ("mass", intended.mass, ("radius", "particle_density")),
-        ("resistance", resistance, ("beta", "flow_stress")),
+        stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
+        _product(f, known["beta"], known["flow_stress"], stated.resistance)
+    for role, of in (
+        ("diameter", ("radius",)),
+        ("mass", ("radius", "particle_density")),
+        ("resistance", ("beta", "flow_stress")),
     ):
         cell = f.derived.get(role)
         sources = [known[name] for name in of if name in known]
@@ -160,7 +147,26 @@ def _derived(f: Examination) -> None:
         if cell and spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
             continue
         if cell and (any(s.place for s in sources) or cell.si == 0):
-            _derived_cell(f, cell, wanted, sources)
+            _derived_cell(f, cell, getattr(stated, role), sources)
+
+
+def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
+    """A target resistance that the rows take, though the cells of its factors give another."""
+    used = f.inputs["resistance"]
+    solved = used.how in ("rows", "formulas", "report")
+    if not solved or math.isclose(used.si, stated, rel_tol=1e-6):
+        return
+    role, at = f.rows.shows("brake", 1)
+    cells = f.cells(role, at)
+    taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
+    where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
+    text = (
+        f"the rows take {taken} for the target resistance, {times} times the flow stress; "
+        f"beta is {beta.si:g} in {where}"
+    )
+    change = _changed("resistance", used.si, 1.0)
+    f.intended = f.intended.with_input("resistance", stated)
+    f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
 
 
 def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
@@ -180,15 +186,14 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
             kind = "unit"
             text = f"is {times_too(power)} for {rests}: a unit is not converted"
         elif not right:
-            kind = "odd formula"
-            text = f"is not what {rests} {'gives' if len(sources) == 1 else 'give'}"
+            kind, text = "odd formula", f"does not follow from {rests}"
             if not in_si:
                 text = "is 0; the report's is assumed"
     elif f.read and (not right or any(s in f.unread for s in sources)):
         kind = "typed constant"
         text = f"is typed as a number, though it rests on {rests}: a change there changes nothing"
     if kind:
-        change = None if exact else _holding(role, in_si)
+        change = None if exact else partial(Case.holding, role=role, value=in_si)
         expected = scaled(wanted, 1 / factor)
         f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
     if not exact or (role == "mass" and factor == 1):
@@ -196,9 +201,37 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         f.intended = f.intended.holding(role, wanted if kind and not exact else in_si)
 
 
-def _holding(role: str, value: float) -> Callable[[Case], Case]:
-    """What makes of a case the one in which a cell holds another mass, diameter or resistance."""
-    return lambda case: case.holding(role, value)
+def _other_inputs(f: Examination) -> None:
+    """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
+    report, density = report_inputs(), f.inputs["particle_density"]
+    lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
+    off = {
+        role: own
+        for role, own in f.inputs.items()
+        if role in report and own.how not in ("report", "assumed", "follows")
+        if getattr(f.intended, role, own.si) == own.si
+        if role != "mass" or lone_mass
+        if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
+    }
+    for role, own in off.items():
+        alike = [value for value in report[role] if power_of_ten(own.si / value) is not None]
+        nearest = min(alike or report[role], key=lambda value: abs(value - own.si))
+        text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
+        if role == "target_density":
+            text += ", inferred, since the report prints none"
+        for name, values in report.items():
+            if INPUTS[name] == INPUTS[role] and any(_near(own.si, value) for value in values):
+                text += f"; {quantity(own.si, role)} is {title(name)} there"
+        kind, change = "other input", None
+        # Units mostly lie a thousand apart; a tenth or ten times as much is a choice.
+        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
+        if power and power % 3 == 0:
+            kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
+            change = _changed(role, own.si, own.si / nearest)
+            f.intended = f.intended.with_input(role, nearest, nearest / own.si)
+        place = own.place or f.table.place("depth", 1)
+        solved = own.si if own.place is None else None
+        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, solved, change)
 
 
 def _typed_inputs(f: Examination) -> None:
@@ -209,50 +242,119 @@ def _typed_inputs(f: Examination) -> None:
             continue
         if not math.isclose(used.si, own.si, rel_tol=1e-6):
             here, there = (quantity(value, own.role) for value in (own.si, used.si))
-            text = (
-                f"{title(own.role)} here is {here}, but the rows take {there}: they do not read "
-                "this cell"
-            )
+            text = f"{title(own.role)} is {here} here, but the rows take {there}"
             change = _changed(own.role, used.si, used.si / own.si)
             f.add("typed constant", [own.place], None, text, change=change)
             f.intended = f.intended.with_input(own.role, own.si, own.si / used.si)
     accused = f.accused
-    inputs = (own for own in (*f.unread, *f.inputs.values()) if own.place)
-    for own, role in product(inputs, f.table.lines):
+    for own, role in product((*f.unread, *f.inputs.values()), f.table.lines):
+        if own.place is None:
+            continue
         places = f.cells(role, 0)
-        cells = [
-            place
-            for k, place in enumerate(places)
-            if place not in accused and _typed_in(f, own, role, k, place)
-        ]
+        cells = [place for k, place in enumerate(places)
+                 if place not in accused and _typed_in(f, own, role, k, place)]  # fmt: skip
         # A number in a few formulas of many is one of their own, such as the row's.
-        if own.place and (len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])):
+        if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
             formula = f.calculation.book[cells[0]].formula
             where = address(own.place, with_sheet=own.place[0] != cells[0][0])
-            text = (
-                f"{title(own.role)} is typed into {title(role)}; {where} holds it, and a change "
-                "there changes nothing here"
-            )
+            text = f"{title(own.role)} is typed into {title(role)}: a change of {where} is lost"
             f.add("typed constant", cells, where, text, formula)
 
 
+def _texts(f: Examination) -> None:
+    """Numbers that stand as texts in cells that the rows read."""
+    cells = f.calculation.texts.keys() & (f.read | f.table.places.keys())
+    for place in sorted(cells - f.accused):
+        text = f.calculation.texts[place]
+        says = "it is a text, not a number: not every program calculates with it"
+        f.add("typed number", [place], float(text), says, repr(text))
+
+
 def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) -> bool:
-    """Whether a cell has an input's value as a number, though a cell for it exists."""
-    formula = f.calculation.formulas.get(place)
-    if formula is not None:
-        return types(formula, own, f.calculation)
-    # The impact velocity typed into the first row, while its own cell is read by nothing.
-    first = own.role == "velocity" and role.startswith("velocity") and k <= 1
-    value = f.rows.columns[role].get(k)
-    return first and own in f.unread and value is not None and _near(value, own.si)
+    """Whether a cell has an input's value as a number, and does not read the input's cell."""
+    formula, value = f.calculation.formulas.get(place), f.calculation.number(own.place)
+    if formula is None:
+        # The impact velocity typed into the first row, while its own cell is read by nothing.
+        first = own.role == "velocity" and role.startswith("velocity") and k <= 1
+        number = f.rows.columns[role].get(k)
+        return first and own in f.unread and number is not None and _near(number, own.si)
+    if not formula.literals or value is None or own.role == "beta":
+        return False
+    if own.role == "stop_velocity":
+        pairs = pairwise(piece.text for piece in formula.pieces)
+        typed = any(sign in ("<", "<=", ">", ">=") and to == f"{value:g}" for sign, to in pairs)
+    else:
+        values = {own.si, value} | ({value / 2, own.si / 2} if own.role == "step" else set())
+        typed = any(
+            _near(number, wanted) and not _plain(wanted)
+            for wanted, number in product(values, formula.literals)
+        )
+    read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
+    return typed and all(cell != own.place for cell in read)
+
+
+def _plain(value: float) -> bool:
+    """Whether a number stands in formulas for itself: small whole ones, halves, powers of ten."""
+    whole = float(value).is_integer() and abs(value) <= 10
+    return whole or value in (0.5, 1.5, 12.0) or power_of_ten(abs(value)) is not None
+
+
+# ---- references and areas: what beside the columns of the scheme spoils them
+
+
+def _drifting(f: Examination) -> None:
+    """References to a cell beside the table that move on from row to row, as no $ fixes them."""
+    lines, number = f.table.every_line, f.calculation.number
+    inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
+    for line in lines:
+        every = [(line.place(at), line.formula(at)) for at in range(line.first, line.last + 1)]
+        formulas = [(place, formula) for place, formula in every if formula is not None]
+        shape = formulas[-1][1].shape if formulas else ()
+        alike = [(place, formula) for place, formula in formulas if formula.shape == shape]
+        for pieces in zip(*(formula.pieces for _, formula in alike), strict=True):
+            read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
+            beside = [p for p in read if not any(each.covers(p) for each in lines)]
+            moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
+            strays = None in map(number, beside) or inputs & set(beside[1:])
+            if moves and strays and number(read[0]) is not None:
+                cells = [place for place, _ in alike[1:]]
+                cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
+                text = (
+                    f"its column reads {cell}, which no $ fixes: this row reads {here}, and so on"
+                )
+                f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
+
+
+_NO_CONTACT = "this area is not that of the contact at the depth of its row"
+
+
+def _area(f: Examination) -> tuple[Line, set[int]] | None:
+    """The column beside the table whose area brakes the rows, and the rows where it is wrong."""
+    if "deceleration" not in f.rows.columns:
+        return None
+    for line in f.table.helpers:
+        factors: dict[int, tuple[float, float]] = {}
+        for k in range(1, f.table.steps + 1):
+            x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
+            number = line.at(f.table.zero + k)
+            if x and v is not None and a is not None and number:
+                stress = 0.5 * f.case.target_density * v * v + f.case.resistance
+                force = a * f.case.mass / stress
+                factors[k] = force / number, force / (math.pi * contact(f.case, x))
+        unit = median([by for by, _ in factors.values()]) if len(factors) >= LEAST else 0.0
+        if power_of_ten(unit) is not None and all(_near(by, unit) for by, _ in factors.values()):
+            return line, {k for k, (_, share) in factors.items() if not _near(share, 1.0)}
+    return None
 
 
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
 
-_FACTORS = (
-    (2.0, "2"), (0.5, "1/2"), (math.pi, "pi"), (1 / math.pi, "1/pi"), (4.0, "4"), (0.25, "1/4"),
-    (8.0, "8"), (0.125, "1/8"), (4 / 3, "4/3"), (0.75, "3/4"), (3.0, "3"), (1 / 3, "1/3"),
-)  # fmt: skip
+
+def _is_explained(f: Examination, part: str) -> bool:
+    """Whether it is known already why the rows do not follow a rule of the scheme."""
+    place = f.table.place(*f.rows.shows(part, 3))
+    read = {place, *(area.corner for area in f.calculation.areas(place))}
+    return any(line.covers(p) for p in f.accused & read for line in f.table.every_line)
 
 
 def _scheme(f: Examination) -> None:
@@ -262,14 +364,16 @@ def _scheme(f: Examination) -> None:
         starts = (rule for rule in KNOWN["start"] if f.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT.start)
     unknown = []
-    for part in ("advance", "brake", "end"):
-        if part == "end" and "deceleration" not in f.table.lines:
-            continue  # the brake is known by it
+    # Without a column for the deceleration, the brake is known by the velocity that it makes.
+    parts = ("advance", "brake", "end") if "deceleration" in f.table.lines else ("advance", "brake")
+    for part in parts:
         own, *others = KNOWN[part]
         shares = {own: f.share(part, own)}
         if shares[own] < 0.9:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
+        if (best != own or shares[best] < 0.5) and _is_explained(f, part):
+            continue
         if shares[best] < 0.5:
             unknown.append(part)
         else:
@@ -298,38 +402,46 @@ def _scheme(f: Examination) -> None:
 def _named(f: Examination) -> None:
     """A difference for each rule that is not the report's."""
     rows = replace(f.rows, rules=REPORT)
-    for part, rule in f.rules.others.items():
+    for part, rule in f.rows.rules.others.items():
         own, (fills, first) = getattr(REPORT, part), PARTS[part]
         judged = range(first, f.table.steps)
         first = next((k for k in judged if not f.follows(part, own, k)), first)
         role, at = rows.shows(part, first)
         wanted = rows.wanted(role, at) if role == fills else None
         cells = f.cells(role, at, at if part == "start" else None)
+        if part == "brake" and (area := _area(f)) and area[1]:
+            line, rows_off = area
+            cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
         text = f"{rule.name}: {rule.says}"
         f.add("other scheme", cells, f.shown(role, wanted), text, change={part: rule})
 
 
 def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
-    own = f.table.lines[role]
+    area = _area(f) if part == "brake" else None
+    own = area[0] if area and area[1] else f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
-        return "other scheme", "these cells follow no scheme that this program knows", own
+        text = "these cells follow no scheme that this program knows"
+        return "other scheme", text if own in f.table.lines.values() else _NO_CONTACT, own
     what, base, constant = "step", f.case.step, "the time step"
     if part == "brake":
         what, base, constant = "force", math.pi, "pi"
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", own
     for line in (own, *f.table.helpers):
-        if any(_near(number / base, ratio) for number in f.literals(line)):
+        formulas = filter(None, map(line.formula, range(line.first, line.last + 1)))
+        numbers = {abs(number) for formula in formulas for number in formula.literals}
+        if any(_near(number / base, ratio) for number in numbers):
             return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
-    named = next((name for value, name in _FACTORS if _near(value, ratio)), f"{ratio:.6g}")
+    fraction = Fraction(ratio).limit_denominator(8)
+    named = f"{fraction}" if _near(fraction, ratio) else f"{ratio:.6g}"
     return "other scheme", f"every {what} is {named} times that of the report's scheme", own
 
 
-def _near(a: float, b: float) -> bool:
+def _near(a: float | Fraction, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
@@ -359,14 +471,15 @@ def _as_rounded(f: Examination, digits: int) -> None:
     rules = min(misprints, key=lambda rules: len(misprints[rules]))
     f.rows = replace(f.rows, rules=rules)
     _named(f)
-    for place, expected, text in misprints[rules]:
-        f.add("typed number", [place], expected, text)
+    for role, k, expected in misprints[rules]:
+        text = f"{title(role)} of row {k} is not what the scheme gives"
+        f.add("typed number", [f.table.place(role, k)], expected, text)
 
 
 def _misprints(
     f: Examination, run: Mapping[str, Mapping[int, float]], digits: int
-) -> Iterator[tuple[Position, float | None, str]]:
-    """Numbers that do not round as a scheme's do, and what they should be if that is finite."""
+) -> Iterator[tuple[str, int, float | None]]:
+    """Numbers that do not round as a scheme's do: role, row, and what it should be if finite."""
     for role in set(run) & set(f.table.lines):
         for k, right in run[role].items():
             value, wanted = f.table.number(role, k), f.shown(role, right)
@@ -377,8 +490,222 @@ def _misprints(
             if wanted and expected is not None:
                 last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
             if not abs(value - wanted) <= last * (0.5 + 1e-9):
-                text = f"{title(role)} of row {k} is not what the scheme gives"
-                yield f.table.place(role, k), expected, text
+                yield role, k, expected
+
+
+# ---- each cell, by what the cells before it give and by what its column is
+
+
+def _each_cell(f: Examination) -> None:
+    """Every cell that is not what those before it give, and every cell unlike its column."""
+    odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
+    areas = (area for place in f.table.places for area in f.calculation.areas(place))
+    read = {area.corner for area in areas if area.cells == 1}
+    spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
+    wrong: dict[Position, tuple[str, str, float | None]] = {}
+    area = _area(f)
+    for place, (role, k) in f.table.places.items():
+        expected = f.rows.wanted(role, k)
+        if place in odd:
+            kind, text = odd.pop(place)
+            if error := f.calculation.error(place):
+                kind, text = "odd formula", f"{text}; it gives {error}"
+            elif reason := f.calculation.uncomputed.get(place):
+                kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
+        elif place in accused or any(
+            area.corner in spoilt and area.corner != place for area in f.calculation.areas(place)
+        ):
+            continue
+        elif _fails(f, role, k, expected, place in read):
+            kind, text = _lone(f, role, k, expected)
+            if area and role == "deceleration" and k in area[1]:
+                place, expected = area[0].place(f.table.zero + k), None
+                text = _NO_CONTACT
+        else:
+            continue
+        value = f.rows.columns[role].get(k)
+        if value and expected and math.isclose(value, expected, rel_tol=1e-9):
+            text += "; it gives the right value here"
+        wrong[place] = kind, text, f.shown(role, expected)
+    wrong |= {place: (*why, None) for place, why in odd.items()}
+    # Those of neighbours with the same kind and cause, but for numbers, are one.
+    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
+    causes = {place: (kind, re.sub(number, "#", text)) for place, (kind, text, _) in wrong.items()}
+    for run in runs(causes, f.table.across):
+        kind, text, shown = wrong[run[0]]
+        f.add(kind, run, shown, text)
+
+
+def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
+    """Cells whose readers are not to blame, and those beside the table that read them.
+
+    They are `wrong` cells beside the table and those of the table that hold no number.
+    """
+    order, values = f.calculation.order, f.calculation.values
+    spoilt = wrong | {p for p in f.table.places if isinstance(values.get(p), str | bool)}
+    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
+    for place in sorted(cells & order.keys(), key=order.__getitem__):
+        if any(area.corner in spoilt for area in f.calculation.areas(place)):
+            spoilt.add(place)
+    return spoilt
+
+
+_WHAT = {str: "a text", bool: "a truth value"}
+
+
+def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
+    """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
+
+    Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
+    """
+    rows = [table.zero + k for k in range(2, table.steps + 1)]
+    places = [line.place(at) for at in rows if line.follows(at)]
+    calculation = line.calculation
+    formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
+    if len(formulas) < max(3, 0.5 * len(places)):
+        return
+    # Some people type the number of the row into each formula: then the shapes without numbers.
+    for masked in (False, True):
+        shapes = {
+            place: tuple(
+                "#" if masked and piece.kind == "number" else shape
+                for piece, shape in zip(formula.pieces, formula.shape, strict=True)
+            )
+            for place, formula in formulas.items()
+        }
+        usual, often = Counter(shapes.values()).most_common(1)[0]
+        if often >= 0.5 * len(formulas):
+            break
+    else:
+        return
+    pattern = next(formulas[place] for place, shape in shapes.items() if shape == usual)
+    for place in places:
+        if place in formulas:
+            if shapes[place] != usual:
+                yield place, _odd(formulas[place], pattern, calculation)
+        elif (typed := calculation.values.get(place)) is not None:
+            kind = str if place in calculation.texts else type(typed)
+            what = _WHAT.get(kind, "a number")
+            stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
+            yield place, ("typed number", stand)
+
+
+def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
+    """Whether a formula unlike its column has a number where the others have a reference."""
+    text = calculation.book[formula.place].formula
+    usual = _filled(pattern, formula.place, calculation)
+    typed = Counter(formula.literals) - Counter(pattern.literals)
+    if typed and len(formula.areas) < len(pattern.areas):
+        numbers = " and ".join(f"{number:g}" for number in typed)
+        return "typed constant", f"{text} has {numbers} where its column reads a cell: {usual}"
+    return "odd formula", f"{text} is unlike its column, where {usual} would stand"
+
+
+def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
+    """The formula of another cell, filled into this one."""
+    from openpyxl.formula.translate import Translator, TranslatorError
+
+    text = calculation.book[pattern.place].formula or ""
+    with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
+        text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
+    return text
+
+
+def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:
+    """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
+    column, place = f.rows.columns[role], f.table.place(role, k)
+    value = column.get(k)
+    if value is None:
+        needed = 0 < k < max(column, default=0) or (read and k > 0)
+        beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
+        wrong = needed or _text(f, place) or f.calculation.error(place)
+        return bool(wrong) and not beyond
+    numbered = role == "time" and math.isclose(value, k * f.case.step, rel_tol=NEAR)
+    if expected is None or numbered:  # by the number of the row, not from the time before
+        return False
+    size = abs(expected)
+    if role.startswith("velocity"):
+        size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
+    if abs(value - expected) <= NEAR * size:
+        return False
+    # A first row that is the report's may be unlike the others, which follow another rule.
+    part = FILLS.get(role, "advance")
+    return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
+
+
+def _text(f: Examination, place: Position) -> bool:
+    """Whether a text or a truth value is typed into a cell of the table, below its heads."""
+    value = f.calculation.values.get(place)
+    _, k = f.table.places.get(place, ("", 0))
+    typed = (k > 0 and value != "") or place in f.calculation.spoiling
+    return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
+
+
+def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:
+    """The kind of a cell that alone is not what the cells before it give."""
+    place, cell = f.table.place(role, k), f"{title(role)} of row {k}"
+    value = f.rows.columns[role].get(k)
+    typed = place not in f.calculation.formulas
+    alone = "typed number" if typed else "odd formula"
+    if error := f.calculation.error(place):
+        return "odd formula", f"{cell} gives {error}, as do all cells that read it"
+    if value is None and _text(f, place):
+        return alone, f"{cell} is {_WHAT[type(f.calculation.values[place])]}, not a number"
+    if value is None:
+        return "odd formula", f"{cell} is {'blank' if typed else 'no number'}"
+    if role == "time" and k == 1 and value == 0:
+        return "other scheme", "the times are those at the beginning of the rows"
+    what = f"{cell} is not what the cells before it give"
+    if power := power_of_ten(value / expected) if expected else None:
+        return "unit", f"{what}: a factor of 1e{abs(power)}"
+    if role == "depth" and k == 1 and not typed:
+        return "other scheme", "the first depth is neither half a step nor a whole one"
+    beyond = (f.rows("depth", k) or 0.0) >= f.case.radius
+    if role == "deceleration" and beyond and f.follows("brake", BEYOND, k):
+        return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
+    return alone, what
+
+
+def _order(f: Examination) -> None:
+    """Columns whose last digits no order of the report's operations gives."""
+    factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
+    if any(f.powers.values()) or factors != {Fraction(1)} or f.rows.rules != REPORT:
+        return  # converting units costs last digits, too
+    # The mass as its cell has it; without a cell, as any order of its product gives it.
+    masses = [f.case.mass]
+    for way in (0.0, math.inf) if "mass" not in f.derived else ():
+        mass = f.case.mass
+        masses += [mass := math.nextafter(mass, way) for _ in range(4)]
+    cases = [replace(f.case, own_mass=mass) for mass in masses]
+    accused = f.accused
+    # Without a column of its own the deceleration's order is not known by the velocity's.
+    shown = "deceleration" in f.rows.columns
+    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
+        column = f.rows.columns.get(role, {})
+        rows = [k for k in column if k and f.table.place(role, k) not in accused
+                and f.table.place(role, k) in f.calculation.formulas
+                and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
+        others = [
+            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
+            for case in cases
+        ]
+        if differ := min(others, key=len):
+            value = column[differ[0]]
+            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - value))
+            ulps = round(abs(wanted - value) / math.ulp(wanted))
+            text = f"the last digits of {len(differ)} of {len(rows)} cells of {title(role)}, here "
+            text += f"{ulps} ulp, are those of another order, on which no printed digit depends"
+            cells = [f.table.place(role, k) for k in differ]
+            f.add("operation order", cells, f.shown(role, wanted), text)
+
+
+def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
+    """What a cell may hold, by the order of the operations."""
+    x, v = f.rows("depth", k), f.rows("velocity_initial", k)
+    if role == "deceleration":
+        return set() if x is None or v is None else orders(case, x, v)
+    value = f.rows.wanted(role, k)
+    return set() if value is None else {value}
 
 
 # ---- the stop, and all of it together
@@ -387,39 +714,39 @@ def _misprints(
 def _stop(f: Examination) -> None:
     """Whether the rows end with the first velocity below the stop."""
     steps, rows, case = f.table.steps, f.rows, f.case
-    stop, report = case.stop_velocity, report_inputs()["resistance"]
     finals = {k: v for k in range(1, steps + 1) if (v := rows("velocity_final", k)) is not None}
     if steps not in finals and (last := rows.wanted("velocity_final", steps)) is not None:
         finals[steps] = last  # computed where the table ends before it shows it
-    below = next((k for k, v in finals.items() if v < stop), None)
-    right = max(march(f.intended)["depth"])
-    if not finals or below == steps or (below != steps and right == steps):
+    below = next((k for k, v in finals.items() if v < case.stop_velocity), None)
+    if not finals or steps in (below, max(march(f.intended)["depth"])):
         return  # with as many rows as there should be, where they end follows from the rest
-    last = finals[max(finals)]
     role = "velocity_final" if "velocity_final" in f.table.lines else "velocity_initial"
+    stop = f"the stop at {case.stop_velocity:g} m/s"
+    text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
     if below is not None:
         cells = f.cells(role, below + 1)
-        text = f"other stop: the rows go on after the velocity has fallen below {stop:g} m/s, to {last:.3g} m/s"  # noqa: E501
+        text = f"other stop: {text.format('after')}"
         f.add("other scheme", cells, None, text, change=OTHER_STOP)
         return
-    run = march(case, f.rules)["velocity_final"]
+    run = march(case, rows.rules)["velocity_final"]
     whole = max(run, default=0)
-    if whole <= steps or (run[whole] >= stop and whole < MOST_ROWS):
+    if whole <= steps or (run[whole] >= case.stop_velocity and whole < MOST_ROWS):
         return  # the rules that the rows follow do not lead to the stop by themselves
-    text = f"the rows end at {last:.4g} m/s, before the stop at {stop:g} m/s"
-    of = f"{whole:,} steps" if whole < MOST_ROWS else f"more than {MOST_ROWS:,} steps"
-    place = f.table.place(role, steps)
-    # With other inputs, or the report's other beta, rows prepared for those before run out, and an
-    # excerpt has few; but who leaves off shortly before the report does stops at another velocity.
+    of = f"{whole:,}" if whole < MOST_ROWS else f"more than {MOST_ROWS:,}"
+    text = f"{text.format('before')}: {steps} of {of} steps"
+    # With other inputs, or the report's other beta, rows prepared for those before run out; an
+    # excerpt has few, none of which is called the final depth. But who leaves off shortly before
+    # the report does stops at another velocity.
     changed = any(difference.kind == "other input" for difference in f.differences)
-    cases = [replace(case, resistance=resistance) for resistance in report]
-    prepared = any(max(march(each, f.rules)["depth"]) == steps for each in cases)
-    if changed or prepared or 2 * steps < whole:
-        f.add("not calculated", [place], None, f"{text}: {steps} of {of}")
+    cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
+    prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
+    place = f.table.place(role, steps)
+    named = (each for kind, each in results(f.table) if kind == "depth")
+    shown = any(a.corner in f.table.places for each in named for a in f.calculation.areas(each))
+    if changed or prepared or (2 * steps < whole and not shown):
+        f.add("not calculated", [place], None, text)
     else:
-        f.add(
-            "other scheme", [place], None, f"other stop: {text}, {steps} of {of}", change=OTHER_STOP
-        )
+        f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
 
 
 def _effects(f: Examination) -> None:
@@ -437,16 +764,16 @@ def _effects(f: Examination) -> None:
                 f.differing += abs(own - right) > 1e-9 * abs(right)
     if not any(d.change == OTHER_STOP for d in f.differences):
         steps = f.table.steps
-    with_effects = (_with_effect(f, difference, steps) for difference in f.differences)
+    with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)
     f.differences = sorted(with_effects, key=lambda d: d.rank)
 
 
-def _with_effect(f: Examination, difference: Difference, steps: int) -> Difference:
-    """The difference with the final depth that it alone would give, after so many steps."""
+def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
+    """The final depth that a difference alone would give, after so many steps."""
     change, fixed = difference.change, {}
     rules, case = REPORT, f.intended
-    if not f.rules.brake.says:
-        rules = replace(rules, brake=f.rules.brake)
+    if not f.rows.rules.brake.says:
+        rules = replace(rules, brake=f.rows.rules.brake)
     if callable(change):
         case = change(case)
     elif change is not None:
@@ -460,8 +787,7 @@ def _with_effect(f: Examination, difference: Difference, steps: int) -> Differen
             if value is not None:
                 fixed[role, k] = value
         if not fixed and f.rank(difference.place)[0] == 1:
-            return difference  # a text, an error, or a cell beside the table: nothing to go on with
+            return None  # a text, an error, or a cell beside the table: nothing to go on with
     else:
-        return difference
-    depths = march(case, rules, fixed, steps=steps)["depth"]
-    return replace(difference, effect=depths.get(steps))
+        return None
+    return march(case, rules, fixed, steps=steps)["depth"].get(steps)

@@ -1,10 +1,10 @@
-"""What `check` and `diff` found, shown: as text, as a page with the sheets drawn, as JUnit file."""
+"""What `check` and `diff` found: one JSON document, and text, page and JUnit file that show it."""
 
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib import resources
-from itertools import pairwise
 from textwrap import fill
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -12,9 +12,11 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
-from replication.check.examination import KINDS, NO_FAULT, Difference
+from replication.check.diff import LAST, Comparison
+from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
-from replication.check.words import count
+from replication.check.words import INPUTS, count, unit_text
+from replication.check.workbook import Check
 from replication.text import aligned, with_unit
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
@@ -26,6 +28,134 @@ _ROWS, _COLUMNS = 400, 40
 _NEAR = 3
 
 Record = Mapping[str, Any]
+
+# ---- for a program
+
+
+def check_record(check: Check) -> dict[str, Any]:
+    """The document of `coldspray check --json`; a number beyond doubles is null."""
+    tables = check.examinations
+    return _record([check.calculation], _verdict(check), check.differences, check.first) | {
+        "taken": [_taken(f) for f in tables],
+        "final_depths": [_finite(_depth(f)) for f in tables],
+        "claims": [
+            {
+                "id": number.claim.id, "title": number.claim.title,
+                "where": str(number.claim.place), "printed": number.claim.shown,
+                "unit": number.claim.unit, "interval": str(number.claim.interval()),
+                "cell": address(number.place, True), "found": number.found, "met": number.met,
+            }
+            for number in check.numbers
+        ],
+    }  # fmt: skip
+
+
+def diff_record(comparison: Comparison) -> dict[str, Any]:
+    """The document of `coldspray diff --json`; `expected` is the first workbook's."""
+    differences, calculations = comparison.differences, (comparison.before, comparison.after)
+    cells = sum(len(d.cells) for d in differences if d.kind in ("formula", "value"))
+    verdict = f"{count(len(differences), 'difference')}, in the contents of {count(cells, 'cell')}"
+    if last := sum(d.explanation.startswith(LAST) for d in differences):
+        verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
+    verdict = f"{verdict}." if differences else "Equal: every cell holds the same."
+    return _record(calculations, verdict, differences, next(iter(differences), None))
+
+
+def _record(
+    calculations: Sequence[Calculation],
+    verdict: str,
+    differences: Sequence[Difference],
+    first: Difference | None,
+) -> dict[str, Any]:
+    """What the two documents have in common."""
+    return {
+        "file": " and ".join(str(c.book.path) for c in calculations),
+        "verdict": verdict,
+        "clean": first is None,
+        "summary": dict(Counter(d.kind for d in differences)),
+        "first": first and _finite(first.record()),
+        "differences": [_finite(d.record()) for d in differences],
+        "taken": [],
+        "final_depths": [],
+        "claims": [],
+        "notes": [note for c in calculations for note in c.book.notes],
+    }
+
+
+def _finite(record: Record) -> Record:
+    """The same without numbers that JSON does not know."""
+    infinite = (float("inf"), float("-inf"))
+    return {k: None if v in infinite or v != v else v for k, v in record.items()}
+
+
+def _verdict(check: Check) -> str:
+    """One sentence for all of it."""
+    causes, faults = check.causes, check.faults
+    if not faults:
+        others = sum(d.kind == "other input" for d in check.differences)
+        inputs = f", with {count(others, 'other input')}" if others else ""
+        goes = "" if any(f.ends for f in check.examinations) else " as far as it goes"
+        return f"Clean{goes}: the report's sheet{inputs}, cell by cell."
+    if not causes:
+        return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
+    if all(d.kind == "operation order" for d in causes):
+        return "The report's sheet but for last digits: it calculates in another order."
+    sentence = f"{count(len(causes), 'difference')} from the report's sheet"
+    for f in check.examinations:
+        if (depths := _apart(f)) is not None:
+            own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
+            return f"{sentence}; the final depth is {own}, and should be {right}."
+    if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
+        return f"{sentence}; the final depth is right all the same."
+    return f"{sentence}."
+
+
+def _apart(f: Examination) -> tuple[float, float] | None:
+    """The final depth and what it should be, where these differ."""
+    own, right = f.final_depth, f.right_depth
+    if own is None or right is None or not f.ends or abs(own - right) <= 1e-9 * abs(right):
+        return None
+    return own, right
+
+
+def _depth(f: Examination) -> Record:
+    """The final depth, what it should be, and the one difference that alone explains it, if any."""
+    explains = None
+    if (depths := _apart(f)) is not None:
+        own, right = depths
+        effects = [(abs(d.effect - own), d) for d in f.differences if d.effect is not None]
+        off, nearest = min(effects, key=lambda entry: entry[0], default=(0.0, None))
+        if nearest and off < 0.05 * abs(own - right):
+            explains = address(nearest.place, True)
+    return {"found": f.final_depth, "expected": f.right_depth, "explained_by": explains,
+            "differing": f.differing}  # fmt: skip
+
+
+def _taken(f: Examination) -> Record:
+    """What was taken for what."""
+    table = f.table
+    return {
+        "sheet": table.sheet,
+        "direction": "to the right" if table.across else "down",
+        "steps": table.steps,
+        "scheme": f.rows.rules.name,
+        "columns": {
+            role: {"cells": table.area(role), "head": line.head,
+                   "unit": unit_text(role, f.powers[role]),
+                   "by": "--map" if line.given else "head" if role in line.roles else "values"}
+            for role, line in table.lines.items()
+        },
+        "inputs": {
+            role: {"value": own.si, "unit": INPUTS[role],
+                   "cell": address(own.place, True) if own.place else None,
+                   "label": own.label or None, "by": own.how}
+            for role in INPUTS
+            if (own := f.inputs.get(role)) is not None
+        },
+    }  # fmt: skip
+
+
+# ---- for a person at a terminal
 
 
 def safe(text: object, limit: int = 90) -> str:
@@ -56,9 +186,6 @@ def contents(difference: Record) -> str:
     return "" if values[1] is None else f"holds {found}"
 
 
-# ---- for a person at a terminal
-
-
 def text(record: Record) -> str:
     """All that was found, the most important first."""
     return "\n".join(_lines(record))
@@ -67,10 +194,8 @@ def text(record: Record) -> str:
 def _lines(record: Record) -> Iterator[str]:
     yield safe(record["file"], 200)
     yield from (f"  {safe(note, 200)}" for note in record["notes"])
-    if record["taken"]:
-        yield from ("", "What was taken for what")
-    for before, taken in zip([None, *record["taken"]], record["taken"], strict=False):
-        yield from _table(taken, before["inputs"] if before else {})
+    tables = [line for taken in record["taken"] for line in _table(taken)]
+    yield from _list("What was taken for what", tables)
     yield from ("", record["verdict"])
     first, differences = record["first"], record["differences"]
     if first:
@@ -89,31 +214,46 @@ def _lines(record: Record) -> Iterator[str]:
     yield from _list("Then", [line for d in rest[:_MOST] for line in _difference(d)], len(rest))
     for kind, title in aside.items():
         of_kind = [d for d in differences if d["kind"] == kind]
-        where = ["" if d["count"] > 1 else f"{_where(d)}: " for d in of_kind]
-        said = [at + safe(d["explanation"], 300) for at, d in zip(where, of_kind, strict=True)]
-        yield from _list(title, [_wrapped(line, "  ") for line in said[:_MOST]], len(of_kind))
-    yield from _claims(record["claims"])
+        lines = [
+            _wrapped(f"{_where(d)}: " * (d["count"] == 1) + safe(d["explanation"], 300), "  ")
+            for d in of_kind[:_MOST]
+        ]
+        yield from _list(title, lines, len(of_kind))
+    claims = record["claims"]
+    unmet = [claim for claim in claims if not claim["met"]]
+    shown = unmet or [c for c in claims if c["id"].startswith(("depth-", "ratio-"))]
+    rows = [
+        (
+            f"  {with_unit(claim['printed'], claim['unit'])}",
+            safe(claim["cell"], 40),
+            f"{claim['found']:.7g}",
+            "as printed" if claim["met"] else f"not in {claim['interval']}",
+            claim["title"],
+        )
+        for claim in shown[:_MOST]
+    ]
+    met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
+    if claims:
+        yield from ("", f"Of the report's printed numbers it holds {met}")
+    yield from aligned(rows) if rows else ()
+    yield from _list("", [], len(shown))
 
 
-def _table(taken: Record, before: Record) -> Iterator[str]:
-    """One table; of its inputs those that are not those of the table before."""
+def _table(taken: Record) -> Iterator[str]:
+    """One table: its columns and its inputs."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
     sheet = repr(safe(taken["sheet"], 40))
     yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
-    columns = [
-        (name, column["cells"], f"in {column['unit']}", _by(column, column["head"]))
+    entries = [
+        (name, column["cells"], f"in {column['unit']}", _by(column["by"], column["head"]))
         for name, column in taken["columns"].items()
-    ]
-    inputs = [
+    ] + [
         (name, safe(own["cell"] or "-", 40), with_unit(f"{own['value']:.10g}", own["unit"]),
-         _by(own, own["label"]))
+         _by(own["by"], own["label"]))
         for name, own in taken["inputs"].items()
-        if own != before.get(name)
     ]  # fmt: skip
-    yield from aligned([(f"    {n.replace('_', ' ')}", *rest) for n, *rest in (*columns, *inputs)])
-    if len(inputs) < len(taken["inputs"]):
-        yield "    the other inputs are those above"
+    yield from aligned([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries])
 
 
 _WAYS = {
@@ -127,12 +267,11 @@ _WAYS = {
 }
 
 
-def _by(entry: Record, said: str) -> str:
+def _by(how: str, said: str) -> str:
     """How something is known."""
-    by = entry["by"]
-    if by == "follows":
+    if how == "follows":
         return f"follows from {said}"
-    return _WAYS.get(by) or f"{by} {safe(said, 40)!r}"
+    return _WAYS.get(how) or f"{how} {safe(said, 40)!r}"
 
 
 def _difference(difference: Record) -> Iterator[str]:
@@ -151,32 +290,11 @@ def _wrapped(line: str, indent: str) -> str:
     return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
-def _list(title: str, lines: Sequence[str], of: int) -> Iterator[str]:
+def _list(title: str, lines: Sequence[str], of: int = 0) -> Iterator[str]:
     if lines:
         yield from ("", title, *lines)
     if of > _MOST:
         yield f"  and {of - _MOST} more, which --json lists"
-
-
-def _claims(claims: Sequence[Record]) -> Iterator[str]:
-    if not claims:
-        return
-    shown = [claim for claim in claims if not claim["met"]]
-    met = len(claims) - len(shown)
-    shown = shown or [c for c in claims if c["id"].startswith(("depth-", "ratio-"))]
-    rows = [
-        (
-            f"  {with_unit(claim['printed'], claim['unit'])}",
-            safe(claim["cell"], 40),
-            f"{claim['found']:.7g}",
-            "as printed" if claim["met"] else f"not in {claim['interval']}",
-            claim["title"],
-        )
-        for claim in shown[:_MOST]
-    ]
-    yield from ("", f"Of the report's printed numbers it holds {len(claims)}, {met} as printed")
-    yield from aligned(rows) if rows else ()
-    yield from _list("", [], len(shown))
 
 
 # ---- for a browser
@@ -198,16 +316,13 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
     )  # fmt: skip
     environment.filters |= {"safe": safe, "contents": contents, "unit": written}
     sheets = list(calculation.book.sheets)
+    marked = {d.place[0] for d in differences}
     return environment.get_template("page.html.j2").render(
         record,
         style=Markup(style),  # noqa: S704  (our own file)
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
         anchors=[_anchor(d.place, sheets) for d in differences],
-        sheets=[
-            _drawn(name, differences, calculation)
-            for name in sheets
-            if any(d.place[0] == name for d in differences)
-        ],
+        sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
     )
 
 
@@ -215,26 +330,21 @@ def _anchor(place: Position, sheets: Sequence[str]) -> str:
     return f"c{sheets.index(place[0])}-{address(place)}" if place[0] in sheets else ""
 
 
-def _drawn(
-    name: str, differences: Sequence[Difference], calculation: Calculation
-) -> dict[str, Any]:
+def _drawn(name: str, differences: Sequence[Difference], calculation: Calculation) -> Record:
     """A sheet with its differences marked: its name, heads, and rows of cells."""
     origins = {d.place: number for number, d in reversed(list(enumerate(differences, 1)))}
-    kinds = {place: d.kind for d in reversed(differences) for place in d.cells}
+    kinds = {place: d.kind.replace(" ", "-") for d in reversed(differences) for place in d.cells}
     used = [p for p in (*calculation.values, *origins) if p[0] == name]
-    marked = [p for p in dict.fromkeys(d.place for d in differences) if p[0] == name]
+    marked = [p for p in origins if p[0] == name]
     rows = _kept({p[1] for p in used}, {p[1] for p in marked}, _ROWS)
     columns = _kept({p[2] for p in used}, {p[2] for p in marked}, _COLUMNS)
     sheets = list(calculation.book.sheets)
 
-    def cell(row: int | None, column: int | None) -> dict[str, Any] | None:
-        if row is None or column is None:
-            return None
+    def cell(row: int, column: int) -> Record:
         place = (name, row, column)
-        value = calculation.values.get(place, "")
+        value, kind = calculation.values.get(place, ""), kinds.get(place)
         number = isinstance(value, float)
-        kind = kinds.get(place, "").replace(" ", "-")
-        classes = ("right" * number, "marked" * bool(kind), kind, "origin" * (place in origins))
+        classes = ("right" * number, kind and f"marked {kind}", "origin" * (place in origins))
         return {
             "text": f"{value:.6g}" if number else safe(value, 40),
             "formula": safe(calculation.book[place].formula or "", 200),
@@ -245,22 +355,16 @@ def _drawn(
 
     return {
         "name": name,
-        "heads": ["…" if column is None else get_column_letter(column) for column in columns],
-        "rows": [("…" if row is None else row, [cell(row, c) for c in columns]) for row in rows],
+        "heads": [get_column_letter(column) for column in columns],
+        "rows": [(row, [cell(row, column) for column in columns]) for row in rows],
     }
 
 
-def _kept(used: set[int], marked: set[int], most: int) -> list[int | None]:
-    """All lines, or the first and those around what is marked; None where some are left out."""
+def _kept(used: set[int], marked: set[int], most: int) -> list[int]:
+    """All lines that hold something; of too many the first, and those around what is marked."""
+    near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}
     lines = sorted(used)
-    if len(lines) > most:
-        near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}
-        lines = sorted({*lines[: most // 4], *lines[-_NEAR:], *(near & used)})
-    kept: list[int | None] = [*lines[:1]]
-    for before, line in pairwise(lines):
-        gap = range(before + 1, line)
-        kept += [*(gap if len(gap) <= _NEAR else [None]), line]
-    return kept
+    return lines if len(lines) <= most else sorted({*lines[: most // 4], *(near & used)})
 
 
 # ---- for a machine that runs tests
@@ -268,21 +372,17 @@ def _kept(used: set[int], marked: set[int], most: int) -> list[int | None]:
 
 def junit(record: Record, kinds: Sequence[str]) -> str:
     """A suite with one test for each kind: failed where it was found, skipped where not covered."""
-    differences = record["differences"]
-    failed = {d["kind"] for d in differences} - NO_FAULT
+    failed = record["summary"].keys() - NO_FAULT
     suite = ET.Element(
-        "testsuite",
-        name=f"coldspray {safe(record['file'], 200)}",
-        tests=str(len(kinds)),
-        failures=str(len(failed)),
-        errors="0",
+        "testsuite", name=f"coldspray {safe(record['file'], 200)}", tests=str(len(kinds)),
+        failures=str(len(failed)), errors="0",
         skipped=str(int("not calculated" in record["summary"])),
-    )
+    )  # fmt: skip
     for kind in kinds:
         case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
         lines = [
             f"{safe(d['sheet'], 40)}!{d['cell']}: {safe(d['explanation'], 300)}"
-            for d in differences
+            for d in record["differences"]
             if d["kind"] == kind
         ]
         if kind in failed:

@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import pairwise, product
 from statistics import median
 
-from replication.check.words import COLUMNS, column_roles, is_unit, unit_in
+from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
 
@@ -25,6 +25,8 @@ _GAP = 3
 _ABOVE = 6
 """How far above its first number a line's head may stand."""
 _MAX_LINES = 60
+_ROUNDED = 12
+"""Numbers without formulas and with at most so many digits are taken as rounded."""
 _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
 _CLOSE = 0.02
@@ -184,9 +186,15 @@ def address(place: Position, with_sheet: bool = False) -> str:
     return f"{quoted}!{cell}" if with_sheet else cell
 
 
-def area_of(first: Position, last: Position) -> str:
-    """The cells from one to another, as an address without the sheet."""
-    return address(first) if first == last else f"{address(first)}:{address(last)}"
+def span(cells: Iterable[tuple[int, int]]) -> str:
+    """The area that reaches over cells, each by row and column, as an address.
+
+    >>> span([(9, 4), (8, 5)]), span([(1, 1)])
+    ('D8:E9', 'A1')
+    """
+    rows, columns = zip(*cells, strict=True)
+    corners = (("", end(rows), end(columns)) for end in (min, max))
+    return ":".join(dict.fromkeys(map(address, corners)))
 
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
@@ -265,7 +273,7 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 # ---- tables
 
 
-@dataclass(frozen=True)
+@dataclass
 class Table:
     """One run of the scheme: its columns by role, and the row of the sheet that is its row 0.
 
@@ -278,25 +286,10 @@ class Table:
     steps: int
     helpers: tuple[Line, ...] = ()
 
-    @property
-    def calculation(self) -> Calculation:
-        """The workbook that it stands in."""
-        return self.lines["depth"].calculation
-
-    @property
-    def sheet(self) -> str:
-        """The sheet that it stands on."""
-        return self.lines["depth"].sheet
-
-    @property
-    def across(self) -> bool:
-        """Whether its steps run to the right."""
-        return self.lines["depth"].across
-
-    @property
-    def every_line(self) -> tuple[Line, ...]:
-        """Its columns, and those beside them."""
-        return (*self.lines.values(), *self.helpers)
+    def __post_init__(self) -> None:
+        depth = self.lines["depth"]
+        self.calculation, self.sheet, self.across = depth.calculation, depth.sheet, depth.across
+        self.every_line = (*self.lines.values(), *self.helpers)
 
     def place(self, role: str, k: int) -> Position:
         """The cell of a role in row k."""
@@ -310,13 +303,25 @@ class Table:
         """The cells of a role, as an address."""
         every = range(self.steps + 1)
         rows = [k for k in every if self.number(role, k) is not None] or every
-        return area_of(self.place(role, rows[0]), self.place(role, rows[-1]))
+        return span(self.place(role, k)[1:] for k in (rows[0], rows[-1]))
 
     @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:
         """Every cell of the table -> its role and row."""
         rows = range(self.steps + 1)
         return {self.place(role, k): (role, k) for role in self.lines for k in rows}
+
+    @cached_property
+    def digits(self) -> int | None:
+        """How many digits its numbers have, if they are typed and rounded; else None."""
+        lines = [line for role, line in self.lines.items() if role in ("depth", "deceleration")]
+        rows = range(self.zero + 1, self.zero + self.steps + 1)
+        if any(line.formula(at) for line in lines for at in rows):
+            return None
+        numbers = (number for line in lines for at in rows if (number := line.at(at)))
+        texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
+        most = max((len(text.strip("0")) for text in texts), default=17)
+        return most if most <= _ROUNDED else None
 
 
 def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
@@ -485,3 +490,24 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             return at if at < last - 1 and ended else last
     return last
+
+
+def results(table: Table) -> Iterator[tuple[str, Position]]:
+    """Cells beside or below a label that says final depth, or depth over radius.
+
+    A cell below it that numbers follow is the first of a list, not a result.
+    """
+    for (sheet, row, column), text in table.calculation.values.items():
+        kind = result_of(text) if isinstance(text, str) else None
+        if kind is not None:
+            for down, right in ((0, 1), (0, 2), (1, 0)):
+                place = (sheet, row + down, column + right)
+                inside = any(line.covers(place) for line in table.every_line)
+                after = (sheet, row + 2, column) if down else None
+                if (
+                    table.calculation.number(place) is not None
+                    and table.calculation.number(after) is None
+                    and not inside
+                ):
+                    yield kind, place
+                    break

@@ -1,41 +1,28 @@
-"""What people call things: heads of columns and labels of inputs, in English, German and French.
+"""What people call things: heads of columns and labels of inputs, their units, numbers in them.
 
 A text is read in two ways: as a symbol, if it is nothing else ("R_t", "dx/dt"), and by the words
-in it ("target resistance"). Units stand in brackets, after "in" or "/", or in a cell of their own.
+in it ("target resistance"); `words.toml` lists both. Units stand in brackets, after "in" or "/",
+or in a cell of their own.
 """
 
 import math
 import re
+import tomllib
 import unicodedata
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import cache
+from importlib import resources
 
 from reference.units import UnitError, same_dimension, to_si
 from replication.text import with_unit
 
-COLUMNS = {
-    "time": "s",
-    "velocity_initial": "m/s",
-    "depth": "m",
-    "deceleration": "m/s^2",
-    "velocity_final": "m/s",
-}
+_WORDS: dict[str, dict[str, str]] = tomllib.loads(
+    resources.files("replication.check").joinpath("words.toml").read_text("utf-8")
+)
+COLUMNS = _WORDS["columns"]
 """The columns of the sheet, in the order of a row, and what they measure."""
-
-INPUTS = {
-    "velocity": "m/s",
-    "radius": "m",
-    "diameter": "m",
-    "particle_density": "kg/m^3",
-    "target_density": "kg/m^3",
-    "mass": "kg",
-    "beta": "1",
-    "flow_stress": "Pa",
-    "resistance": "Pa",
-    "step": "s",
-    "stop_velocity": "m/s",
-}
+INPUTS = _WORDS["inputs"]
 """What a cell beside the table may hold, and what it measures."""
 
 _MAX_LABEL = 80
@@ -49,30 +36,19 @@ def _plain(text: str) -> str:
     return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)
 
 
-_ATOM = r"(?:micron|sec|[numµμck]?m|[pnumµμ]?s|[pnumµμk]?g|[kMG]?[Pp]a|[km]?psi|ksi|N|dyn)"
-_FACTOR = rf"\(?{_ATOM}(?:(?:\^|\*\*)?-?[1-4])?"
-_EXPRESSION = re.compile(rf"(?:1/)?{_FACTOR}(?:[ */·]{_FACTOR}\)?){{0,3}}\)?")
-
-
 @cache
 def is_unit(text: str) -> str | None:
-    """The unit that a text is, as `reference.units` writes it; None if it is something else.
+    """The unit that a text is, as `reference.units` reads it; None if it is something else.
 
     >>> is_unit("µm"), is_unit("(kg/m³)"), is_unit("m/s2"), is_unit("-"), is_unit("depth")
-    ('um', 'kg/m^3', 'm/s^2', '1', None)
+    ('um', 'kg/m3', 'm/s2', '1', None)
     """
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).strip().replace("−", "-")
     if text.startswith(("[", "(")) and text.endswith(("]", ")")):
         text = text[1:-1].strip()
-    if text in ("-", "1", "–", "—"):
-        return "1"
-    if len(text) > 16 or not _EXPRESSION.fullmatch(text):
-        return None
-    text = text.replace("μ", "u").replace("µ", "u").replace("·", "*").replace("pa", "Pa")
-    text = re.sub(r"[()]", "", text)
-    text = re.sub(r"(?<=[A-Za-z])(-?[1-4])", r"^\1", text)
+    text = re.sub("[μµ]", "u", text).replace("·", "*").replace("pa", "Pa")
     try:
-        to_si(text)
+        to_si(text := "1" if text in ("-", "–", "—") else text)
     except UnitError:
         return None
     return text
@@ -108,32 +84,15 @@ def _symbol(text: str) -> str:
     return bare if bare and bare != plain else plain.partition("/")[0].strip()
 
 
-_NO_COLUMN = (
-    r"energ|énerg|\be_?kin|force|kraft|area|fläche|flaeche|surface|\baire\b|stress|spannung|contrainte"
-    r"|pressure|druck|pression|\bx/[rd]\b|\bratio\b|normal|momentum|impuls|erreur|error|fehler"
-    r"|\bmid|_mid|mean|averag|mittl|mittel|moyen|milieu|resist|widerstand|densit|dichte|squared|quadrat|carré|\(x\)|^[δ∆]"
-)
-_COLUMN_WORDS = {
-    "deceleration": r"d[eé]c[eé]l|acc[eé]l|verz[öo]e?ger|beschleun|brems|d2x/dt2|dv/dt|ẍ|freinage"
-    r"|^-?a\b",
-    "velocity": r"velocit|speed|geschw|vitesse|\bvel\b|dx/dt|ẋ|^[vu]\b",
-    "time": r"\btime|zeit(?!schritt)|temps|dur[ée]e|\btps\b|^t\b",
-    "depth": r"depth|tiefe|profond|penetra|p[ée]n[ée]tra|eindring|enfonce|displacement|\bweg\b"
-    r"|position|^x\b|\bx$",
-}
-_INDEX = r"(?:_[a-z0-9]{1,7}|[a-z0-9])?"
-_COLUMN_SYMBOLS = {
-    "deceleration": rf"[-|]*(?:a{_INDEX}|ẍ|d2x/dt2|dv/dt|x_?ddot)\|?(?:\(t\))?",
-    "velocity": rf"(?:v|u){_INDEX}(?:\(t\))?|x_?dot|dxdt",
-    "time": rf"t{_INDEX}",
-    "depth": rf"(?:x|s|z|h|p){_INDEX}(?:\(t\))?",
-}
-_INITIAL = (
-    r"ini[tz]|start|begin|anfang|\balt|\bold|vorher|avant|d[ée]but|before|prev|^.?_?(?:i|a|old)$"
-)
-_FINAL = (
-    r"final|finale|\bend|ende|\bneu|\bnew|nach|apr[eè]s|after|next|\bfin\b|nouv|^.?_?(?:f|e|new)$"
-)
+def _symbols(table: str, text: str) -> list[str]:
+    """The entries of a table of symbols that a text is."""
+    symbol = _symbol(text)
+    return [name for name, pattern in _WORDS[table].items() if re.fullmatch(pattern, symbol)]
+
+
+def _words(table: str, text: str) -> list[str]:
+    """The entries of a table of words that stand in a text."""
+    return [name for name, pattern in _WORDS[table].items() if re.search(pattern, text)]
 
 
 @cache
@@ -145,67 +104,18 @@ def column_roles(head: str) -> frozenset[str]:
     >>> sorted(column_roles("v")), sorted(column_roles("A(x)")), sorted(column_roles("foo"))
     (['velocity_final', 'velocity_initial'], ['other'], [])
     """
-    plain, symbol = _plain(head), _symbol(head)
-    role = next((r for r, p in _COLUMN_SYMBOLS.items() if re.fullmatch(p, symbol)), None)
-    if role is None and re.search(_NO_COLUMN, plain):
-        return frozenset({"other"})
-    if role is None:
-        role = next((r for r, p in _COLUMN_WORDS.items() if re.search(p, plain)), None)
-    unit = unit_in(head)
-    if role is None or (unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))):
+    named = _symbols("column_symbols", head) or _words("column_words", _plain(head))
+    role, unit = next(iter(named), None), unit_in(head)
+    if role is None or (
+        role != "other" and unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))
+    ):
         return frozenset()
     if role != "velocity":
         return frozenset({role})
-    initial, final = re.search(_INITIAL, symbol), re.search(_FINAL, symbol)
-    if bool(initial) == bool(final):
-        return frozenset({"velocity_initial", "velocity_final"})
-    return frozenset({"velocity_initial" if initial else "velocity_final"})
-
-
-_SPEED = r"velocit|speed|geschw|vitesse|\bvel\b"
-_STOP = r"stop|abbruch|arr[êe]t|\bend|thresh|cut.?off|minim|limit|seuil|below|schwell"
-_PARTICLE = (
-    r"partic|partik|teilchen|copper|kupfer|cuivre|\bcu\b|sphere|kugel|sph[èe]re|projectil"
-    r"|impactor|pulver|powder|poudre|bille"
-)
-_TARGET = r"target|ziel|cible|steel|stahl|acier|substrat|\bplate\b|platte|plaque|inox|304"
-_STEP = (
-    r"time.?step|time.?incr|increment|zeitschritt|schrittweite|pas de temps|\bpas\b|delta.?t\b"
-    r"|^step|[δ∆]t"
-)
-_STRESS = (
-    r"flow.?stress|yield|strength|flie(?:ß|ss)|streck|festigkeit|contrainte|[ée]coulement"
-    r"|limite.*[ée]last"
-)
-_INPUT_WORDS: tuple[tuple[str, str, str], ...] = (
-    # role, words it must have, words it must not have
-    ("particle_density", rf"(?=.*(?:densit|dichte|volumique|rho|ρ))(?=.*(?:{_PARTICLE}))", "$^"),
-    ("target_density", rf"(?=.*(?:densit|dichte|volumique|rho|ρ))(?=.*(?:{_TARGET}))", "$^"),
-    ("particle_density", r"densit|dichte|volumique|^rho$|^ρ$", _TARGET),
-    ("target_density", r"densit|dichte|volumique|^rho$|^ρ$", _PARTICLE),
-    ("stop_velocity", rf"(?=.*(?:{_STOP}))(?=.*(?:{_SPEED}|\bv\b|below|m/s))", "$^"),
-    ("velocity", _SPEED, _STOP),
-    ("step", _STEP, r"half|halb|demi|number|anzahl|nombre|steps"),
-    ("resistance", r"resistan|widerstand|r[ée]sistan", "$^"),
-    ("beta", r"\bbeta\b|β|b[êe]ta\b", "$^"),
-    ("flow_stress", _STRESS, "copper|kupfer|cuivre"),
-    ("radius", r"radius|rayon|halbmesser", r"depth|tiefe|profond|/|contact|kontakt"),
-    ("diameter", r"diam|durchmesser", r"contact|kontakt|depth|/"),
-    ("mass", r"\bmass\b|masse\b|[a-z]masse\b", "volumique"),
-)  # fmt: skip
-_INPUT_SYMBOLS = {
-    "radius": r"r(?:_?p|_?0|adius)?",
-    "diameter": r"d(?:_?p|_?0)?",
-    "mass": r"m(?:_?p|ass)?",
-    "particle_density": r"(?:rho|ρ)_?(?:p|cu|k|part)",
-    "target_density": r"(?:rho|ρ)_?(?:t|z|c|ss|fe|targ)",
-    "velocity": r"v(?:_?0|_?i|_?imp(?:act)?|_?p)?|u_?0",
-    "stop_velocity": r"v_?(?:stop|min|end|lim)",
-    "step": r"(?:d|δ|∆|delta)_?t(?:_\w*)?",
-    "beta": r"(?:beta?|β)(?:_\w*)?",
-    "flow_stress": r"y(?:_?t|_?c)?|(?:σ|sigma)_?[yf]",
-    "resistance": r"r_?t(?:arget)?",
-}
+    ends = _words("velocities", _symbol(head))
+    return frozenset(
+        f"velocity_{end}" for end in (ends if len(ends) == 1 else _WORDS["velocities"])
+    )
 
 
 @cache
@@ -218,27 +128,18 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
     ['particle_density', 'target_density']
     """
     unit = unit or unit_in(label)
-    symbol, plain = _symbol(label), _plain(label)
-    roles = [role for role, pattern in _INPUT_SYMBOLS.items() if re.fullmatch(pattern, symbol)]
+    roles = _symbols("input_symbols", label)
     if not roles:
+        groups = set(_words("groups", _plain(label)))
+        needs = {role: said.partition(" not ") for role, said in _WORDS["input_words"].items()}
         roles = [
             role
-            for role, wanted, unwanted in _INPUT_WORDS
-            if re.search(wanted, plain) and not re.search(unwanted, plain)
+            for role, (wanted, _, unwanted) in needs.items()
+            if groups.issuperset(wanted.split()) and unwanted not in groups
         ]
         # Only a density may be that of either, where the label says of neither.
-        either = [role for role in roles if role.endswith("density")]
-        if roles[:1] != either[:1] or re.search(f"{_PARTICLE}|{_TARGET}", plain):
-            either = []
-        roles = either or roles[:1]
+        roles = [role for role in roles if role.endswith("density")] or roles[:1]
     return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUTS[r]))
-
-
-_RESULTS = {
-    "depth": r"(?=.*(?:final|\bend|max|total|rest))(?=.*(?:depth|tiefe|profond|penetra|\bx\b))"
-    r"|endtiefe|x_?(?:final|max|end)",
-    "ratio": r"^x ?/ ?r\b|normali[sz]ed|normiert|normalis[ée]|depth ?/ ?radius|bezogen",
-}
 
 
 @cache
@@ -248,22 +149,15 @@ def result_of(label: str) -> str | None:
     >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("depth")
     ('depth', 'ratio', None)
     """
-    plain = _plain(label)
-    return next((r for r in ("ratio", "depth") if re.search(_RESULTS[r], plain)), None)
+    return next(iter(_words("results", _plain(label))), None)
 
 
 # What this program calls them, and numbers in their units.
 
-_TITLES = {
-    "velocity_initial": "the initial velocity", "velocity_final": "the final velocity",
-    "velocity": "the impact velocity", "beta": "beta", "resistance": "the target resistance",
-    "step": "the time step",
-}  # fmt: skip
-
 
 def title(role: str) -> str:
     """What a column or an input is called in a sentence."""
-    return _TITLES.get(role) or f"the {role.replace('_', ' ')}"
+    return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
 def titles(roles: Iterable[str]) -> str:
@@ -280,17 +174,6 @@ def quantity(value: float, role: str) -> str:
     return with_unit(f"{value:.10g}", {**COLUMNS, **INPUTS}[role])
 
 
-_NAMED = {
-    "s": {-3: "ms", -6: "us", -9: "ns", -12: "ps"},
-    "m": {-2: "cm", -3: "mm", -6: "um", -9: "nm"},
-    "m/s": {3: "km/s", -3: "mm/s", -2: "cm/s"},
-    "m/s^2": {3: "km/s^2", -2: "cm/s^2", 12: "um/ns^2"},
-    "kg/m^3": {3: "g/cm^3"},
-    "Pa": {3: "kPa", 6: "MPa", 9: "GPa"},
-    "kg": {-3: "g", -6: "mg", -9: "ug", -12: "ng", -15: "pg"},
-}
-
-
 def unit_text(role: str, power: int) -> str:
     """The unit of a role that is a power of ten of the SI unit.
 
@@ -298,7 +181,8 @@ def unit_text(role: str, power: int) -> str:
     ('um', 'm', '1e5 m')
     """
     unit = {**COLUMNS, **INPUTS}[role]
-    return unit if power == 0 else _NAMED.get(unit, {}).get(power, f"1e{power} {unit}")
+    named = [text for text in _WORDS["units"][unit].split() if to_si(text) == Fraction(10) ** power]
+    return unit if power == 0 else next(iter(named), f"1e{power} {unit}")
 
 
 def power_of_ten(ratio: float) -> int | None:

@@ -1,7 +1,6 @@
 """A whole workbook against the report's sheet: every table in it, and what goes beyond tables."""
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -12,9 +11,9 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.inputs import find, numbers_beside, report_inputs
-from replication.check.judge import judge
-from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
-from replication.check.words import COLUMNS, INPUTS, count, result_of
+from replication.check.judge import OTHER_STOP, judge
+from replication.check.table import LEAST, Line, address, lines, results, runs, tables
+from replication.check.words import COLUMNS, INPUTS, count
 from replication.reading import place as named
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
@@ -32,6 +31,13 @@ class HeldNumber:
     place: Position
     found: float
     met: bool
+
+    def unmet(self, f: Examination) -> Difference:
+        """That it is not as printed."""
+        claim, rank = self.claim, (3, *f.rank(self.place))
+        text = f"the report prints {with_unit(claim.shown, claim.unit)} for {claim.title} "
+        text += f"({claim.place}), which stands for values in {claim.interval()}"
+        return Difference("printed number", (self.place,), claim.text, self.found, text, rank)
 
 
 @dataclass(frozen=True)
@@ -58,11 +64,6 @@ class Check:
         """The fault from which, in order of calculation, the rest follow."""
         return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
 
-    @property
-    def summary(self) -> dict[str, int]:
-        """How many differences of each kind."""
-        return dict(Counter(d.kind for d in self.differences))
-
 
 def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     """Check somebody's workbook of the scheme.
@@ -81,11 +82,12 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         examinations = [find(table, beside, cells) for table in read_tables]
     for f in examinations:
         judge(f)
+        _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
         *(d for v in examinations for d in v.differences),
         *_stale(calculation, examinations),
-        *_unmet(numbers, examinations[0]),
+        *(number.unmet(examinations[0]) for number in numbers if not number.met),
         *_uncalculated(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
@@ -116,10 +118,8 @@ def _mapped(
         elif given in _LINES and (area.top == area.bottom or area.left == area.right):
             columns.append(_named_line(given, where, area, calculation))
         else:
-            wanted = ["one column or one row"] * (given in _LINES) + ["one cell"] * (
-                given in INPUTS
-            )
-            raise ValueError(f"--map {given}={where}: give {' or '.join(wanted)}")
+            wanted = "one column or one row" if given in _LINES else "one cell"
+            raise ValueError(f"--map {given}={where}: give {wanted}")
     return columns, cells
 
 
@@ -140,8 +140,8 @@ def _named_line(given: str, where: str, area: Area, calculation: Calculation) ->
     wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
     if line.unit and not same_dimension(line.unit, wanted):
         raise ValueError(
-            f"--map {given}: the head of these cells gives {line.unit}, a unit of something "
-            f"else; it should be {wanted} or a multiple of it"
+            f"--map {given}: the head of these cells gives {line.unit}, a unit of something else "
+            f"than {wanted}"
         )
     return line
 
@@ -157,48 +157,31 @@ def _area(given: str, where: str, calculation: Calculation) -> Area:
     if len(areas) > 1:  # no sheet is named: the one with numbers there is meant
         numbers = [place for place, value in calculation.values.items() if isinstance(value, float)]
         areas = [area for area in areas if any(map(area.covers, numbers))] or areas[:1]
-    if len(areas) > 1:
-        raise ValueError(
-            f"--map {given}={where}: several sheets hold numbers there: name one, such as "
-            f"--map {given}={address(areas[0].corner, True)}"
-        )
-    if not areas:
-        known = ", ".join(repr(name) for name in list(book.sheets)[:8])
-        raise ValueError(
-            f"--map {given}={where[:60]!r}: give a range such as Sheet1!D8:D139; "
-            f"the sheets are {known}"
-        )
+    if len(areas) != 1:
+        what = "several sheets hold numbers there: " if areas else ""
+        known = ", ".join(map(repr, list(book.sheets)[:8]))
+        such = "give a range such as Sheet1!D8:D139; the sheets are"
+        raise ValueError(f"--map {given}={where[:60]}: {what}{such} {known}")
     rows, _ = book.size[areas[0].sheet]
     return areas[0]._replace(bottom=min(areas[0].bottom, max(rows, areas[0].top)))
 
 
 def _nothing(calculation: Calculation) -> str:
-    """That no table is found, with what there is and what to do."""
-    nothing = "no table of depth and velocity is found"
-    texts = (value for value in calculation.values.values() if isinstance(value, str))
+    """That no table is found, and what to do."""
+    nothing, values = "no table of depth and velocity is found", calculation.values
+    texts = (value for value in values.values() if isinstance(value, str))
     typed = sum(any(map(str.isdigit, text)) and not any(map(str.isalpha, text)) for text in texts)
     if typed > 100:
-        return (
-            f"{nothing}; {typed:,} cells hold numbers as text, with which nothing can be "
-            "calculated: convert them to numbers"
-        )
-    wrong = [place for place in calculation.formulas if calculation.error(place)]
-    if wrong:
+        return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
+    if wrong := [place for place in calculation.formulas if calculation.error(place)]:
         first = min(wrong, key=calculation.order.__getitem__)
         read = {calculation.source(area.corner) for area in calculation.areas(first)}
         for place in sorted(read & calculation.spoiling):
-            text = str(calculation.values[place])[:40]
-            nothing += f"; {address(place, True)} holds {text!r}, which is no number"
-        return (
-            f"{nothing}; {count(len(wrong), 'formula')} give errors, "
-            f"{address(first, True)} first: {calculation.error(first)}"
-        )
-    numbers = Counter(p[0] for p, value in calculation.values.items() if isinstance(value, float))
-    where = ", ".join(f"{n:,} on {sheet[:40]!r}" for sheet, n in numbers.most_common(3)) or "none"
-    return (
-        f"{nothing} among its numbers ({where}): say where they are, "
-        "such as --map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
-    )
+            nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+        errors = f"{count(len(wrong), 'formula')} give errors, {address(first, True)} first"
+        return f"{nothing}; {errors}: {calculation.error(first)}"
+    such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
+    return f"{nothing}: say where they are, such as {such}"
 
 
 # ---- the report's printed numbers
@@ -224,9 +207,8 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
     """
     report = report_inputs()
     given = [(f.inputs[role].si, report[role][0]) for role in _GIVEN if role in f.inputs]
-    cases = [(f.case.resistance, resistance) for resistance in report["resistance"]]
-    alike = [math.isclose(*pair, rel_tol=1e-9) for pair in cases]
-    if not any(alike) or not all(math.isclose(*pair, rel_tol=1e-9) for pair in given):
+    alike = [_near(f.case.resistance, resistance) for resistance in report["resistance"]]
+    if not any(alike) or not all(_near(*pair) for pair in given):
         return
     case = _CASES[alike.index(True)]
     table_a1 = case == _CASES[0]
@@ -240,55 +222,47 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
             name = f"a1-{role.replace('_', '-')}-{k}"
             if name in load().claims and k in column:
                 yield _judged(name, f.table.place(role, k), Fraction(column[k]))
-    yield from _results(f, case, alone)
+    yield from _results(f, case, dict(results(f.table)) if alone else {})
 
 
-def _results(f: Examination, case: str, alone: bool) -> Iterator[HeldNumber]:
+def _results(f: Examination, case: str, cells: Mapping[str, Position]) -> Iterator[HeldNumber]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
-    cells = dict(_labelled(f.table)) if alone else {}
-    depth = f.rows("depth", f.table.steps)
+    last, depth = f.table.place("depth", f.table.steps), f.final_depth
     if f.ends and depth is not None and "depth" not in cells:
-        yield _judged(f"depth-{case}", f.table.place("depth", f.table.steps), Fraction(depth))
+        yield _judged(f"depth-{case}", last, Fraction(depth))
     for kind, place in cells.items():
         value = f.calculation.number(place) or 0.0
         if not f.ends and place in f.calculation.formulas:
             continue  # it is not the final depth that the formulas give so far
-        if kind == "depth" and depth and value:
+        if kind == "ratio":
+            yield _judged(f"ratio-{case}", place, Fraction(value))
+        elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
-        elif kind == "ratio":
-            yield _judged(f"ratio-{case}", place, Fraction(value))
 
 
-def _labelled(table: Table) -> Iterator[tuple[str, Position]]:
-    """Cells beside or below a label that says final depth, or depth over radius."""
-    for (sheet, row, column), text in table.calculation.values.items():
-        kind = result_of(text) if isinstance(text, str) else None
-        if kind is not None:
-            for down, right in ((0, 1), (0, 2), (1, 0)):
-                place = (sheet, row + down, column + right)
-                inside = any(line.covers(place) for line in table.every_line)
-                if table.calculation.number(place) is not None and not inside:
-                    yield kind, place
-                    break
+def _near(a: float, b: float) -> bool:
+    return math.isclose(a, b, rel_tol=1e-9)
+
+
+def _misread(f: Examination) -> None:
+    """Results that do not read the last row of a table that ends as it should."""
+    steps, stops = f.table.steps, any(d.change == OTHER_STOP for d in f.differences)
+    for kind, place in results(f.table) if f.ends and not stops else ():
+        areas = (area for area in f.calculation.areas(place) if area.cells == 1)
+        read = (f.table.places.get(area.corner) for area in areas)
+        for role, k in filter(None, read):
+            if role == "depth" and k != steps:
+                what = "the final depth" if kind == "depth" else "the depth over the radius"
+                text = f"{what} reads row {k} of the table, not {steps}, its last"
+                wanted = f.table.place("depth", steps)
+                formula = f.calculation.book[place].formula
+                f.add("odd formula", [place], address(wanted), text, formula)
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
     claim = load().claims[name]
     return HeldNumber(claim, place, float(value / claim.si), claim.target().contains(value))
-
-
-def _unmet(numbers: Sequence[HeldNumber], f: Examination) -> Iterator[Difference]:
-    """Printed numbers that the workbook holds, and holds otherwise."""
-    for number in numbers:
-        if not number.met:
-            claim = number.claim
-            yield Difference(
-                number.place, "printed number", claim.text, number.found,
-                f"the report prints {with_unit(claim.shown, claim.unit)}, {claim.title} "
-                f"({claim.place}), which stands for values in {claim.interval()}",
-                (number.place,), (3, *f.rank(number.place)),
-            )  # fmt: skip
 
 
 # ---- stored values
@@ -323,15 +297,11 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
 
     shapes = {place: f.shape for place, f in calculation.formulas.items() if is_stale(place)}
     for run in runs(shapes, tables[0].across):
-        more = f", nor are those in {count(len(run) - 1, 'cell')} after it" if len(run) > 1 else ""
         stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
         ranks = [f.rank(run[0]) for f in examinations]
-        yield Difference(
-            run[0], "stale value", str(value) if isinstance(value, bool) else value,
-            str(stored) if isinstance(stored, bool) else stored,
-            f"the stored value is not what the formula gives{more}", tuple(run),
-            next((r for r in ranks if r[0] < 2), ranks[0]),  # of the table that it belongs to
-        )  # fmt: skip
+        rank = next((r for r in ranks if r[0] < 2), ranks[0])  # of the table that it belongs to
+        text = "the stored value is not what the formula gives"
+        yield Difference("stale value", tuple(run), value, stored, text, rank)
 
 
 def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
@@ -339,14 +309,11 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
     reasons: dict[str, list[Position]] = {}
     for place in calculation.formulas:
         if calculation.book[place].value is None and calculation.values.get(place) != "":
-            reason = "no value is stored for them, as by a program that does not calculate; they are computed here"  # noqa: E501
-            reasons.setdefault(reason, []).append(place)
+            reasons.setdefault("no value is stored; they are computed here", []).append(place)
     for place, why in calculation.uncomputed.items():
         reason = f"not computed here, their stored values are taken: {why}"
         reasons.setdefault(reason, []).append(place)
     for reason, places in reasons.items():
-        formulas = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}"
         formula = calculation.book[places[0]].formula
-        yield Difference(
-            places[0], "not calculated", None, formula, f"{formulas}: {reason}", tuple(places), (9,)
-        )
+        text = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}: {reason}"
+        yield Difference("not calculated", tuple(places), None, formula, text, (9,))

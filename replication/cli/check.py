@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from replication.cli import options as shared
-from replication.reading import name_of
 
 if TYPE_CHECKING:
     from replication.check.examination import Difference
@@ -32,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     check_files(options, options.file)
     from replication.check.examination import KINDS
-    from replication.check.record import check_record
+    from replication.check.show import check_record
     from replication.check.workbook import check
 
     mapping = {}
@@ -62,12 +61,11 @@ def check_files(options: argparse.Namespace, *workbooks: Path) -> None:
     """Raise OSError or ValueError, before any work, where a file cannot or must not be written."""
     from spreadsheets.safely import check_target
 
-    targets = [check_target(file) for file in (options.html, options.junit) if file is not None]
-    if len(set(targets)) < len(targets):
-        raise ValueError(f"--html and --junit both name {targets[0]}: give each its own file")
-    for file in workbooks:
-        if os.path.realpath(file) in map(str, targets):  # unlike resolve(), no error for a loop
-            raise ValueError(f"{name_of(file)} is read: give --html and --junit another file")
+    files = [file for file in (options.html, options.junit) if file is not None]
+    written = [str(check_target(file)) for file in files]
+    read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
+    if len({*written, *read}) < len(written) + len(read):
+        raise ValueError("--html and --junit each need a file of their own, none that is read")
 
 
 def put(

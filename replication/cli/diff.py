@@ -33,13 +33,13 @@ def run(options: argparse.Namespace) -> int:
     """Compare, and say what was found: 1 if anything differs."""
     check_files(options, options.first, options.second)
     from replication.check.diff import KINDS, Tolerance, diff
-    from replication.check.record import diff_record
+    from replication.check.show import diff_record
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     both = options.first, options.second
     comparison = diff(*both, values_only=options.values_only, allowed=allowed)
-    record, after = diff_record(comparison), comparison.calculations[1]
-    return put(options, record, comparison.differences, after, KINDS)
+    record = diff_record(comparison)
+    return put(options, record, comparison.differences, comparison.after, KINDS)
 
 
 def _share(text: str) -> float:

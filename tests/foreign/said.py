@@ -28,8 +28,8 @@ from replication.cases import BETA_3, BETA_5
 from replication.check import show
 from replication.check.diff import Comparison, Tolerance, diff
 from replication.check.examination import KINDS
-from replication.check.record import check_record, diff_record
 from replication.check.scheme import KNOWN, REPORT, Case, march
+from replication.check.show import check_record, diff_record
 from replication.check.workbook import check
 from replication.models.impact import Impact
 from spreadsheets.foreign import WorkbookError

@@ -19,9 +19,8 @@ from hypothesis import strategies as st
 from replication.cases import BETA_3, BETA_5
 from replication.check.examination import KINDS
 from replication.check.inputs import report_inputs
-from replication.check.record import check_record
 from replication.check.scheme import BRAKES, REPORT, Case, march
-from replication.check.show import safe, text
+from replication.check.show import check_record, safe, text
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
@@ -152,7 +151,7 @@ def test_a_velocity_in_the_middle_of_its_row_is_not_that_at_its_end(tmp_path: Pa
     result = check(written(f, tmp_path))
     (examination,) = result.examinations
     assert END not in examination.table.lines
-    assert examination.rules.name == "centered"
+    assert examination.rows.rules.name == "centered"
     assert result.first.place == (s, 7, 5)
 
 
@@ -221,6 +220,7 @@ def test_a_step_whose_label_says_nothing_is_known_by_the_times(tmp_path: Path) -
 )  # fmt: skip
 @settings(max_examples=12, deadline=None)
 @example(velocity=500, radius=11e-6, densities=8000, strength=3.5e9, share=1.8e-4)  # 4 ps
+@example(velocity=100, radius=11e-5, densities=2000, strength=3e7, share=8e-3)
 def test_a_right_sheet_of_other_inputs_is_clean(
     tmp_path_factory: pytest.TempPathFactory,
     velocity: float, radius: float, densities: float, strength: float, share: float,

@@ -141,11 +141,17 @@ def test_document_types_are_refused(shared: Path, part: str, declared: bytes) ->
     assert "declares a document type" in refusal(spoiled(shared, {part: declare}))
 
 
-def test_what_unpacks_to_too_much_is_refused(plain: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = spoiled(plain, {SHEET: cells_of(b" " * 2**22)})
+@pytest.mark.parametrize(
+    ("limit", "largest", "content"),
+    [("MAX_UNPACKED", 2**20, b" " * 2**22), ("MAX_ELEMENTS", 2**15, b"<row/>" * 2**15)],
+)
+def test_what_unpacks_to_too_much_is_refused(
+    plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, largest: int, content: bytes
+) -> None:
+    path = spoiled(plain, {SHEET: cells_of(content)})
     assert path.stat().st_size < 2**15
     assert read(path)
-    monkeypatch.setattr(foreign, "MAX_UNPACKED", 2**20)
+    monkeypatch.setattr(foreign, limit, largest)
     assert "too many bytes" in refusal(path)
 
 

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl.formula.translate import Translator
 
-from spreadsheets.foreign import Book
-from spreadsheets.recalculation import LAST_COLUMN, LAST_ROW, Area, parse
+from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Book
+from spreadsheets.recalculation import Area, parse
 
 NAMES = {"dt": "'my sheet'!$B$7", "HALF": "2E-10/2", "Loop": "LOOP+1", "'S'!OWN": "S!$A$1"}
 BOOK = Book(Path("book.xlsx"), {"S": {}, "my sheet": {}, "Données": {}}, NAMES)
