@@ -5,8 +5,9 @@ heads as somebody would type them, and where what stands. Rows are numbered as i
 is the impact, row 1 the first step. `faults.py` spoils them, `writers.py` makes files of them.
 """
 
+import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -655,22 +656,43 @@ def plain(impact: Impact, rows: int | None = None) -> Foreign:
     return f
 
 
-def changed(f: Foreign, cells: Mapping[str, Content]) -> Foreign:
-    """A lone sheet with other contents: by cell, or from a cell down to the last row ("D10:").
+def empty(impact: Impact) -> Foreign:
+    return Foreign("empty", impact)
 
-    In those {r} is their own row, {p} the row before.
-    """
-    (sheet,) = {at[0] for at in f.cells}
-    last = max(row for _, row, _ in f.cells)
+
+def changed(f: Foreign, cells: Mapping[str, Content]) -> Foreign:
+    """A workbook with other contents; None and an empty text clear a cell."""
     for address, content in cells.items():
-        _, first, column = place(sheet, address.rstrip(":"))
-        for row in range(first, last + 1 if address.endswith(":") else first + 1):
-            filled = content.format(r=row, p=row - 1) if isinstance(content, str) else content
+        for here, filled in contents(f, address, content):
             if filled is None:
-                f.cells.pop((sheet, row, column), None)
+                f.cells.pop(here, None)
             else:
-                f.cells[sheet, row, column] = filled
+                f.cells[here] = filled
     return f
+
+
+def contents(f: Foreign, address: str, content: Content) -> Iterator[tuple[Place, Content]]:
+    """What an address of `cases.txt` stands for, and what each of its cells is to hold."""
+    sheet, _, cells = address.rpartition("!")
+    sheet = sheet or next((at[0] for at in f.cells), "Sheet1")
+    first, *until = cells.split(":")
+    _, row, column = place(sheet, first)
+    last = int(until[0]) if until and until[0] else row if not until else max(
+        at[1] for at in f.cells if at[0] == sheet)  # fmt: skip
+    for r in range(row, last + 1, int(until[1]) if until[1:] else 1):
+        parts = content.split(" / ") if isinstance(content, str) else [content]
+        for c, part in enumerate(parts, column):
+            yield (sheet, r, c), _filled(part, r) if isinstance(part, str) else part
+
+
+def _filled(text: str, row: int) -> Content:
+    """A content with its row in it; a number, a truth value or a quoted text is written as JSON."""
+    k = row - 8
+    text = text.format(r=row, p=row - 1, k=k, t=k * 5e-10)
+    try:
+        return json.loads(text or "null")
+    except ValueError:
+        return text
 
 
 BY_HAND: tuple[Callable[[Impact], Foreign], ...] = (

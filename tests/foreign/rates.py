@@ -40,7 +40,7 @@ def right(made_by: str, folder: Path) -> list[tuple[str, bool]]:
     for f in workbooks(made_by):
         path = folder / f"{f.name}.xlsx"
         if made_by == "like Excel":
-            writers.with_xlsxwriter(f, path, writers.calculated(f, folder / "plain.xlsx"))
+            writers.with_xlsxwriter(f, path, writers.calculated(f))
         else:
             writers.with_openpyxl(f, path)
         result.append((f.name, clean(f, path)))
@@ -73,8 +73,7 @@ def to_spoil() -> list[tuple[Foreign, writers.Values]]:
 
 
 def _with_values(books: Iterable[Foreign]) -> list[tuple[Foreign, writers.Values]]:
-    with tempfile.TemporaryDirectory() as folder:
-        return [(f, writers.calculated(f, Path(folder, "plain.xlsx"))) for f in books]
+    return [(f, writers.calculated(f)) for f in books]
 
 
 def planted(

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -29,11 +30,12 @@ def with_openpyxl(f: Foreign, path: Path) -> Path:
     return path
 
 
-def calculated(f: Foreign, path: Path) -> Values:
+def calculated(f: Foreign) -> Values:
     """What each formula gives, by an engine that the program under test does not use."""
     from spreadsheets.engines import Formualizer, address
 
-    result = Formualizer().recalculate(with_openpyxl(f, path))
+    with tempfile.TemporaryDirectory() as folder:
+        result = Formualizer().recalculate(with_openpyxl(f, Path(folder, "plain.xlsx")))
     return {
         place: result[place[0]][address(place[1], place[2])]
         for place in f.cells
