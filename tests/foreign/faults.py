@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters
+from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters, made
 
 Values = dict[Place, Any]
 
@@ -319,8 +319,7 @@ def other_velocity(f: Foreign, _: Values) -> Planted | None:
     place = f.inputs.get("velocity")
     if place is None or _formula(f, DEPTH, 3) is None or f.name == "guarded":
         return None
-    layout = next((layout for layout in BY_HAND if layout(f.impact).name == f.name), None)
-    g = layout(replace(f.impact, velocity=450.0)) if layout else f
+    g = made(f.name, replace(f.impact, velocity=450.0)) if f.name in BY_HAND else f
     if g.cells[g.inputs["velocity"]] != 450.0:
         return None  # its velocity is typed in another unit
     return Planted("other input", "other input", g, (g.inputs["velocity"],), status=0)

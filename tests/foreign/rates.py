@@ -16,16 +16,22 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 from foreign import writers
 from foreign.drawn import drawn
 from foreign.faults import FAULTS, Planted
-from foreign.layouts import Foreign, by_hand
+from foreign.layouts import BY_HAND, Foreign, made
 
 from replication.cases import BETA_3, BETA_5
 from replication.check.workbook import Check, check
+from replication.models.impact import Impact
 from replication.models.sheet import run
 
 DRAWN = range(24)
 AFRESH = range(3000, 3040)
 """Of the tests; and of `main` alone, which nobody looked at when the program was made."""
 CASES = (BETA_5, BETA_3)
+
+
+def by_hand(impact: Impact) -> list[Foreign]:
+    """Every layout, filled with that impact."""
+    return [made(layout, impact) for layout in BY_HAND]
 
 
 def right(made_by: str, folder: Path) -> list[tuple[str, bool]]:

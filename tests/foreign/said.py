@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from foreign import faults, layouts, writers
 from foreign.drawn import drawn
-from foreign.layouts import BY_HAND, Content, Foreign, plain
+from foreign.layouts import BY_HAND, Content, Foreign, made
 
 from replication.cases import BETA_3, BETA_5
 from replication.check import show
@@ -78,14 +78,13 @@ def _edit(text: str) -> tuple[str, str]:
 def start(edits: Edits, *, changed: bool = True) -> Foreign:
     """The right workbook that a case starts from, with its own rows and inputs if `changed`."""
     given = dict(edits)
-    layout = getattr(layouts, given.get("layout", "plain"))
-    impact = COARSE if layout in (plain, layouts.empty) else BETA_5
+    layout = given.get("layout", "plain")
+    impact = BETA_5 if layout in BY_HAND else COARSE
     if not changed:
-        return layout(impact)
+        return made(layout, impact)
     inputs = {name: float(given[name]) for name in ("velocity", "radius", "beta", "step")
               if name in given}  # fmt: skip
-    impact = replace(impact, **inputs)
-    return plain(impact, int(given["rows"])) if "rows" in given else layout(impact)
+    return made(layout, replace(impact, **inputs), int(given.get("rows", 0)))
 
 
 def edited(f: Foreign, edits: Edits) -> Foreign:
@@ -124,34 +123,21 @@ def book(edits: Edits) -> Book:
     )
 
 
-def right(layout: Callable[..., Foreign], *impacts: Impact) -> Iterator[str]:
-    for impact in impacts:
-        yield from whole(Book(layout(impact)))
-
-
-def right_beta_3() -> Iterator[str]:
-    for layout in (
-        layouts.table_a1, layouts.french, layouts.one_velocity, layouts.pasted,
-        layouts.no_deceleration,
-    ):  # fmt: skip
-        yield from right(layout, BETA_3)
-
-
-def right_drawn() -> Iterator[str]:
-    for seed in (1, 3, 4, 7, 8, 11):
-        yield from right(partial(drawn, seed), COARSE)
+def right(*books: Foreign) -> Iterator[str]:
+    for f in books:
+        yield from whole(Book(f))
 
 
 SPOILED = (
-    "table_a1", "french", "sideways", "one_velocity", "no_time", "german", "velocity_at_end",
-    "merged_heads", "natural_units", "no_deceleration", "named_everything", "named_constants",
+    "table-a1", "french", "sideways", "one-velocity", "no-time", "german", "velocity-at-end",
+    "merged-heads", "natural-units", "no-deceleration", "named-everything", "named-constants",
 )  # fmt: skip
 """Layouts that faults are planted in, each in two of those that can have it."""
 
 
 @cache
 def to_spoil(name: str) -> tuple[Foreign, writers.Values]:
-    f = getattr(layouts, name)(BETA_5)
+    f = made(name, BETA_5)
     return f, writers.calculated(f)
 
 
@@ -173,14 +159,14 @@ def other_digits() -> Iterator[str]:
     case = Case(**BETA_5.motion, step=BETA_5.step)
     report = march(case)
     for part, rules in KNOWN.items():
-        f = layouts.six_digits(BETA_5)
+        f = made("six-digits", BETA_5)
         rows = march(case, replace(REPORT, **{part: rules[1]}), steps=f.steps)
         for (role, k), place in f.where.items():
             if isinstance(content := f.cells[place], float) and report.get(role, {}).get(k):
                 unit = 10.0 ** round(math.log10(content / report[role][k]))
                 f.cells[place] = float(f"{rows[role][k] * unit:.6g}")
-        yield from said(f"six digits of {rules[1].name}", Book(f, layouts.six_digits(BETA_5)))
-    f = layouts.pasted(BETA_5)
+        yield from said(f"six digits of {rules[1].name}", Book(f, made("six-digits", BETA_5)))
+    f = made("pasted", BETA_5)
     texts = {p: f"{v:.6g}".replace(".", ",") for p, v in f.cells.items() if isinstance(v, float)}
     f.cells |= texts
     yield from said("numbers as text, with commas", Book(f))
@@ -197,7 +183,7 @@ def at_random() -> Iterator[str]:
     """Drawn layouts with contents written over one input or head and over two other cells."""
     for seed in range(100, 126):
         r = random.Random(seed)
-        f = drawn(seed, COARSE) if seed % 4 else getattr(layouts, SPOILED[seed // 4 % 12])(BETA_5)
+        f = drawn(seed, COARSE) if seed % 4 else made(SPOILED[seed // 4 % 12], BETA_5)
         like = replace(f, cells=dict(f.cells))
         outside = [place for place in f.cells if place not in f.where.values()]
         told = []
@@ -393,9 +379,15 @@ def answers(name: str) -> Iterator[str]:
 
 CASES = cases()
 SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
-    **{f"right: {layout.__name__}": partial(right, layout, BETA_5) for layout in BY_HAND},
-    "right: beta 3": right_beta_3,
-    "right: drawn": right_drawn,
+    **{f"right: {layout}": partial(right, made(layout, BETA_5)) for layout in BY_HAND},
+    "right: beta 3": partial(
+        right,
+        *(
+            made(layout, BETA_3)
+            for layout in ("table-a1", "french", "one-velocity", "pasted", "no-deceleration")
+        ),
+    ),
+    "right: drawn": partial(right, *(drawn(seed, COARSE) for seed in (1, 3, 4, 7, 8, 11))),
     **{f"planted: {plant.__name__}": partial(planted, plant) for plant in faults.FAULTS},
     **{name: partial(answers, name) for name in CASES},
     "digits of other schemes": other_digits,
