@@ -57,33 +57,10 @@ def test_only_the_power_of_equation_1_hangs_on_nothing_else() -> None:
         assert Screen(changed, ASSUMED).failing(LEDGER.claims) == as_printed
 
 
-MISREAD = {
-    "upside down": ("eq1", "V_p = V(m/m_o)^{1/2}"),
-    "plus for minus in the cap": ("eq2", r"CV = 1/3 \pi X^2 (3R + X)"),
-    "plus for minus in the stagnation pressure": (
-        "eq5",
-        r"\Sigma = \frac{1}{2} \rho_p (v + u)^2 + Y_p = \frac{1}{2} \rho_t u^2 + R_t",
-    ),
-    "density ratio upside down": (
-        "eq16",
-        r"X/R = ((L/D \rho_t/\rho_p + k_1)/2kt)\ln(1+k_t\rho_t V^2/R_t)",
-    ),
-    "decimal logarithm": (
-        "eq16",
-        r"X/R = ((L/D \rho_p/\rho_t + k_1)/2kt)\log(1+k_t\rho_t V^2/R_t)",
-    ),
-    "accelerated": ("eq15", r"dv/dt = Y_p/L\rho_p"),
-    "three for two in Eq. 11": ("eq11", r"\alpha = (3E_t/3Y_t)^{1/3}"),
-    "no equation at all": ("eq6", r"\Sigma = \frac{1}{2} \rho_t v^2 + ("),
-}
-
-
-@pytest.mark.parametrize("fault", MISREAD)
-def test_known_misreadings_are_seen(fault: str) -> None:
-    name, text = MISREAD[fault]
-    changed = LEDGER.misprint(name, text)
-    assert assess_equation(changed, name).verdict.is_failure
-    assert not follows(changed, name)
+def test_what_is_no_equation_at_all_follows_from_nothing() -> None:
+    changed = LEDGER.misprint("eq6", r"\Sigma = \frac{1}{2} \rho_t v^2 + (")
+    assert assess_equation(changed, "eq6").verdict.is_failure
+    assert not follows(changed, "eq6")
 
 
 def test_equation_16_would_follow_for_a_depth_in_diameters_or_without_the_2() -> None:
