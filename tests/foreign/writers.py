@@ -1,13 +1,11 @@
 """Files of foreign workbooks, as the programs of other people write them."""
 
-import os
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-import pytest
 from foreign.layouts import Foreign, Place
 
 Values = dict[Place, float | str | bool]
@@ -73,13 +71,6 @@ class Exact(float):
         return repr(float(self))
 
     __str__ = float.__repr__
-
-
-def require_libreoffice() -> None:
-    """Skip the test where LibreOffice is missing; fail it where it must not be."""
-    if shutil.which("soffice") is None:
-        assert os.environ.get("COLDSPRAY_REQUIRE_ENGINES") != "1"
-        pytest.skip("LibreOffice is not installed")
 
 
 def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:

@@ -12,9 +12,9 @@ import pytest
 from foreign import writers
 from foreign.drawn import drawn
 from foreign.layouts import DEPTH, Foreign, made
-from foreign.writers import require_libreoffice
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
+from workbooks import usable
 
 from replication.cases import BETA_5
 from replication.check.examination import KINDS
@@ -100,7 +100,7 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
     path = tmp_path / "own.xlsx"
     path.write_bytes(workbook.build().to_bytes())
     if saved_by == "LibreOffice":
-        require_libreoffice()
+        usable("libreoffice")
         (path,) = writers.with_libreoffice([path], tmp_path)
     result = check(path)
     assert result.first is None

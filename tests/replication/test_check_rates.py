@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from foreign import rates
 from foreign.faults import FAULTS, Planted
-from foreign.writers import require_libreoffice
+from workbooks import usable
 
 pytestmark = pytest.mark.slow
 
@@ -16,7 +16,7 @@ DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
 @pytest.mark.parametrize("made_by", rates.WRITERS)
 def test_right_workbooks_are_clean(made_by: str, tmp_path: Path) -> None:
     if made_by.startswith("LibreOffice"):
-        require_libreoffice()
+        usable("libreoffice")
     row, missed = rates.right_row(made_by, tmp_path)
     assert not missed
     assert row in DOCUMENT
