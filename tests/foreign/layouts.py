@@ -6,7 +6,7 @@ the workbooks, `writers.py` makes files of them.
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -158,42 +158,44 @@ def filled(text: str, **values: object) -> Content:
         return text
 
 
-def moved(f: Foreign, rows: Callable[[int], int], columns: Callable[[int], int]) -> None:
-    """Move every cell of a lone sheet as a spreadsheet does when rows or columns are inserted."""
+def insert(f: Foreign, at: str, count: int) -> None:
+    """Move every cell of a lone sheet as a spreadsheet does when rows, or columns, are inserted."""
+    rows = int(at) if at.isdigit() else 10**9
+    columns = 10**9 if at.isdigit() else column_index_from_string(at)
+
+    def shifted(row: int, column: int) -> tuple[int, int]:
+        return row + count * (row >= rows), column + count * (column >= columns)
 
     def address(match: re.Match[str]) -> str:
-        _, row, column = place("", f"{match[2]}{match[4]}")
-        return f"{match[1]}{letters(columns(column))}{match[3]}{rows(row)}"
+        row, column = shifted(*place("", f"{match[2]}{match[4]}")[1:])
+        return f"{match[1]}{letters(column)}{match[3]}{row}"
 
     def content(c: str | float) -> str | float:
         if isinstance(c, str) and c.startswith("="):
             return re.sub(r"(\$?)\b([A-Z]{1,2})(\$?)(\d+)\b(?!\()", address, c)
         return c
 
-    f.cells = {(s, rows(r), columns(c)): content(v) for (s, r, c), v in f.cells.items()}
+    f.cells = {(s, *shifted(r, c)): content(v) for (s, r, c), v in f.cells.items()}
 
 
-def changed(f: Foreign, cells: Mapping[str, Content]) -> Foreign:
-    """A workbook with other contents; None and an empty text clear a cell."""
-    for address, content in cells.items():
-        for here, filled in contents(f, address, content):
-            if filled is None:
-                f.cells.pop(here, None)
-            else:
-                f.cells[here] = filled
-    return f
+def change(f: Foreign, address: str, text: str) -> None:
+    """Give cells other contents, as `contents` reads them; an empty text clears them."""
+    for here, content in contents(f, address, text):
+        if content is None:
+            f.cells.pop(here, None)
+        else:
+            f.cells[here] = content
 
 
-def contents(f: Foreign, address: str, content: Content) -> Iterator[tuple[Place, Content]]:
+def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Content]]:
     """What an address of `cases.txt` stands for, and what each of its cells is to hold."""
     sheet, _, cells = address.rpartition("!")
     sheet = sheet or next((at[0] for at in f.cells), "Sheet1")
     first, *until = cells.split(":")
     _, row, column = place(sheet, first)
-    last = int(until[0]) if until and until[0] else row if not until else max(
-        at[1] for at in f.cells if at[0] == sheet)  # fmt: skip
+    last = row
+    if until:
+        last = int(until[0] or max(at[1] for at in f.cells if at[0] == sheet))
     for r in range(row, last + 1, int(until[1]) if until[1:] else 1):
-        parts = content.split(" / ") if isinstance(content, str) else [content]
-        for c, part in enumerate(parts, column):
-            values = {"r": r, "p": r - 1, "k": r - 8, "t": (r - 8) * 5e-10}
-            yield (sheet, r, c), filled(part, **values) if isinstance(part, str) else part
+        for c, part in enumerate(text.split(" / "), column):
+            yield (sheet, r, c), filled(part, r=r, p=r - 1, k=r - 8, t=(r - 8) * 5e-10)

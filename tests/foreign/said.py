@@ -92,12 +92,9 @@ def edited(f: Foreign, edits: Edits) -> Foreign:
     for word, text in edits:
         here, _, many = text.partition(" ")
         if re.search(r"[A-Z]\d", word):
-            layouts.changed(f, {word: text})
-        elif word == "insert" and here.isdigit():
-            layouts.moved(f, lambda r, at=int(here), n=int(many): r + n * (r >= at), lambda c: c)  # type: ignore[misc]
+            layouts.change(f, word, text)
         elif word == "insert":
-            at = layouts.place("", f"{here}1")[2]
-            layouts.moved(f, lambda r: r, lambda c, at=at, n=int(many): c + n * (c >= at))  # type: ignore[misc]
+            layouts.insert(f, here, int(many))
         elif word == "rename":
             f.cells = {(here, r, c): content for (_, r, c), content in f.cells.items()}
         elif word == "copy":
@@ -125,7 +122,7 @@ def book(edits: Edits) -> Book:
 
 def right(*books: Foreign) -> Iterator[str]:
     for f in books:
-        yield from whole(Book(f))
+        yield from whole(f.name, Book(f))
 
 
 SPOILED = (
@@ -211,17 +208,12 @@ def checked(book: Book) -> Check:
             writers.with_xlsxwriter(book.f, path, book.values or {}, book.wrong)
         else:
             writers.with_openpyxl(book.f, path)
-        try:
-            return check(path, book.given or {})
-        except (ValueError, WorkbookError) as error:
-            raise ValueError(
-                str(error).removeprefix(f"{path}: ").replace(str(path), "FILE")
-            ) from None
+        return check(path, book.given or {})
 
 
-def whole(book: Book, title: str = "") -> Iterator[str]:
+def whole(title: str, book: Book) -> Iterator[str]:
     """All that a user reads about a workbook."""
-    yield from _told(title or book.f.name, check_record(checked(book)))
+    yield from _told(title, check_record(checked(book)))
 
 
 def compared(title: str, edits: Edits) -> Iterator[str]:
@@ -257,8 +249,9 @@ def said(title: str, book: Book) -> Iterator[str]:
     """
     try:
         record = check_record(checked(book))
-    except ValueError as error:
-        yield from (f"* {title} -> 2", f"  {_shown(str(error))}")
+    except (ValueError, WorkbookError) as error:
+        yield f"* {title} -> 2"
+        yield f"  {_shown(re.sub(r'/.*book.xlsx', 'FILE', str(error)).removeprefix('FILE: '))}"
         return
     yield f"* {title} -> {int(not record['clean'])}"
     yield f"  {_shown(record['verdict'])}"
@@ -371,28 +364,21 @@ def answers(name: str) -> Iterator[str]:
     for title, edits in CASES[name].items():
         if name.startswith("two workbooks"):
             yield from compared(title, edits)
-        elif name == "in full":
-            yield from whole(book(edits), title)
         else:
-            yield from (page if name.startswith("the page") else said)(title, book(edits))
+            yield from {"in": whole, "the": page}.get(name.split()[0], said)(title, book(edits))
 
 
 CASES = cases()
 SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
     **{f"right: {layout}": partial(right, made(layout, BETA_5)) for layout in BY_HAND},
-    "right: beta 3": partial(
-        right,
-        *(
-            made(layout, BETA_3)
-            for layout in ("table-a1", "french", "one-velocity", "pasted", "no-deceleration")
-        ),
-    ),
+    "right: beta 3": partial(right, *(made(layout, BETA_3) for layout in (
+        "table-a1", "french", "one-velocity", "pasted", "no-deceleration"))),
     "right: drawn": partial(right, *(drawn(seed, COARSE) for seed in (1, 3, 4, 7, 8, 11))),
     **{f"planted: {plant.__name__}": partial(planted, plant) for plant in faults.FAULTS},
     **{name: partial(answers, name) for name in CASES},
     "digits of other schemes": other_digits,
     "spoiled at random": at_random,
-}
+}  # fmt: skip
 
 
 def section(name: str) -> str:

@@ -30,6 +30,6 @@ def test_planted_faults_are_found(plant: Callable[..., Planted | None], tmp_path
 
 
 def test_the_corpus_is_as_large_as_the_page_says() -> None:
-    layouts = len(list(rates.workbooks("like Excel"))) // 2
+    layouts = len(rates.workbooks("like Excel")) // 2
     assert f"{layouts} by hand" in DOCUMENT
     assert f"{len(rates.DRAWN)} drawn" in DOCUMENT

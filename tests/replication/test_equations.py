@@ -83,23 +83,18 @@ def test_every_derived_equation_has_a_derivation_and_each_check_speaks() -> None
 
 # Verdicts
 
-FAILING = {"eq16": "Eqs. 14 and 15 give twice the depth in radii that it prints"}
-TAKEN_OVER = {"eq1", "eq8", "eq10", "eq14"}
-DEFINITIONS = {"eq7", "eqA-2"}
+EXPECTED = {
+    "eq16": "not reproduced",  # Eqs. 14 and 15 give twice the depth in radii that it prints
+    **dict.fromkeys(("eq1", "eq8", "eq10", "eq14"), "not checkable"),  # taken over
+    **dict.fromkeys(("eq7", "eqA-2"), "consistent"),  # definitions
+}
 
 
 @pytest.mark.parametrize("name", LEDGER.equations)
 def test_equation(name: str) -> None:
     assessed = assess_equation(LEDGER, name)
     assert follows(LEDGER, name) != assessed.verdict.is_failure
-    expected = "reproduced"
-    if name in FAILING:
-        expected = "not reproduced"
-    elif name in TAKEN_OVER:
-        expected = "not checkable"
-    elif name in DEFINITIONS:
-        expected = "consistent"
-    assert assessed.verdict == expected
+    assert assessed.verdict == EXPECTED.get(name, "reproduced")
     assert assessed.factor == (F(1, 2) if name == "eq16" else None)
     assert set(assessed.constants) == set(LEDGER.constants_of(name))
 
