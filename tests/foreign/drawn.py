@@ -51,10 +51,6 @@ INPUT_UNITS = {
     "resistance": [("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")],
     "step": [("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")],
 }
-FACTORS = {
-    "": 1, "*0.000001": 1e-6, "/1000": 1e-3, "*1000": 1e3, "*1000000000": 1e9, "*1000000": 1e6,
-    "/1000000000": 1e-9, "/1000000000000": 1e-12,
-}  # fmt: skip
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from top to bottom)
@@ -158,7 +154,9 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
     si = {}
     for i, name in enumerate(order):
         unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
-        value = float(f"{values[name] / FACTORS[conversion]:.12g}")
+        factor = float(conversion[1:] or 1)
+        own = values[name] * factor if conversion[:1] == "/" else values[name] / factor
+        value = float(f"{own:.12g}")
         label = r.choice(LABELS[name])
         if flat:
             f.put(sheet, f"{letters(col + i)}{row}", f"{label} [{unit}]")
