@@ -1,6 +1,8 @@
 """Layouts drawn at random: heads, units, order, place and helpers that nobody chose by hand."""
 
 import random
+import re
+from dataclasses import asdict
 
 from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters, place
 from openpyxl.utils.cell import absolute_coordinate
@@ -26,6 +28,7 @@ HEADS = {
         "vitesse finale (UNIT)", "v neu", "speed at end, UNIT", "v_end [UNIT]",
     ],
 }  # fmt: skip
+HELPERS = {"area": "A(x)", "energy": "E_kin", "n": "n"}
 UNITS = {
     TIME: [("s", ""), ("ns", "1000000000"), ("µs", "1000000")],
     DEPTH: [("m", ""), ("µm", "1000000"), ("mm", "1000"), ("nm", "1000000000")],
@@ -34,17 +37,12 @@ UNITS = {
 LABELS = {
     "radius": ["R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"],
     "particle_density": [
-        "density of particle",
-        "rho_p",
-        "Dichte Kupfer",
-        "masse volumique Cu",
-        "ρp",
-    ],
+        "density of particle", "rho_p", "Dichte Kupfer", "masse volumique Cu", "ρp"],
     "target_density": ["density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"],
     "velocity": ["V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"],
     "resistance": ["R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"],
     "step": ["dt", "time step", "Zeitschritt", "pas de temps", "Δt"],
-}
+}  # fmt: skip
 INPUT_UNITS = {
     "radius": [("m", ""), ("µm", "*0.000001"), ("mm", "/1000")],
     "particle_density": [("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")],
@@ -53,10 +51,6 @@ INPUT_UNITS = {
     "resistance": [("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")],
     "step": [("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")],
 }
-FACTORS = {
-    "": 1, "*0.000001": 1e-6, "/1000": 1e-3, "*1000": 1e3, "*1000000000": 1e9, "*1000000": 1e6,
-    "/1000000000": 1e-9, "/1000000000000": 1e-12,
-}  # fmt: skip
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from top to bottom)
@@ -72,11 +66,8 @@ def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from
 
     def at(line: int, along: int) -> str:
         """The cell of a line of the table, `along` cells from its heads."""
-        return (
-            f"{letters(corner + along)}{table + line}"
-            if across
-            else f"{letters(corner + line)}{table + along}"
-        )
+        down, right = (line, along) if across else (along, line)
+        return f"{letters(corner + right)}{table + down}"
 
     si = _inputs(f, r, data, simple)
     prefix = "" if data == sheet else f"{data}!"
@@ -86,35 +77,22 @@ def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from
         order.remove(TIME)
     if r.random() < 0.4:
         r.shuffle(order)
-    helpers = [h for h in ("area", "energy", "n") if r.random() < 0.3]
+    helpers = [h for h in HELPERS if r.random() < 0.3]
     lines = order + helpers
     if "n" in helpers and r.random() < 0.5:
         lines = ["n", *[name for name in lines if name != "n"]]
     gap = 2 if r.random() < 0.15 else 1
     line = {name: i * gap for i, name in enumerate(lines)}
-    known = {role: UNITS.get(role, [("m/s", "")]) for role in order}
-    units = {
-        role: known[role][0] if simple or role not in UNITS else r.choice(known[role])
-        for role in order
-    }
+    units = {role: r.choice(UNITS[role]) if role in UNITS and not simple
+             else UNITS.get(role, [("m/s", "")])[0] for role in order}  # fmt: skip
     first = 2 if with_units == "row" else 1
     for name in lines:
-        head = (
-            r.choice(HEADS[name])
-            if name in HEADS
-            else {"area": "A(x)", "energy": "E_kin", "n": "n"}[name]
-        )
+        head = r.choice(HEADS[name]) if name in HEADS else HELPERS[name]
         unit = units[name][0] if name in units else ""
         if with_units != "head":
-            bare = head
-            for mark in (" (UNIT)", " [UNIT]", "/UNIT", " in UNIT", ", UNIT"):
-                bare = bare.replace(mark, "")
-            head = bare
-        f.put(
-            sheet,
-            at(line[name], 0),
-            head.replace("UNIT", f"({unit})" if "/UNIT" in head and "/" in unit else unit),
-        )
+            head = re.sub(r" \(UNIT\)| \[UNIT\]|/UNIT| in UNIT|, UNIT", "", head)
+        bracketed = f"({unit})" if "/UNIT" in head and "/" in unit else unit
+        f.put(sheet, at(line[name], 0), head.replace("UNIT", bracketed))
         if with_units == "row" and unit:
             f.put(sheet, at(line[name], 1), unit)
     negative = r.random() < 0.2 and BRAKE in order
@@ -172,25 +150,20 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
     flat = not beside and r.random() < 0.4 and not simple
     order = list(LABELS)
     r.shuffle(order)
-    values = {
-        "radius": f.impact.radius, "particle_density": f.impact.particle_density,
-        "target_density": f.impact.target_density, "velocity": f.impact.velocity,
-        "resistance": f.impact.target_resistance, "step": f.impact.step,
-    }  # fmt: skip
+    values = asdict(f.impact) | {"resistance": f.impact.target_resistance}
     si = {}
     for i, name in enumerate(order):
         unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
-        value = float(f"{values[name] / FACTORS[conversion]:.12g}")
+        factor = float(conversion[1:] or 1)
+        own = values[name] * factor if conversion[:1] == "/" else values[name] / factor
+        value = float(f"{own:.12g}")
         label = r.choice(LABELS[name])
         if flat:
             f.put(sheet, f"{letters(col + i)}{row}", f"{label} [{unit}]")
             here = f"{letters(col + i)}{row + 1}"
         else:
-            f.put(
-                sheet,
-                f"{letters(col)}{row + i}",
-                label if simple or beside else f"{label} [{unit}]",
-            )
+            bare = simple or beside
+            f.put(sheet, f"{letters(col)}{row + i}", label if bare else f"{label} [{unit}]")
             here = f"{letters(col + 1)}{row + i}"
             if beside and not simple:
                 f.put(sheet, f"{letters(col + 2)}{row + i}", unit)

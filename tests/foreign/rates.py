@@ -7,7 +7,7 @@ import math
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -16,10 +16,11 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 from foreign import writers
 from foreign.drawn import drawn
 from foreign.faults import FAULTS, Planted
-from foreign.layouts import Foreign, by_hand
+from foreign.layouts import BY_HAND, Foreign, made
 
 from replication.cases import BETA_3, BETA_5
 from replication.check.workbook import Check, check
+from replication.models.impact import Impact
 from replication.models.sheet import run
 
 DRAWN = range(24)
@@ -28,30 +29,17 @@ AFRESH = range(3000, 3040)
 CASES = (BETA_5, BETA_3)
 
 
-def right(made_by: str, folder: Path) -> list[tuple[str, bool]]:
-    """Right workbooks as one program writes them: each by name, and whether it is clean."""
+def by_hand(impact: Impact) -> list[Foreign]:
+    """Every layout, filled with that impact."""
+    return [made(layout, impact) for layout in BY_HAND]
+
+
+def workbooks(made_by: str) -> list[Foreign]:
+    """The right workbooks that one program writes: of LibreOffice's, which is slow, not all."""
     if made_by.startswith("LibreOffice"):
-        kind = made_by.rpartition(".")[2]
-        books = by_hand(BETA_5)[: 20 if kind == "xlsx" else 8]
-        plain = [writers.with_openpyxl(f, folder / f"{f.name}.xlsx") for f in books]
-        return [(f.name, clean(f, path)) for f, path in zip(
-            books, writers.with_libreoffice(plain, folder, kind), strict=True)]  # fmt: skip
-    result = []
-    for f in workbooks(made_by):
-        path = folder / f"{f.name}.xlsx"
-        if made_by == "like Excel":
-            writers.with_xlsxwriter(f, path, writers.calculated(f, folder / "plain.xlsx"))
-        else:
-            writers.with_openpyxl(f, path)
-        result.append((f.name, clean(f, path)))
-    return result
-
-
-def workbooks(made_by: str) -> Iterator[Foreign]:
-    for impact in CASES:
-        yield from by_hand(impact)
-    if made_by == "openpyxl":
-        yield from (drawn(seed, CASES[seed % 2]) for seed in DRAWN)
+        return by_hand(BETA_5)[: 20 if made_by.endswith("xlsx") else 8]
+    books = [f for impact in CASES for f in by_hand(impact)]
+    return books + [drawn(seed, CASES[seed % 2]) for seed in DRAWN if made_by == "openpyxl"]
 
 
 def clean(f: Foreign, path: Path) -> bool:
@@ -73,8 +61,7 @@ def to_spoil() -> list[tuple[Foreign, writers.Values]]:
 
 
 def _with_values(books: Iterable[Foreign]) -> list[tuple[Foreign, writers.Values]]:
-    with tempfile.TemporaryDirectory() as folder:
-        return [(f, writers.calculated(f, Path(folder, "plain.xlsx"))) for f in books]
+    return [(f, writers.calculated(f)) for f in books]
 
 
 def planted(
@@ -119,9 +106,17 @@ WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "L
 
 def right_row(made_by: str, folder: Path) -> tuple[str, list[str]]:
     """A row of the first table, and the workbooks that are not clean."""
-    result = right(made_by, folder)
-    missed = [name for name, good in result if not good]
-    return f"| {made_by} | {len(result)} | {len(result) - len(missed)} |", missed
+    books = workbooks(made_by)
+    paths = [folder / f"{number}.xlsx" for number in range(len(books))]
+    for f, path in zip(books, paths, strict=True):
+        if made_by == "like Excel":
+            writers.with_xlsxwriter(f, path, writers.calculated(f))
+        else:
+            writers.with_openpyxl(f, path)
+    if made_by.startswith("LibreOffice"):
+        paths = writers.with_libreoffice(paths, folder, made_by.rpartition(".")[2])
+    missed = [f.name for f, path in zip(books, paths, strict=True) if not clean(f, path)]
+    return f"| {made_by} | {len(books)} | {len(books) - len(missed)} |", missed
 
 
 def planted_row(plant: Callable[..., Planted | None], folder: Path) -> tuple[str, list[str]]:

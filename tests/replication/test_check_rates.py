@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from foreign import rates
 from foreign.faults import FAULTS, Planted
-from foreign.writers import require_libreoffice
+from workbooks import usable
 
 pytestmark = pytest.mark.slow
 
@@ -16,7 +16,7 @@ DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
 @pytest.mark.parametrize("made_by", rates.WRITERS)
 def test_right_workbooks_are_clean(made_by: str, tmp_path: Path) -> None:
     if made_by.startswith("LibreOffice"):
-        require_libreoffice()
+        usable("libreoffice")
     row, missed = rates.right_row(made_by, tmp_path)
     assert not missed
     assert row in DOCUMENT
@@ -30,6 +30,6 @@ def test_planted_faults_are_found(plant: Callable[..., Planted | None], tmp_path
 
 
 def test_the_corpus_is_as_large_as_the_page_says() -> None:
-    layouts = len(list(rates.workbooks("like Excel"))) // 2
+    layouts = len(rates.workbooks("like Excel")) // 2
     assert f"{layouts} by hand" in DOCUMENT
     assert f"{len(rates.DRAWN)} drawn" in DOCUMENT

@@ -2,6 +2,7 @@
 
 from fractions import Fraction as F
 from functools import cache
+from itertools import takewhile
 
 import pytest
 from hypothesis import given
@@ -84,18 +85,17 @@ NUMBERS = st.one_of(
 )
 
 
-def distance(first: str, two: str) -> int:
-    """Damerau and Levenshtein's: changes, insertions, deletions, and swaps of neighbors."""
-    rows = {(i, -1): i + 1 for i in range(-1, len(first))} | {
-        (-1, j): j + 1 for j in range(-1, len(two))
-    }
-    for i, a in enumerate(first):
-        for j, b in enumerate(two):
-            ways = [rows[i - 1, j] + 1, rows[i, j - 1] + 1, rows[i - 1, j - 1] + (a != b)]
-            if i and j and a == two[j - 1] and b == first[i - 1]:
-                ways.append(rows[i - 2, j - 2] + 1)
-            rows[i, j] = min(ways)
-    return rows[len(first) - 1, len(two) - 1]
+def common(a: str, b: str) -> int:
+    """How many characters two texts begin with in common."""
+    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
+
+
+def are_one_slip_apart(a: str, b: str) -> bool:
+    """Whether, but for their beginning and end in common, a character or a swap is left."""
+    a, b = a[common(a, b) :], b[common(a, b) :]
+    end = common(a[::-1], b[::-1])
+    a, b = a[: len(a) - end], b[: len(b) - end]
+    return max(len(a), len(b)) <= 1 or (len(a) == 2 and a == b[::-1])
 
 
 @given(NUMBERS)
@@ -110,7 +110,7 @@ def test_every_edit_of_a_number_is_one_slip_away_and_stands_once(text: str) -> N
             assert int(shifted) in (int(power) - 1, int(power) + 1, -int(power))
         else:
             assert shifted == power
-            assert distance(mantissa.replace(".", ""), another.replace(".", "")) <= 1
+            assert are_one_slip_apart(mantissa.replace(".", ""), another.replace(".", ""))
             assert kind in NUMBER_EDITS
 
 
@@ -146,7 +146,6 @@ MENDED = {
     ("a1-radius", "1.01E-05"): "a1-mass",
     ("observed-depth-ratio", "0.289"): "observed-depth-ratio",
     ("goodier-q", "7.27"): "goodier-beta",
-    ("eq3-factor", "3/4"): "particle-volume",
 }
 
 
@@ -156,9 +155,6 @@ def test_the_original_mends_what_a_misprint_spoils(name: str, text: str) -> None
     result = Explainer(Judge(ledger)).repairs(MENDED[name, text])
     printed = LEDGER.claims[name].text
     mending = [r for r in result if r.entry == name and r.text == printed]
-    if name == "eq3-factor":  # two edits away
-        assert mending == []
-        return
     (repair,) = mending
     assert set(repair.failing) <= {"eq16", *PAIR, "eq16-denominator"}
     assert [len(r.failing) for r in result if not r.reading] == sorted(

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from reference.ledger import Convention, Ledger, load
+from reference.ledger import Convention, load
 from replication.audit import wording
 from replication.audit.inference import Inference, infer
 from replication.audit.verdict import Judge, Verdict
@@ -126,13 +126,9 @@ def test_evidence_is_checked_where_the_witness_stands() -> None:
 # Bad witnesses
 
 
-def misprinted(name: str, text: str) -> Ledger:
-    return LEDGER.misprint(name, text)
-
-
 @pytest.mark.parametrize("text", ["1.45E+09", "1.54E+08"])
 def test_a_wrong_cell_is_named_and_the_rest_is_judged(text: str) -> None:
-    ledger = misprinted("a1-deceleration-3", text)
+    ledger = LEDGER.misprint("a1-deceleration-3", text)
     judge = Judge(ledger)
     own = judge.inference(DENSITY)
     assert own.odd == ("a1-deceleration-3",)
@@ -146,7 +142,7 @@ def test_a_wrong_cell_is_named_and_the_rest_is_judged(text: str) -> None:
 
 def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_range() -> None:
     """Some density gives 2.17E+09 in row 4, but not the other cells."""
-    ledger = misprinted("a1-deceleration-4", "2.17E+09")
+    ledger = LEDGER.misprint("a1-deceleration-4", "2.17E+09")
     judge, claim = Judge(ledger, every_convention=False), ledger.claims["a1-deceleration-4"]
     assessed = judge.assess(claim)
     judgement = assessed.readings[0].judgements[0]
@@ -161,14 +157,14 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
 
 def test_evidence_that_moves_the_density_is_followed() -> None:
     """With 3.48 GPa printed for R_t the cells ask for a denser target, and get it."""
-    judge = Judge(misprinted("a1-resistance", "3.48E+09"))
+    judge = Judge(LEDGER.misprint("a1-resistance", "3.48E+09"))
     assert judge.moved == {DENSITY}
     assert 7980 < judge.assumed[DENSITY] < 8030
     assert judge.inference(DENSITY).odd == ()
 
 
 def test_where_nothing_agrees_the_usual_value_is_kept_and_everything_is_odd() -> None:
-    ledger = misprinted("a1-initial-velocity", "400")
+    ledger = LEDGER.misprint("a1-initial-velocity", "400")
     judge = Judge(ledger)
     own = judge.inference(DENSITY)
     assert own.agreeing == ()

@@ -141,6 +141,9 @@ def test_document_types_are_refused(shared: Path, part: str, declared: bytes) ->
     assert "declares a document type" in refusal(spoiled(shared, {part: declare}))
 
 
+ROW = b"<row>" + 100 * b"<c>%s</c>" + b"</row>"
+
+
 @pytest.mark.parametrize(
     ("limit", "largest", "content"),
     [("MAX_UNPACKED", 2**20, b" " * 2**22), ("MAX_ELEMENTS", 2**15, b"<row/>" * 2**15)],
@@ -156,32 +159,33 @@ def test_what_unpacks_to_too_much_is_refused(
 
 
 @pytest.mark.parametrize(
-    ("limit", "cell"), [("MAX_CELLS", b"<v>1</v>"), ("MAX_FORMULAS", b"<f>1+1</f><v>2</v>")]
+    ("limit", "value", "rows", "words"),
+    [
+        ("MAX_UNPACKED", 2**20, b" " * 2**22, "too many bytes"),
+        ("MAX_CELLS", 500, 20 * ROW.replace(b"%s", b"<v>1</v>"), "too many cells"),
+        ("MAX_FORMULAS", 500, 20 * ROW.replace(b"%s", b"<f>1+1</f><v>2</v>"), "too many cells"),
+    ],
+    ids=["bytes", "cells", "formulas"],
 )
-def test_too_many_cells_are_refused(
-    plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, cell: bytes
+def test_what_is_too_much_is_refused(
+    plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int, rows: bytes, words: str
 ) -> None:
-    monkeypatch.setattr(foreign, limit, 500)
-    row = b"<row>" + 100 * (b"<c>" + cell + b"</c>") + b"</row>"
-    assert "too many cells" in refusal(spoiled(plain, {SHEET: cells_of(row * 20)}))
+    path = spoiled(plain, {SHEET: cells_of(rows)})
+    assert path.stat().st_size < 2**15
+    assert read(path)
+    monkeypatch.setattr(foreign, limit, value)
+    assert words in refusal(path)
 
 
-@pytest.mark.parametrize("address", [b"XFE1", b"A1048577", b"A0", b"$", b"AAAA1", b"A99999999"])
-def test_cells_beyond_a_sheet_are_damage(plain: Path, address: bytes) -> None:
-    row = b'<row r="5"><c r="' + address + b'"><v>1</v></c></row>'
-    assert "is damaged" in refusal(spoiled(plain, {SHEET: cells_of(row)}))
-
-
-def test_merged_and_linked_ranges_cost_nothing(plain: Path) -> None:
-    merged = b'</sheetData><mergeCells><mergeCell ref="A1:XFD1048576"/></mergeCells>'
-    linked = b'<hyperlinks><hyperlink ref="A1:XFD1048576" location="A1"/></hyperlinks>'
-    path = spoiled(plain, {SHEET: lambda data: data.replace(b"</sheetData>", merged + linked)})
-    assert len(read(path).sheets["Sheet"]) == 6
-
-
-def test_a_lone_cell_in_the_last_corner_costs_nothing(plain: Path) -> None:
-    row = b'<row r="1048576"><c r="XFD1048576"><v>7</v></c></row>'
-    assert read(spoiled(plain, {SHEET: cells_of(row)})).sheets["Sheet"][1048576, 16384].value == 7
+def test_ranges_and_a_lone_cell_as_large_as_a_sheet_cost_nothing(plain: Path) -> None:
+    added = (
+        b'<row r="1048576"><c r="XFD1048576"><v>7</v></c></row></sheetData>'
+        b'<mergeCells><mergeCell ref="A1:XFD1048576"/></mergeCells>'
+        b'<hyperlinks><hyperlink ref="A1:XFD1048576" location="A1"/></hyperlinks>'
+    )
+    path = spoiled(plain, {SHEET: lambda data: data.replace(b"</sheetData>", added)})
+    cells = read(path).sheets["Sheet"]
+    assert (len(cells), cells[1048576, 16384].value) == (7, 7)
 
 
 @pytest.mark.parametrize(
@@ -192,11 +196,14 @@ def test_a_lone_cell_in_the_last_corner_costs_nothing(plain: Path) -> None:
         lambda data: b"",
         lambda data: data.replace(b"<v>2.5</v>", b"<v>two</v>"),
         lambda data: data.replace(b'r="A1"', b'r="A1" t="s"'),
+        *(
+            cells_of(b'<row r="5"><c r="' + address + b'"><v>1</v></c></row>')
+            for address in (b"XFE1", b"A1048577", b"A0", b"$", b"AAAA1", b"A99999999")
+        ),
     ],
 )
 def test_damaged_parts_are_named_so(plain: Path, damage: Callable[[bytes], bytes]) -> None:
-    changed = spoiled(plain, {SHEET: damage})
-    assert "is damaged" in refusal(changed)
+    assert "is damaged" in refusal(spoiled(plain, {SHEET: damage}))
 
 
 def test_shared_texts_are_read(shared: Path) -> None:
