@@ -207,6 +207,8 @@ class Comparison:
 
     def same(self, p: Piece, q: Piece) -> bool:
         """Whether two pieces are the same, and read the same cells, wherever they are now."""
+        if p.kind == q.kind == "number":
+            return float(p.text) == float(q.text)
         if p.area is None or q.area is None:
             texts = [each.text.upper() if each.kind == "function" else each.text for each in (p, q)]
             return p.kind == q.kind and texts[0] == texts[1]

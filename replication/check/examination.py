@@ -1,5 +1,6 @@
 """What is known of one table: its inputs, the scheme that its rows follow, its differences."""
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -23,6 +24,11 @@ worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits 
 
 Change = Callable[[Case], Case] | Mapping[str, Rule]
 """What a difference makes of the report's sheet: another case, or other rules for some parts."""
+
+
+def near(a: float | Fraction, b: float) -> bool:
+    """Whether two numbers are the same to nine digits."""
+    return math.isclose(a, b, rel_tol=1e-9)
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,11 @@
 """What is wrong with one table: each difference with its kind, place and cause.
 
 Units and inputs first, then the scheme: a column in which most cells follow another rule than the
-report's is one difference, named by that rule. Then every cell by itself, by what the cells before
-it give and by what its column is: a wrong one is found where it stands, and what follows from it is
-not accused. Then the stop.
+report's is one difference, named by that rule. Then every cell by itself (`cells`), and the stop.
 """
 
 import math
-import re
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -18,23 +13,21 @@ from itertools import pairwise, product
 from statistics import median
 
 from reference.units import to_si
-from replication.check.examination import NEAR, Change, Difference, Examination, Input
+from replication.check.cells import NO_CONTACT, drifting, each_cell, order, wrong_area
+from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import report_inputs
 from replication.check.scheme import (
     BEYOND,
     BRAKES,
-    FILLS,
     KNOWN,
     MOST_ROWS,
     PARTS,
     REPORT,
     Case,
     Rule,
-    contact,
     march,
-    orders,
 )  # fmt: skip
-from replication.check.table import LEAST, Line, Table, address, results, runs
+from replication.check.table import Line, address, results
 from replication.check.words import (
     INPUTS,
     power_of_ten,
@@ -46,7 +39,6 @@ from replication.check.words import (
     unit_text,
 )  # fmt: skip
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation, Formula
 
 OTHER_STOP: Mapping[str, Rule] = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
@@ -60,12 +52,12 @@ def judge(f: Examination) -> None:
         _derived(f)
     _other_inputs(f)
     if f.table.digits is None:
-        _drifting(f)
+        drifting(f)
         _scheme(f)
-        _each_cell(f)
+        each_cell(f)
         _typed_inputs(f)
         _texts(f)
-        _order(f)
+        order(f)
     else:
         _as_rounded(f, f.table.digits)
     _stop(f)
@@ -113,7 +105,11 @@ def _calibrate(f: Examination) -> None:
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
-        if own.unit and any(_near(value, number) for number in report_inputs()[role]):
+        if not own.unit and power % 3:  # no unit is ten times another, so the number is a choice
+            f.inputs = {**f.inputs, role: replace(own, si=value, factor=own.factor * factor)}
+            f.intended = f.intended.with_input(role, value, float(factor))
+            return
+        if own.unit and any(near(value, number) for number in report_inputs()[role]):
             taken = replace(own, si=value, factor=own.factor * factor)
             f.inputs = {**f.inputs, role: taken}
             f.intended = f.intended.with_input(role, value, float(factor))
@@ -204,7 +200,7 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
 def _other_inputs(f: Examination) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
     report, density = report_inputs(), f.inputs["particle_density"]
-    lone_mass = density.how == "follows" and not _near(density.si, report["particle_density"][0])
+    lone_mass = density.how == "follows" and not near(density.si, report["particle_density"][0])
     off = {
         role: own
         for role, own in f.inputs.items()
@@ -220,7 +216,7 @@ def _other_inputs(f: Examination) -> None:
         if role == "target_density":
             text += ", inferred, since the report prints none"
         for name, values in report.items():
-            if INPUTS[name] == INPUTS[role] and any(_near(own.si, value) for value in values):
+            if INPUTS[name] == INPUTS[role] and any(near(own.si, value) for value in values):
                 text += f"; {quantity(own.si, role)} is {title(name)} there"
         kind, change = "other input", None
         # Units mostly lie a thousand apart; a tenth or ten times as much is a choice.
@@ -277,7 +273,7 @@ def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) ->
         # The impact velocity typed into the first row, while its own cell is read by nothing.
         first = own.role == "velocity" and role.startswith("velocity") and k <= 1
         number = f.rows.columns[role].get(k)
-        return first and own in f.unread and number is not None and _near(number, own.si)
+        return first and own in f.unread and number is not None and near(number, own.si)
     if not formula.literals or value is None or own.role == "beta":
         return False
     if own.role == "stop_velocity":
@@ -286,7 +282,7 @@ def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) ->
     else:
         values = {own.si, value} | ({value / 2, own.si / 2} if own.role == "step" else set())
         typed = any(
-            _near(number, wanted) and not _plain(wanted)
+            near(number, wanted) and not _plain(wanted)
             for wanted, number in product(values, formula.literals)
         )
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
@@ -297,54 +293,6 @@ def _plain(value: float) -> bool:
     """Whether a number stands in formulas for itself: small whole ones, halves, powers of ten."""
     whole = float(value).is_integer() and abs(value) <= 10
     return whole or value in (0.5, 1.5, 12.0) or power_of_ten(abs(value)) is not None
-
-
-# ---- references and areas: what beside the columns of the scheme spoils them
-
-
-def _drifting(f: Examination) -> None:
-    """References to a cell beside the table that move on from row to row, as no $ fixes them."""
-    lines, number = f.table.every_line, f.calculation.number
-    inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
-    for line in lines:
-        every = [(line.place(at), line.formula(at)) for at in range(line.first, line.last + 1)]
-        formulas = [(place, formula) for place, formula in every if formula is not None]
-        shape = formulas[-1][1].shape if formulas else ()
-        alike = [(place, formula) for place, formula in formulas if formula.shape == shape]
-        for pieces in zip(*(formula.pieces for _, formula in alike), strict=True):
-            read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
-            beside = [p for p in read if not any(each.covers(p) for each in lines)]
-            moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
-            strays = None in map(number, beside) or inputs & set(beside[1:])
-            if moves and strays and number(read[0]) is not None:
-                cells = [place for place, _ in alike[1:]]
-                cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
-                text = (
-                    f"its column reads {cell}, which no $ fixes: this row reads {here}, and so on"
-                )
-                f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
-
-
-_NO_CONTACT = "this area is not that of the contact at the depth of its row"
-
-
-def _area(f: Examination) -> tuple[Line, set[int]] | None:
-    """The column beside the table whose area brakes the rows, and the rows where it is wrong."""
-    if "deceleration" not in f.rows.columns:
-        return None
-    for line in f.table.helpers:
-        factors: dict[int, tuple[float, float]] = {}
-        for k in range(1, f.table.steps + 1):
-            x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
-            number = line.at(f.table.zero + k)
-            if x and v is not None and a is not None and number:
-                stress = 0.5 * f.case.target_density * v * v + f.case.resistance
-                force = a * f.case.mass / stress
-                factors[k] = force / number, force / (math.pi * contact(f.case, x))
-        unit = median([by for by, _ in factors.values()]) if len(factors) >= LEAST else 0.0
-        if power_of_ten(unit) is not None and all(_near(by, unit) for by, _ in factors.values()):
-            return line, {k for k, (_, share) in factors.items() if not _near(share, 1.0)}
-    return None
 
 
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
@@ -409,7 +357,7 @@ def _named(f: Examination) -> None:
         role, at = rows.shows(part, first)
         wanted = rows.wanted(role, at) if role == fills else None
         cells = f.cells(role, at, at if part == "start" else None)
-        if part == "brake" and (area := _area(f)) and area[1]:
+        if part == "brake" and (area := wrong_area(f)) and area[1]:
             line, rows_off = area
             cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
         text = f"{rule.name}: {rule.says}"
@@ -418,14 +366,14 @@ def _named(f: Examination) -> None:
 
 def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
-    area = _area(f) if part == "brake" else None
+    area = wrong_area(f) if part == "brake" else None
     own = area[0] if area and area[1] else f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
-    if not ratio or sum(_near(each, ratio) for each in ratios) < 0.5 * len(ratios):
+    if not ratio or sum(near(each, ratio) for each in ratios) < 0.5 * len(ratios):
         text = "these cells follow no scheme that this program knows"
-        return "other scheme", text if own in f.table.lines.values() else _NO_CONTACT, own
+        return "other scheme", text if own in f.table.lines.values() else NO_CONTACT, own
     what, base, constant = "step", f.case.step, "the time step"
     if part == "brake":
         what, base, constant = "force", math.pi, "pi"
@@ -434,15 +382,11 @@ def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     for line in (own, *f.table.helpers):
         formulas = filter(None, map(line.formula, range(line.first, line.last + 1)))
         numbers = {abs(number) for formula in formulas for number in formula.literals}
-        if any(_near(number / base, ratio) for number in numbers):
+        if any(near(number / base, ratio) for number in numbers):
             return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
-    named = f"{fraction}" if _near(fraction, ratio) else f"{ratio:.6g}"
+    named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
     return "other scheme", f"every {what} is {named} times that of the report's scheme", own
-
-
-def _near(a: float | Fraction, b: float) -> bool:
-    return math.isclose(a, b, rel_tol=1e-9)
 
 
 def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
@@ -491,221 +435,6 @@ def _misprints(
                 last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
             if not abs(value - wanted) <= last * (0.5 + 1e-9):
                 yield role, k, expected
-
-
-# ---- each cell, by what the cells before it give and by what its column is
-
-
-def _each_cell(f: Examination) -> None:
-    """Every cell that is not what those before it give, and every cell unlike its column."""
-    odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
-    areas = (area for place in f.table.places for area in f.calculation.areas(place))
-    read = {area.corner for area in areas if area.cells == 1}
-    spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
-    wrong: dict[Position, tuple[str, str, float | None]] = {}
-    area = _area(f)
-    for place, (role, k) in f.table.places.items():
-        expected = f.rows.wanted(role, k)
-        if place in odd:
-            kind, text = odd.pop(place)
-            if error := f.calculation.error(place):
-                kind, text = "odd formula", f"{text}; it gives {error}"
-            elif reason := f.calculation.uncomputed.get(place):
-                kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-        elif place in accused or any(
-            area.corner in spoilt and area.corner != place for area in f.calculation.areas(place)
-        ):
-            continue
-        elif _fails(f, role, k, expected, place in read):
-            kind, text = _lone(f, role, k, expected)
-            if area and role == "deceleration" and k in area[1]:
-                place, expected = area[0].place(f.table.zero + k), None
-                text = _NO_CONTACT
-        else:
-            continue
-        value = f.rows.columns[role].get(k)
-        if value and expected and math.isclose(value, expected, rel_tol=1e-9):
-            text += "; it gives the right value here"
-        wrong[place] = kind, text, f.shown(role, expected)
-    wrong |= {place: (*why, None) for place, why in odd.items()}
-    # Those of neighbours with the same kind and cause, but for numbers, are one.
-    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
-    causes = {place: (kind, re.sub(number, "#", text)) for place, (kind, text, _) in wrong.items()}
-    for run in runs(causes, f.table.across):
-        kind, text, shown = wrong[run[0]]
-        f.add(kind, run, shown, text)
-
-
-def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
-    """Cells whose readers are not to blame, and those beside the table that read them.
-
-    They are `wrong` cells beside the table and those of the table that hold no number.
-    """
-    order, values = f.calculation.order, f.calculation.values
-    spoilt = wrong | {p for p in f.table.places if isinstance(values.get(p), str | bool)}
-    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
-    for place in sorted(cells & order.keys(), key=order.__getitem__):
-        if any(area.corner in spoilt for area in f.calculation.areas(place)):
-            spoilt.add(place)
-    return spoilt
-
-
-_WHAT = {str: "a text", bool: "a truth value"}
-
-
-def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
-    """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
-
-    Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
-    """
-    rows = [table.zero + k for k in range(2, table.steps + 1)]
-    places = [line.place(at) for at in rows if line.follows(at)]
-    calculation = line.calculation
-    formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
-    if len(formulas) < max(3, 0.5 * len(places)):
-        return
-    # Some people type the number of the row into each formula: then the shapes without numbers.
-    for masked in (False, True):
-        shapes = {
-            place: tuple(
-                "#" if masked and piece.kind == "number" else shape
-                for piece, shape in zip(formula.pieces, formula.shape, strict=True)
-            )
-            for place, formula in formulas.items()
-        }
-        usual, often = Counter(shapes.values()).most_common(1)[0]
-        if often >= 0.5 * len(formulas):
-            break
-    else:
-        return
-    pattern = next(formulas[place] for place, shape in shapes.items() if shape == usual)
-    for place in places:
-        if place in formulas:
-            if shapes[place] != usual:
-                yield place, _odd(formulas[place], pattern, calculation)
-        elif (typed := calculation.values.get(place)) is not None:
-            kind = str if place in calculation.texts else type(typed)
-            what = _WHAT.get(kind, "a number")
-            stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
-            yield place, ("typed number", stand)
-
-
-def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
-    """Whether a formula unlike its column has a number where the others have a reference."""
-    text = calculation.book[formula.place].formula
-    usual = _filled(pattern, formula.place, calculation)
-    typed = Counter(formula.literals) - Counter(pattern.literals)
-    if typed and len(formula.areas) < len(pattern.areas):
-        numbers = " and ".join(f"{number:g}" for number in typed)
-        return "typed constant", f"{text} has {numbers} where its column reads a cell: {usual}"
-    return "odd formula", f"{text} is unlike its column, where {usual} would stand"
-
-
-def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
-    """The formula of another cell, filled into this one."""
-    from openpyxl.formula.translate import Translator, TranslatorError
-
-    text = calculation.book[pattern.place].formula or ""
-    with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
-        text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
-    return text
-
-
-def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:
-    """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
-    column, place = f.rows.columns[role], f.table.place(role, k)
-    value = column.get(k)
-    if value is None:
-        needed = 0 < k < max(column, default=0) or (read and k > 0)
-        beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
-        wrong = needed or _text(f, place) or f.calculation.error(place)
-        return bool(wrong) and not beyond
-    numbered = role == "time" and math.isclose(value, k * f.case.step, rel_tol=NEAR)
-    if expected is None or numbered:  # by the number of the row, not from the time before
-        return False
-    size = abs(expected)
-    if role.startswith("velocity"):
-        size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    if abs(value - expected) <= NEAR * size:
-        return False
-    # A first row that is the report's may be unlike the others, which follow another rule.
-    part = FILLS.get(role, "advance")
-    return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
-
-
-def _text(f: Examination, place: Position) -> bool:
-    """Whether a text or a truth value is typed into a cell of the table, below its heads."""
-    value = f.calculation.values.get(place)
-    _, k = f.table.places.get(place, ("", 0))
-    typed = (k > 0 and value != "") or place in f.calculation.spoiling
-    return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
-
-
-def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:
-    """The kind of a cell that alone is not what the cells before it give."""
-    place, cell = f.table.place(role, k), f"{title(role)} of row {k}"
-    value = f.rows.columns[role].get(k)
-    typed = place not in f.calculation.formulas
-    alone = "typed number" if typed else "odd formula"
-    if error := f.calculation.error(place):
-        return "odd formula", f"{cell} gives {error}, as do all cells that read it"
-    if value is None and _text(f, place):
-        return alone, f"{cell} is {_WHAT[type(f.calculation.values[place])]}, not a number"
-    if value is None:
-        return "odd formula", f"{cell} is {'blank' if typed else 'no number'}"
-    if role == "time" and k == 1 and value == 0:
-        return "other scheme", "the times are those at the beginning of the rows"
-    what = f"{cell} is not what the cells before it give"
-    if power := power_of_ten(value / expected) if expected else None:
-        return "unit", f"{what}: a factor of 1e{abs(power)}"
-    if role == "depth" and k == 1 and not typed:
-        return "other scheme", "the first depth is neither half a step nor a whole one"
-    beyond = (f.rows("depth", k) or 0.0) >= f.case.radius
-    if role == "deceleration" and beyond and f.follows("brake", BEYOND, k):
-        return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
-    return alone, what
-
-
-def _order(f: Examination) -> None:
-    """Columns whose last digits no order of the report's operations gives."""
-    factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
-    if any(f.powers.values()) or factors != {Fraction(1)} or f.rows.rules != REPORT:
-        return  # converting units costs last digits, too
-    # The mass as its cell has it; without a cell, as any order of its product gives it.
-    masses = [f.case.mass]
-    for way in (0.0, math.inf) if "mass" not in f.derived else ():
-        mass = f.case.mass
-        masses += [mass := math.nextafter(mass, way) for _ in range(4)]
-    cases = [replace(f.case, own_mass=mass) for mass in masses]
-    accused = f.accused
-    # Without a column of its own the deceleration's order is not known by the velocity's.
-    shown = "deceleration" in f.rows.columns
-    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
-        column = f.rows.columns.get(role, {})
-        rows = [k for k in column if k and f.table.place(role, k) not in accused
-                and f.table.place(role, k) in f.calculation.formulas
-                and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
-        others = [
-            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
-            for case in cases
-        ]
-        if differ := min(others, key=len):
-            value = column[differ[0]]
-            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - value))
-            ulps = round(abs(wanted - value) / math.ulp(wanted))
-            text = f"the last digits of {len(differ)} of {len(rows)} cells of {title(role)}, here "
-            text += f"{ulps} ulp, are those of another order, on which no printed digit depends"
-            cells = [f.table.place(role, k) for k in differ]
-            f.add("operation order", cells, f.shown(role, wanted), text)
-
-
-def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
-    """What a cell may hold, by the order of the operations."""
-    x, v = f.rows("depth", k), f.rows("velocity_initial", k)
-    if role == "deceleration":
-        return set() if x is None or v is None else orders(case, x, v)
-    value = f.rows.wanted(role, k)
-    return set() if value is None else {value}
 
 
 # ---- the stop, and all of it together

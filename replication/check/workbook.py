@@ -9,7 +9,7 @@ from pathlib import Path
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension
-from replication.check.examination import NO_FAULT, Difference, Examination
+from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.inputs import find, numbers_beside, report_inputs
 from replication.check.judge import OTHER_STOP, judge
 from replication.check.table import LEAST, Line, address, lines, results, runs, tables
@@ -207,8 +207,8 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
     """
     report = report_inputs()
     given = [(f.inputs[role].si, report[role][0]) for role in _GIVEN if role in f.inputs]
-    alike = [_near(f.case.resistance, resistance) for resistance in report["resistance"]]
-    if not any(alike) or not all(_near(*pair) for pair in given):
+    alike = [near(f.case.resistance, resistance) for resistance in report["resistance"]]
+    if not any(alike) or not all(near(*pair) for pair in given):
         return
     case = _CASES[alike.index(True)]
     table_a1 = case == _CASES[0]
@@ -239,10 +239,6 @@ def _results(f: Examination, case: str, cells: Mapping[str, Position]) -> Iterat
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
-
-
-def _near(a: float, b: float) -> bool:
-    return math.isclose(a, b, rel_tol=1e-9)
 
 
 def _misread(f: Examination) -> None:

@@ -362,6 +362,9 @@ def _library(kinds: frozenset[type]) -> str:
 def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import xarray
 
+    for name, value in inputs.items():
+        if _library(frozenset({type(value)})) == "pandas":
+            raise TypeError(f"{name} is of pandas: beside an xarray array give its values")
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)

@@ -327,6 +327,7 @@ def test_series_are_matched_by_label_and_bad_ones_named_by_it() -> None:
         (velocity, radius.to_frame(), TypeError, "a DataFrame is no input: give its columns"),
         (velocity, -1.0, ValueError, r"^radius is -1\.0: it must be"),
         (velocity.to_frame(), 1e-5, TypeError, "a DataFrame is no input: give its columns"),
+        (xarray.DataArray([4e2, 5e2]), radius, TypeError, "^radius is of pandas: beside an xarray"),
     ]
     for first, second, kind, message in refusals:
         with pytest.raises(kind, match=message):

@@ -493,6 +493,12 @@ def test_a_draft_is_on_the_disk_before_it_has_its_name(
     assert names(tmp_path) == ["out.csv"]
 
 
+def _mind_signals() -> None:
+    # A shell's background jobs ignore the one, those of nohup the other, and so do their own.
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def started(folder: Path) -> "subprocess.Popen[bytes]":
     """A sweep of many blocks, once the first of them is in its draft."""
     plan_of(folder, STREAM.format(samples=4000 * BLOCK))
@@ -502,8 +508,10 @@ def started(folder: Path) -> "subprocess.Popen[bytes]":
         command,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        # A shell's background jobs ignore it, and what they start does, too.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        # A shell's background jobs ignore the one, those of nohup the other, and so do their own.
+        preexec_fn=lambda: [
+            signal.signal(n, signal.SIG_DFL) for n in (signal.SIGINT, signal.SIGHUP)
+        ],
     )
     for _ in range(6000):
         if any(draft.stat().st_size > 100_000 for draft in folder.glob(".out.csv.*.part")):

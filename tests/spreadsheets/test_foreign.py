@@ -145,27 +145,14 @@ ROW = b"<row>" + 100 * b"<c>%s</c>" + b"</row>"
 
 
 @pytest.mark.parametrize(
-    ("limit", "largest", "content"),
-    [("MAX_UNPACKED", 2**20, b" " * 2**22), ("MAX_ELEMENTS", 2**15, b"<row/>" * 2**15)],
-)
-def test_what_unpacks_to_too_much_is_refused(
-    plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, largest: int, content: bytes
-) -> None:
-    path = spoiled(plain, {SHEET: cells_of(content)})
-    assert path.stat().st_size < 2**15
-    assert read(path)
-    monkeypatch.setattr(foreign, limit, largest)
-    assert "too many bytes" in refusal(path)
-
-
-@pytest.mark.parametrize(
     ("limit", "value", "rows", "words"),
     [
         ("MAX_UNPACKED", 2**20, b" " * 2**22, "too many bytes"),
+        ("MAX_ELEMENTS", 2**15, b"<row/>" * 2**15, "too many bytes"),
         ("MAX_CELLS", 500, 20 * ROW.replace(b"%s", b"<v>1</v>"), "too many cells"),
         ("MAX_FORMULAS", 500, 20 * ROW.replace(b"%s", b"<f>1+1</f><v>2</v>"), "too many cells"),
     ],
-    ids=["bytes", "cells", "formulas"],
+    ids=["bytes", "elements", "cells", "formulas"],
 )
 def test_what_is_too_much_is_refused(
     plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int, rows: bytes, words: str

@@ -1,0 +1,282 @@
+"""Each cell of a table, by what the cells before it give and by what its column is.
+
+So a wrong one is found where it stands, and what follows from it is not accused.
+"""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+from statistics import median
+
+from replication.check.examination import NEAR, Examination, near
+from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
+from replication.check.table import LEAST, Line, Table, address, runs
+from replication.check.words import power_of_ten, title
+from spreadsheets.foreign import Position
+from spreadsheets.recalculation import Calculation, Formula
+
+# ---- references and areas: what beside the columns of the scheme spoils them
+
+
+def drifting(f: Examination) -> None:
+    """References to a cell beside the table that move on from row to row, as no $ fixes them."""
+    lines, number = f.table.every_line, f.calculation.number
+    inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
+    for line in lines:
+        every = [(line.place(at), line.formula(at)) for at in range(line.first, line.last + 1)]
+        formulas = [(place, formula) for place, formula in every if formula is not None]
+        shape = formulas[-1][1].shape if formulas else ()
+        alike = [(place, formula) for place, formula in formulas if formula.shape == shape]
+        for pieces in zip(*(formula.pieces for _, formula in alike), strict=True):
+            read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
+            beside = [p for p in read if not any(each.covers(p) for each in lines)]
+            moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
+            strays = None in map(number, beside) or inputs & set(beside[1:])
+            if moves and strays and number(read[0]) is not None:
+                cells = [place for place, _ in alike[1:]]
+                cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
+                text = (
+                    f"its column reads {cell}, which no $ fixes: this row reads {here}, and so on"
+                )
+                f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
+
+
+NO_CONTACT = "this area is not that of the contact at the depth of its row"
+
+
+def wrong_area(f: Examination) -> tuple[Line, set[int]] | None:
+    """The column beside the table whose area brakes the rows, and the rows where it is wrong."""
+    if "deceleration" not in f.rows.columns:
+        return None
+    for line in f.table.helpers:
+        factors: dict[int, tuple[float, float]] = {}
+        for k in range(1, f.table.steps + 1):
+            x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
+            number = line.at(f.table.zero + k)
+            if x and v is not None and a is not None and number:
+                stress = 0.5 * f.case.target_density * v * v + f.case.resistance
+                force = a * f.case.mass / stress
+                factors[k] = force / number, force / (math.pi * contact(f.case, x))
+        unit = median([by for by, _ in factors.values()]) if len(factors) >= LEAST else 0.0
+        if power_of_ten(unit) is not None and all(near(by, unit) for by, _ in factors.values()):
+            return line, {k for k, (_, share) in factors.items() if not near(share, 1.0)}
+    return None
+
+
+# ---- each cell, by what the cells before it give and by what its column is
+
+
+def each_cell(f: Examination) -> None:
+    """Every cell that is not what those before it give, and every cell unlike its column."""
+    odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
+    areas = (area for place in f.table.places for area in f.calculation.areas(place))
+    read = {area.corner for area in areas if area.cells == 1}
+    spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
+    wrong: dict[Position, tuple[str, str, float | None]] = {}
+    area = wrong_area(f)
+    for place, (role, k) in f.table.places.items():
+        expected = f.rows.wanted(role, k)
+        if place in odd:
+            kind, text = odd.pop(place)
+            if error := f.calculation.error(place):
+                kind, text = "odd formula", f"{text}; it gives {error}"
+            elif reason := f.calculation.uncomputed.get(place):
+                kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
+        elif place in accused or any(
+            area.corner in spoilt and area.corner != place for area in f.calculation.areas(place)
+        ):
+            continue
+        elif _fails(f, role, k, expected, place in read):
+            kind, text = _lone(f, role, k, expected)
+            if area and role == "deceleration" and k in area[1]:
+                place, expected = area[0].place(f.table.zero + k), None
+                text = NO_CONTACT
+        else:
+            continue
+        value = f.rows.columns[role].get(k)
+        if value and expected and math.isclose(value, expected, rel_tol=1e-9):
+            text += "; it gives the right value here"
+        wrong[place] = kind, text, f.shown(role, expected)
+    wrong |= {place: (*why, None) for place, why in odd.items()}
+    # Those of neighbours with the same kind and cause, but for numbers, are one.
+    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
+    causes = {place: (kind, re.sub(number, "#", text)) for place, (kind, text, _) in wrong.items()}
+    for run in runs(causes, f.table.across):
+        kind, text, shown = wrong[run[0]]
+        f.add(kind, run, shown, text)
+
+
+def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
+    """Cells whose readers are not to blame, and those beside the table that read them.
+
+    They are `wrong` cells beside the table and those of the table that hold no number.
+    """
+    order, values = f.calculation.order, f.calculation.values
+    spoilt = wrong | {p for p in f.table.places if isinstance(values.get(p), str | bool)}
+    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
+    for place in sorted(cells & order.keys(), key=order.__getitem__):
+        if any(area.corner in spoilt for area in f.calculation.areas(place)):
+            spoilt.add(place)
+    return spoilt
+
+
+_WHAT = {str: "a text", bool: "a truth value"}
+
+
+def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
+    """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
+
+    Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
+    """
+    rows = [table.zero + k for k in range(2, table.steps + 1)]
+    places = [line.place(at) for at in rows if line.follows(at)]
+    calculation = line.calculation
+    formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
+    if len(formulas) < max(3, 0.5 * len(places)):
+        return
+    # Some people type the number of the row into each formula: then the shapes without numbers.
+    for masked in (False, True):
+        shapes = {
+            place: tuple(
+                "#" if masked and piece.kind == "number" else shape
+                for piece, shape in zip(formula.pieces, formula.shape, strict=True)
+            )
+            for place, formula in formulas.items()
+        }
+        usual, often = Counter(shapes.values()).most_common(1)[0]
+        if often >= 0.5 * len(formulas):
+            break
+    else:
+        return
+    pattern = next(formulas[place] for place, shape in shapes.items() if shape == usual)
+    for place in places:
+        if place in formulas:
+            if shapes[place] != usual:
+                yield place, _odd(formulas[place], pattern, calculation)
+        elif (typed := calculation.values.get(place)) is not None:
+            kind = str if place in calculation.texts else type(typed)
+            what = _WHAT.get(kind, "a number")
+            stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
+            yield place, ("typed number", stand)
+
+
+def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
+    """Whether a formula unlike its column has a number where the others have a reference."""
+    text = calculation.book[formula.place].formula
+    usual = _filled(pattern, formula.place, calculation)
+    typed = Counter(formula.literals) - Counter(pattern.literals)
+    if typed and len(formula.areas) < len(pattern.areas):
+        numbers = " and ".join(f"{number:g}" for number in typed)
+        return "typed constant", f"{text} has {numbers} where its column reads a cell: {usual}"
+    return "odd formula", f"{text} is unlike its column, where {usual} would stand"
+
+
+def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
+    """The formula of another cell, filled into this one."""
+    from openpyxl.formula.translate import Translator, TranslatorError
+
+    text = calculation.book[pattern.place].formula or ""
+    with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
+        text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
+    return text
+
+
+def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:
+    """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
+    column, place = f.rows.columns[role], f.table.place(role, k)
+    value = column.get(k)
+    if value is None:
+        needed = 0 < k < max(column, default=0) or (read and k > 0)
+        beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
+        wrong = needed or _text(f, place) or f.calculation.error(place)
+        return bool(wrong) and not beyond
+    numbered = role == "time" and math.isclose(value, k * f.case.step, rel_tol=NEAR)
+    if expected is None or numbered:  # by the number of the row, not from the time before
+        return False
+    size = abs(expected)
+    if role.startswith("velocity"):
+        size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
+    if abs(value - expected) <= NEAR * size:
+        return False
+    # A first row that is the report's may be unlike the others, which follow another rule.
+    part = FILLS.get(role, "advance")
+    return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
+
+
+def _text(f: Examination, place: Position) -> bool:
+    """Whether a text or a truth value is typed into a cell of the table, below its heads."""
+    value = f.calculation.values.get(place)
+    _, k = f.table.places.get(place, ("", 0))
+    typed = (k > 0 and value != "") or place in f.calculation.spoiling
+    return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
+
+
+def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:
+    """The kind of a cell that alone is not what the cells before it give."""
+    place, cell = f.table.place(role, k), f"{title(role)} of row {k}"
+    value = f.rows.columns[role].get(k)
+    typed = place not in f.calculation.formulas
+    alone = "typed number" if typed else "odd formula"
+    if error := f.calculation.error(place):
+        return "odd formula", f"{cell} gives {error}, as do all cells that read it"
+    if value is None and _text(f, place):
+        return alone, f"{cell} is {_WHAT[type(f.calculation.values[place])]}, not a number"
+    if value is None:
+        return "odd formula", f"{cell} is {'blank' if typed else 'no number'}"
+    if role == "time" and k == 1 and value == 0:
+        return "other scheme", "the times are those at the beginning of the rows"
+    what = f"{cell} is not what the cells before it give"
+    if power := power_of_ten(value / expected) if expected else None:
+        return "unit", f"{what}: a factor of 1e{abs(power)}"
+    if role == "depth" and k == 1 and not typed:
+        return "other scheme", "the first depth is neither half a step nor a whole one"
+    beyond = (f.rows("depth", k) or 0.0) >= f.case.radius
+    if role == "deceleration" and beyond and f.follows("brake", BEYOND, k):
+        return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
+    return alone, what
+
+
+def order(f: Examination) -> None:
+    """Columns whose last digits no order of the report's operations gives."""
+    factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
+    if any(f.powers.values()) or factors != {Fraction(1)} or f.rows.rules != REPORT:
+        return  # converting units costs last digits, too
+    # The mass as its cell has it; without a cell, as any order of its product gives it.
+    masses = [f.case.mass]
+    for way in (0.0, math.inf) if "mass" not in f.derived else ():
+        mass = f.case.mass
+        masses += [mass := math.nextafter(mass, way) for _ in range(4)]
+    cases = [replace(f.case, own_mass=mass) for mass in masses]
+    accused = f.accused
+    # Without a column of its own the deceleration's order is not known by the velocity's.
+    shown = "deceleration" in f.rows.columns
+    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
+        column = f.rows.columns.get(role, {})
+        rows = [k for k in column if k and f.table.place(role, k) not in accused
+                and f.table.place(role, k) in f.calculation.formulas
+                and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
+        others = [
+            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
+            for case in cases
+        ]
+        if differ := min(others, key=len):
+            value = column[differ[0]]
+            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - value))
+            ulps = round(abs(wanted - value) / math.ulp(wanted))
+            text = f"the last digits of {len(differ)} of {len(rows)} cells of {title(role)}, here "
+            text += f"{ulps} ulp, are those of another order, on which no printed digit depends"
+            cells = [f.table.place(role, k) for k in differ]
+            f.add("operation order", cells, f.shown(role, wanted), text)
+
+
+def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
+    """What a cell may hold, by the order of the operations."""
+    x, v = f.rows("depth", k), f.rows("velocity_initial", k)
+    if role == "deceleration":
+        return set() if x is None or v is None else orders(case, x, v)
+    value = f.rows.wanted(role, k)
+    return set() if value is None else {value}
