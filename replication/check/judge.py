@@ -466,7 +466,7 @@ def _stop(f: Examination) -> None:
     # With other inputs, or the report's other beta, rows prepared for those before run out; an
     # excerpt has few, none of which is called the final depth. But who leaves off shortly before
     # the report does stops at another velocity.
-    changed = any(difference.kind == "other input" for difference in f.differences)
+    changed = any(d.kind == "other input" or callable(d.change) for d in f.differences)
     cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
     prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
     place = f.table.place(role, steps)
