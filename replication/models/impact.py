@@ -131,19 +131,20 @@ def check_range(
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
+    _carried("target resistance", resistance)
+    _carried("step", step)
+    _carried("radius squared", radius * radius)
+    _carried("velocity squared", velocity * velocity)
+    _carried("particle density", particle_density)
+    _carried("target density", target_density)
     pressure = 0.5 * target_density * velocity * velocity
-    formed = {
-        "target resistance": resistance,
-        "step": step,
-        "radius squared": radius * radius,
-        "velocity squared": velocity * velocity,
-        "particle density": particle_density,
-        "target density": target_density,
-        "dynamic pressure": pressure,
-        "dynamic pressure over target resistance": pressure / resistance,
-        "ratio of the densities": particle_density / target_density,
-        "work": pressure / resistance * particle_density / target_density,
-    }
-    for name, value in formed.items():
-        if not 1e-250 <= value <= 1e250:
-            raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")
+    _carried("dynamic pressure", pressure)
+    _carried("dynamic pressure over target resistance", pressure / resistance)
+    _carried("ratio of the densities", particle_density / target_density)
+    _carried("work", pressure / resistance * particle_density / target_density)
+
+
+def _carried(name: str, value: float) -> None:
+    """Raise InputError unless doubles carry the value safely, so that it may be divided by."""
+    if not 1e-250 <= value <= 1e250:
+        raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")
