@@ -2,13 +2,15 @@
 
 `Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
 `Duals` carry the derivatives along in either of them. `Ratios` are quotients of polynomials with
-rational coefficients, in which two forms of an equation are equal exactly or not at all.
+rational coefficients, in which two forms of an equation are equal exactly or not at all; `Residues`
+tell quickly most of those that are not.
 """
 
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
+from hashlib import sha256
 from typing import Any
 
 Number = Any
@@ -294,22 +296,31 @@ class Ratio(Operators):
 
     __hash__ = None  # type: ignore[assignment]  # equal quotients may be written in many ways
 
-    @property
-    def constant(self) -> Fraction | None:
-        """Its value if it is the same number whatever the symbols stand for, else None."""
-        if self.over == 0:
-            return Fraction(0)
-        value = self.over.leading_coefficient() / self.under.leading_coefficient()
-        is_constant = self.over == self.under * value
-        return Fraction(int(value.p), int(value.q)) if is_constant else None
-
     def _ratio(self, value: Any) -> "Ratio":
         if isinstance(value, Ratio):
             return value
         return Ratio(self.under * 0 + value, self.under * 0 + 1)
 
 
-class Ratios:
+class _Field:
+    """Numbers in which what is no polynomial has a value of its own: the same for the same x."""
+
+    number: Callable[[Fraction | int], Any]
+
+    def log(self, x: Any) -> Any:
+        return self.number(0) if x == 1 else self._other(None, x)
+
+    def power(self, x: Any, exponent: Fraction) -> Any:
+        if exponent.denominator == 1:
+            return x ** int(exponent)
+        return x if x == 1 else self._other(exponent, x)
+
+    def _other(self, exponent: Fraction | None, x: Any) -> Any:
+        """The value of this power of x, or of its logarithm."""
+        raise NotImplementedError
+
+
+class Ratios(_Field):
     """Quotients of polynomials in some symbols; what is no polynomial gets a symbol of its own.
 
     >>> ar = Ratios(["x", "y"])
@@ -333,16 +344,15 @@ class Ratios:
         constant = self._context.constant
         return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
 
-    def log(self, x: Ratio) -> Ratio:
-        return self.number(0) if x == 1 else self._other(None, x)
-
-    def power(self, x: Ratio, exponent: Fraction) -> Ratio:
-        if exponent.denominator == 1:
-            return x ** int(exponent)
-        return x if x == 1 else self._other(exponent, x)
+    def constant(self, x: Ratio) -> Fraction | None:
+        """The value of what is the same number whatever the symbols stand for, else None."""
+        if x.over == 0:
+            return Fraction(0)
+        value = x.over.leading_coefficient() / x.under.leading_coefficient()
+        return Fraction(int(value.p), int(value.q)) if x.over == x.under * value else None
 
     def _other(self, *known: Any) -> Ratio:
-        """A symbol for a power, or the logarithm, of x: the same one for the same x."""
+        """A symbol for it."""
         if known not in self._others:
             self._others.append(known)
         return self._named[f"other_{self._others.index(known)}"]
@@ -357,3 +367,43 @@ def _polynomials(names: tuple[str, ...]) -> tuple[Any, dict[str, Ratio]]:
     unity = context.constant(1)
     ratios = [Ratio(generator, unity) for generator in context.gens()]
     return context, dict(zip(names, ratios, strict=True))
+
+
+class Residues(_Field):
+    """Remainders by a large prime, one drawn for each symbol: what differs here differs.
+
+    What agrees here is the same quotient of polynomials but for a chance of one in 10^15.
+
+    >>> ar = Residues(["x", "y"])
+    >>> x, y = ar.symbols["x"], ar.symbols["y"]
+    >>> (x * x - y * y) / (x - y) == x + y, x * y == x + y
+    (True, False)
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.symbols = {name: _drawn(name) for name in names}
+
+    @property
+    def pi(self) -> Number:
+        return _drawn("pi")
+
+    def number(self, value: Fraction | int) -> Number:
+        return _remainder(value.numerator) / value.denominator
+
+    def constant(self, _: Number) -> None:
+        """Not to be told from one value of the symbols."""
+
+    def _other(self, exponent: Fraction | None, x: Number) -> Number:
+        return _drawn(f"{x}^{exponent}")
+
+
+def _remainder(number: int) -> Any:
+    from flint import nmod
+
+    return nmod(number, 2**61 - 1)
+
+
+@lru_cache(4096)
+def _drawn(what: str) -> Any:
+    """A remainder drawn by lot, always the same one for the same thing."""
+    return _remainder(int.from_bytes(sha256(what.encode()).digest()))

@@ -8,10 +8,11 @@ question, the box is cut in halves until it decides, or the question stays undec
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, isinf
 from typing import Any
+
+import msgspec
 
 from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats, Number
 from reference.intervals import Intervals
@@ -29,8 +30,7 @@ _INTERVALS = Intervals(30)
 _DUALS = Duals(_INTERVALS)
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(msgspec.Struct, frozen=True):
     """A proven range of a function over a box.
 
     `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
@@ -119,8 +119,7 @@ def _signs(slopes: Mapping[str, Number], wide: Sequence[str]) -> dict[str, int]:
     return {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
 
 
-@dataclass(frozen=True, slots=True)
-class Exploration:
+class Exploration(msgspec.Struct, frozen=True):
     """What is proven of a function's values over a box, against a target interval.
 
     `ends` of a range that holds all values. `inside`: a point of the box whose value is proven
@@ -196,8 +195,7 @@ def _halves(part: Box, whole: Box) -> list[Box]:
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
 
 
-@dataclass(frozen=True, slots=True)
-class Solutions:
+class Solutions(msgspec.Struct, frozen=True):
     """The values of one input, within a search, for which a function meets its target.
 
     `inner`: intervals all of whose values are proven to; `outer`: those outside which every value

@@ -4,7 +4,6 @@ What each key means is said at the head of its file.
 """
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from typing import Literal
@@ -114,8 +113,7 @@ class Report(Entry, frozen=True):
     year: int
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(msgspec.Struct, frozen=True):
     """Where something stands: characters and line of the text, section, equation, table cell."""
 
     start: int = 0

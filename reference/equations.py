@@ -11,11 +11,12 @@ space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache, reduce
 from operator import add, mul
 from typing import Any
+
+import msgspec
 
 from reference.arithmetic import InexactError, Rationals
 from reference.units import Dimension, DimensionError
@@ -25,8 +26,7 @@ class EquationError(ValueError):
     """Text that cannot be read as an equation; says where it ends to make sense."""
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
+class Node(msgspec.Struct, frozen=True):
     """A part of an equation.
 
     `kind` is "number" (with `value`), "symbol" (with `name`), or what is done with `parts`: "sum",
@@ -68,20 +68,19 @@ class _Reader:
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
         self.text, self.symbols = text, symbols
-        self.tokens = list(_token(tuple(symbols)).finditer(text))
+        tokens = [(str(token.lastgroup), token) for token in _token(tuple(symbols)).finditer(text)]
+        self.tokens = [(kind, token[kind], bool(token["space"])) for kind, token in tokens]
+        self.starts = [token.start(kind) for kind, token in tokens]
         self.at = 0
 
     @property
     def next(self) -> tuple[str, str, bool]:
         """The kind and the text of what comes next, and whether a space stands before it."""
-        token = self.tokens[self.at]
-        kind = str(token.lastgroup)
-        return kind, token[kind], bool(token["space"])
+        return self.tokens[self.at]
 
     def error(self) -> EquationError:
         """That what comes next has no place there."""
-        token = self.tokens[self.at]
-        rest = self.text[token.start(str(token.lastgroup)) :]
+        rest = self.text[self.starts[self.at] :]
         what = (
             f"cannot read {rest!r} at the end of" if rest else "something is missing at the end of"
         )
@@ -266,8 +265,7 @@ def dimension(
     return own
 
 
-@dataclass(frozen=True, slots=True)
-class Notation:
+class Notation(msgspec.Struct, frozen=True):
     """How the parts of an expression are put together, as they stand for plain text.
 
     `stroke`: how tightly what is over and under a fraction bar must bind to go without brackets.

@@ -12,13 +12,14 @@ uses them.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from itertools import islice
 from typing import Any
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
+import msgspec
+
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number
 from reference.entries import Computation, Condition, Equation, Side
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
@@ -27,43 +28,57 @@ from reference.units import unit_dimension
 Names = Mapping[str, str]
 """How symbols and premises are written, and what they are called."""
 
-
-def _value(text: str, ar: Any, known: Mapping[str, Any], names: Names) -> Any:
-    """What a text of the ledger says; a Fraction that is named stays one, as exponents must."""
-    return known[text] if text in known else evaluate(read_expression(text, names), ar, known)
+Term = Callable[[Any, Mapping[str, Any]], Any]
+"""What a text of the ledger says, in an arithmetic, of values by name."""
 
 
-def _side(
-    own: Side, sides: Sequence[Node], ar: Any, known: Mapping[str, Any], names: Names
-) -> Number:
+def _term(text: str, names: Names) -> Term:
+    """A text, read once; a Fraction that is only named stays one, as exponents must."""
+    if text in names.values():
+        return lambda _, known: known[text]
+    node = read_expression(text, names)
+    return lambda ar, known: evaluate(node, ar, known)
+
+
+def _side(own: Side, names: Names) -> Callable[[Sequence[Node], Any, Mapping[str, Any]], Number]:
     """A side of an equation, or its slope, with something put in for its symbols.
 
     Those for which nothing is put in have their known values.
     """
-    put = {symbol: _value(text, ar, known, names) for symbol, text in own.put.items()}
-    side, values = sides[own.side], {**known, **put}
-    if own.slope is None:
-        return evaluate(side, ar, values)
-    duals = Duals(ar)
-    numbers = {name: Dual(value) for name, value in values.items()}
-    numbers[own.slope] = duals.variable(values[own.slope], own.slope)
-    return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
+    put = {symbol: _term(text, names) for symbol, text in own.put.items()}
+
+    def value(sides: Sequence[Node], ar: Any, known: Mapping[str, Any]) -> Number:
+        side, values = sides[own.side], {**known, **{s: term(ar, known) for s, term in put.items()}}
+        if own.slope is None:
+            return evaluate(side, ar, values)
+        duals = Duals(ar)
+        numbers = {name: Dual(value) for name, value in values.items()}
+        numbers[own.slope] = duals.variable(values[own.slope], own.slope)
+        return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
+
+    return value
 
 
 # Computations
 
 
-def compute(
-    computation: Computation, ar: Arithmetic, sides: Sides, inputs: Mapping[str, Any]
-) -> Number | Fraction:
-    """The value of a computation, given the sides of all equations, for inputs by name."""
+def computing(computation: Computation, sides: Sides, names: Iterable[str]) -> Term:
+    """A computation, given the sides of all equations, as a function of inputs with these names."""
     if computation.formula is None:
-        return FUNCTIONS[computation.name](ar, **inputs)
-    names = {r"\pi": "pi", **{key: key for key in (*inputs, *computation.premises)}}
-    known = dict(inputs)
-    for key, own in computation.premises.items():
-        known[key] = _side(own, sides[own.equation], ar, known, names)
-    return _value(computation.formula, ar, known, names)
+        function = FUNCTIONS[computation.name]
+        return lambda ar, inputs: function(ar, **inputs)
+    own = {r"\pi": "pi", **{key: key for key in (*names, *computation.premises)}}
+    premises = [(key, _side(premise, own), sides[premise.equation])
+                for key, premise in computation.premises.items()]  # fmt: skip
+    formula = _term(computation.formula, own)
+
+    def value(ar: Arithmetic, inputs: Mapping[str, Any]) -> Number | Fraction:
+        known = dict(inputs)
+        for key, premise, equation in premises:
+            known[key] = premise(equation, ar, known)
+        return formula(ar, known)
+
+    return value
 
 
 def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
@@ -103,8 +118,7 @@ FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
 # Derivations
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(msgspec.Struct, frozen=True):
     """One step of a derivation: what must hold, and whether it does.
 
     `factor` is the number by which the printed side differs from the derived one, where it is
@@ -116,34 +130,44 @@ class Check:
     factor: Fraction | None = None
 
 
-def derive(
-    equation: Equation, sides: Sides, written: Mapping[str, str], symbols: Iterable[str]
-) -> Iterator[Check]:
+def derive(equation: Equation, sides: Sides, written: Names, field: Any) -> Iterator[Check]:
     """Every check of one equation, given the sides of all, one by one.
 
-    `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
-    or EquationError where what is printed makes no sense there.
+    `written` maps what the report writes to a symbol's name; they are checked in the `field`, the
+    `Ratios` or `Residues` of the symbols. Raises ZeroDivisionError, ValueError or EquationError
+    where what is printed makes no sense there.
     """
-    field = Ratios([symbol for symbol in symbols if symbol != "pi"])
-    names, known = {**written, **{key: key for key in equation.premises}}, field.symbols
-    for check in equation.checks:
-        if check.equals[0] in "<>":
-            yield Check(check.says, _is_so(check, sides[equation.id][check.side], field))
+    own, symbols = sides[equation.id], field.symbols
+    for check, premises, printed_side, derived_term in _derivation(
+        equation, tuple(written.items())
+    ):
+        if derived_term is None:
+            yield Check(check.says, _is_so(check, own[check.side], symbols))
             continue
-        named = {key: own for key, own in equation.premises.items() if key in check.equals}
-        premises = {
-            key: _side(own, sides[own.equation], field, known, names) for key, own in named.items()
-        }
-        printed = _side(check, sides[equation.id], field, known, names)
-        derived = _value(check.equals, field, {**known, **premises}, names)
-        holds = printed == derived
-        factor = None if holds or derived == 0 else (printed / derived).constant
+        known = {**symbols, **{key: premise(sides[name], field, symbols)
+                               for key, name, premise in premises}}  # fmt: skip
+        printed, derived = printed_side(own, field, symbols), derived_term(field, known)
+        holds = bool(printed == derived)
+        factor = None if holds or derived == 0 else field.constant(printed / derived)
         yield Check(check.says, holds, factor)
 
 
-def _is_so(check: Condition, side: Node, field: Ratios) -> bool:
+@cache
+def _derivation(equation: Equation, written: tuple[tuple[str, str], ...]) -> list[Any]:
+    """Of every check: itself, its premises, the printed side, and what this must be equal to."""
+    names = {**dict(written), **{key: key for key in equation.premises}}
+    read = []
+    for check in equation.checks:
+        named = {key: own for key, own in equation.premises.items() if key in check.equals}
+        premises = [(key, own.equation, _side(own, names)) for key, own in named.items()]
+        derived = None if check.equals[0] in "<>" else _term(check.equals, names)
+        read.append((check, premises, _side(check, names), derived))
+    return read
+
+
+def _is_so(check: Condition, side: Node, symbols: Iterable[str]) -> bool:
     """Whether a side is above or below a number, at the numbers put in and all others at 1."""
     put = {symbol: float(text) for symbol, text in check.put.items()}
-    value = evaluate(side, Floats(), {**dict.fromkeys(field.symbols, 1.0), **put})
+    value = evaluate(side, Floats(), {**dict.fromkeys(symbols, 1.0), **put})
     bound = float(check.equals[1:])
     return bool(value < bound if check.equals[0] == "<" else value > bound)

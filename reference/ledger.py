@@ -8,7 +8,6 @@ what each entry must have and that its quote stands in the report once; that ent
 import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property, reduce
 from importlib import resources
@@ -35,7 +34,7 @@ from reference.entries import (
     place_of,
 )
 from reference.equations import EquationError, Node, Sides, read_equation
-from reference.formulas import compute
+from reference.formulas import computing
 from reference.printed import Interval, Printed, Rounding, parse
 from reference.units import Dimension, raised, to_si, unit_dimension
 
@@ -58,8 +57,7 @@ def shown(text: str) -> str:
     return re.sub(r"~\s+", "~", raised(text))
 
 
-@dataclass(frozen=True, slots=True)
-class Convention:
+class Convention(msgspec.Struct, frozen=True):
     """How printed text is read where the report does not say how it was printed.
 
     `choices_exact`: what the author chose (500 m/s, 700 MPa, 0.2 ns) is the value itself, not a
@@ -380,7 +378,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
         An entry that stands in several inputs is one variable.
         """
-        computation, sides = claim.computations[reading], self.sides
+        computation = claim.computations[reading]
         settings: dict[str, Any] = {}
         if computation.by_row:
             settings["row"] = claim.row
@@ -389,11 +387,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         inputs = dict(claim.inputs)
         if "power" in inputs:  # an exponent stays exact
             settings["power"] = self.value(*inputs.pop("power"))
+        compute = computing(computation, self.sides, (*inputs, *settings))
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
             own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return compute(computation, ar, sides, {**own, **settings})
+            return compute(ar, {**own, **settings})
 
         return of_entries
 

@@ -192,18 +192,6 @@ class Trajectory:
             edges.append(self.context.sqrt(1 - 1 / self._final))
         return sorted(edges)
 
-    def depth_at_time(self, time: Number) -> Number:
-        """Depth [m] at a time [s]; the final one from the stop time on."""
-        time, whole = self.context.convert(time), self.stop_time()
-        if time < 0:
-            raise ValueError(f"a time of {time} s is before the impact")
-        if time >= whole:
-            return self.final_depth
-        s = self.context.findroot(
-            lambda s: (self._time_from(s) - time) / whole, (0, 1), solver="anderson"
-        )
-        return self.final_depth * (1 - s * s)
-
 
 _GUARD = 20
 """Digits carried beyond those asked for."""

@@ -6,12 +6,13 @@ becomes text is a convention (`Rounding`); fractions ("7/3") and number words ("
 """
 
 import re
-from dataclasses import dataclass
 from decimal import Context, Decimal, Inexact
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import inf
+
+import msgspec
 
 
 class Rounding(Enum):
@@ -22,8 +23,7 @@ class Rounding(Enum):
     CUT = "cut off"
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(msgspec.Struct, frozen=True, dict=True):
     """An interval of rationals; an end that is None is infinite.
 
     Raises ValueError if it is empty.
@@ -121,8 +121,7 @@ def decimal_text(value: Fraction) -> str:
     return f"{exact:f}" if -5 <= exact.adjusted() < 6 else f"{exact:E}"
 
 
-@dataclass(frozen=True, slots=True)
-class Printed:
+class Printed(msgspec.Struct, frozen=True):
     """A printed number: its text, the value that the text spells, the place of its last digit.
 
     `quanta` are the units that the last significant digit may have: one where the text is decimal,

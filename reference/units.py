@@ -6,9 +6,10 @@ A unit is a product or quotient of listed ones with small powers, such as "kg/m^
 """
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+
+import msgspec
 
 
 class UnitError(ValueError):
@@ -19,8 +20,7 @@ class DimensionError(ValueError):
     """Quantities of different kinds are added, or one that is no pure number is an argument."""
 
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
+class Dimension(msgspec.Struct, frozen=True):
     """Powers of kilogram, metre and second."""
 
     powers: tuple[Fraction, ...] = (Fraction(0), Fraction(0), Fraction(0))

@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Iterable
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from hashlib import sha256
@@ -11,6 +10,8 @@ from itertools import product
 from math import inf, isclose, nextafter
 from types import SimpleNamespace
 from typing import Any
+
+from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference import ledger as ledgers

@@ -6,11 +6,12 @@ a model or a search: for each finding a function of the same name.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from statistics import NormalDist
 from typing import Any
+
+from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
@@ -73,11 +74,8 @@ class Known:
 
     def sources(self, claim: Claim) -> list[r.SourceRecord]:
         """The public sources for a claim, and whether each agrees with it."""
-
-        def outcome(source: Source) -> str:
-            return "agrees" if claim.target().meets(source.interval) else "differs"
-
-        return self._sources(claim.id, outcome)
+        outcomes = {True: "agrees", False: "differs"}
+        return self._sources(claim.id, lambda s: outcomes[claim.target().meets(s.interval)])
 
     def _admitted(self, name: str) -> list[r.SourceRecord]:
         """The public sources for an inferred input, and what its evidence says of each."""

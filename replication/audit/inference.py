@@ -1,9 +1,10 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+
+import msgspec
 
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
@@ -12,8 +13,7 @@ from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
 
 
-@dataclass(frozen=True, eq=False)
-class Inference:
+class Inference(msgspec.Struct, frozen=True, eq=False, dict=True):
     """The values of an input for which its evidence comes out as printed (SI units).
 
     `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
@@ -29,8 +29,8 @@ class Inference:
     agreeing: tuple[str, ...]
     inner: Interval
     outer: Interval
-    _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = field(default_factory=dict)
-    _rounded: dict[tuple[str, Ends], Ends] = field(default_factory=dict)
+    _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = {}
+    _rounded: dict[tuple[str, Ends], Ends] = {}
 
     @property
     def entry(self) -> Inferred:

@@ -7,13 +7,7 @@ from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Rounding
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord
-from replication.audit.verdict import (
-    Assessment,
-    EquationAssessment,
-    Judge,
-    Reading,
-    Verdict,
-)
+from replication.audit.verdict import Assessment, EquationAssessment, Judge, Reading, Verdict
 from replication.text import between, number, quantity
 
 REMARK = "A remark, no number: the figures below are what it can be judged by."
@@ -147,10 +141,10 @@ def _digits(claim: Claim, computed: float | None) -> list[str]:
 
 def sources(records: Sequence[SourceRecord]) -> str:
     """How a number stands to the public sources for it."""
-    texts: dict[bool | None, list[str]] = {True: [], False: []}
-    for record in records:
-        texts[record.agrees].append(f"{quantity(record.says, record.unit)} ({record.title})")
-    agreeing, others = "; ".join(texts[True]), "; ".join(texts[False])
+    agreeing, others = (
+        "; ".join(f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees)
+        for agrees in (True, False)
+    )
     if not agreeing:
         return f"The report names no source. No public source at hand prints it: {others}."
     but = f", not with {others}" if others else ""

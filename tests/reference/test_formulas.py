@@ -2,7 +2,6 @@
 
 import re
 from fractions import Fraction as F
-from functools import partial
 from inspect import signature
 from math import prod
 
@@ -10,7 +9,7 @@ import pytest
 
 from reference.arithmetic import Floats, Reals
 from reference.enclosure import enclose
-from reference.formulas import FUNCTIONS, compute
+from reference.formulas import FUNCTIONS, computing
 from reference.ledger import Claim, load
 from reference.units import unit_dimension
 
@@ -76,9 +75,13 @@ FZ = {"length_ratio": 2 / 3, "particle_density": 8900, "target_density": 7850, "
 
 def test_lengths_of_equation_16_are_counted_in_diameters() -> None:
     of_radius = LEDGER.misprint("eq16", LEDGER.printed_text("eq16").replace("L/D", "L/R"))
-    as_printed = partial(compute, LEDGER.computations["frank_zook_as_printed"], Floats())
+    as_printed = LEDGER.computations["frank_zook_as_printed"]
     longer = {**FZ, "length_ratio": 2 * FZ["length_ratio"]}
-    assert as_printed(of_radius.sides, FZ) == as_printed(LEDGER.sides, longer)
+    values = [
+        computing(as_printed, sides, case)(Floats(), case)
+        for sides, case in ((of_radius.sides, FZ), (LEDGER.sides, longer))
+    ]
+    assert values[0] == values[1]
 
 
 def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
@@ -92,5 +95,5 @@ def test_frank_zook_is_the_integral_of_eqs_14_and_15() -> None:
         lambda v: inertia * v / (case["k_t"] * case["target_density"] * v * v + case["resistance"]),
         [0, case["velocity"] / 2, case["velocity"]],
     )
-    derived = compute(LEDGER.computations["frank_zook_derived"], ar, LEDGER.sides, case)
-    assert abs(derived / (2 * depth) - 1) < 1e-27
+    derived = computing(LEDGER.computations["frank_zook_derived"], LEDGER.sides, case)
+    assert abs(derived(ar, case) / (2 * depth) - 1) < 1e-27

@@ -21,7 +21,7 @@ STEP = F(2, 10**10)
 # The sheet
 
 
-def rows_by_hand(count: int, centered: bool, case: tuple[F, ...]) -> list[tuple[F, ...]]:
+def rows_by_hand(count: int, centered: bool, case: tuple[F, ...], step: F) -> list[tuple[F, ...]]:
     """The appendix, sentence by sentence, from the chord's area and the whole sphere's mass.
 
     pi cancels from area over mass.
@@ -30,15 +30,15 @@ def rows_by_hand(count: int, centered: bool, case: tuple[F, ...]) -> list[tuple[
     mass_over_pi = F(4, 3) * radius**3 * particle
     x, rows = F(0), []
     for k in range(1, count + 1):
-        x += v * (STEP / 2 if k == 1 else STEP)
+        x += v * (step / 2 if k == 1 else step)
         area_over_pi = 2 * radius * x - x**2 if x < radius else radius**2
         middle = v
         if centered:
             first = (target * v**2 / 2 + resistance) * area_over_pi / mass_over_pi
-            middle = v - first * STEP / 2
+            middle = v - first * step / 2
         a = (target * middle**2 / 2 + resistance) * area_over_pi / mass_over_pi
-        rows.append((v, x, a, v - a * STEP))
-        v -= a * STEP
+        rows.append((v, x, a, v - a * step))
+        v -= a * step
     return rows
 
 
@@ -46,8 +46,9 @@ def rows_by_hand(count: int, centered: bool, case: tuple[F, ...]) -> list[tuple[
 @pytest.mark.parametrize("case", CASES)
 def test_the_first_rows_are_those_of_rational_arithmetic(case: str, centered: bool) -> None:
     count = 3 if centered else 5  # the fractions' digits double twice, or once, with every row
-    rows = islice(sheet_rows(Rationals(), *CASES[case], step=STEP, centered=centered), count)
-    assert [tuple(row) for row in rows] == rows_by_hand(count, centered, CASES[case])
+    step = STEP if case == "ends below the radius" else 20 * STEP  # crosses it in these rows
+    rows = islice(sheet_rows(Rationals(), *CASES[case], step=step, centered=centered), count)
+    assert [tuple(row) for row in rows] == rows_by_hand(count, centered, CASES[case], step)
 
 
 @pytest.mark.parametrize("centered", [False, True])
@@ -82,17 +83,6 @@ def test_a_box_of_sheets_holds_the_sheets_at_its_corners() -> None:
         for strength in strengths:
             inner = depth((speed, speed), (strength, strength))
             assert low < inner[0] <= inner[1] < high
-
-
-@pytest.mark.parametrize("y", [F(1, 7), F(99, 100), F(1), F(5)])
-def test_contact_area_is_eq_12_then_constant(y: F) -> None:
-    """Without drag, the first row has the contact area's share of the full deceleration."""
-    velocity, _, particle, _, resistance = SHALLOW
-    radius = velocity * STEP / 2 / y
-    inputs = (velocity, radius, particle, F(0), resistance)
-    row = next(sheet_rows(Rationals(), *inputs, step=STEP))
-    full = 3 * resistance / (4 * radius * particle)
-    assert row.deceleration / full == (2 * y - y**2 if y < 1 else 1)
 
 
 # The exact motion
@@ -133,30 +123,21 @@ def test_velocity_and_time_solve_the_equation_of_motion(case: str, share: F) -> 
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_velocity_depth_and_time_undo_each_other(case: str) -> None:
+def test_ends_of_the_motion(case: str) -> None:
     motion = exact(case)
     for share in (F(1, 1000), F(1, 3), F(999, 1000)):
         depth = motion.final_depth * motion.reals.number(share)
         assert abs(motion.depth_at_velocity(motion.velocity_at_depth(depth)) / depth - 1) < CLOSE
-        assert abs(motion.depth_at_time(motion.time_to_depth(depth)) / depth - 1) < CLOSE
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_ends_of_the_motion(case: str) -> None:
-    motion = exact(case)
     assert abs(motion.velocity_at_depth(0) / motion.velocity - 1) < CLOSE
     assert motion.time_to_depth(0) == 0
-    assert abs(motion.depth_at_velocity(1) / motion.depth_at_time(motion.stop_time(1)) - 1) < CLOSE
+    assert motion.stop_time(1) == motion.time_to_depth(motion.depth_at_velocity(1))
     assert motion.stop_time(1) < motion.stop_time()
     assert motion.velocity_at_depth(motion.final_depth) == 0
-    assert motion.depth_at_time(10 * motion.stop_time()) == motion.final_depth
     for share, function in product((2, F(-1, 9)), (motion.velocity_at_depth, motion.time_to_depth)):
         with pytest.raises(ValueError, match="never gets to a depth"):
             function(motion.reals.number(share) * motion.final_depth)
     with pytest.raises(ValueError, match="never has a velocity of 1501"):
         motion.depth_at_velocity(1501)
-    with pytest.raises(ValueError, match="before the impact"):
-        motion.depth_at_time(-1)
 
 
 EXTREMES = {

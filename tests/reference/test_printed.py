@@ -4,7 +4,7 @@ from fractions import Fraction as F
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference.printed import Interval, Rounding, decimal_text, parse
@@ -83,58 +83,43 @@ def rounded_to_digits(value: F, digits: int, rounding: Rounding) -> F:
     return rounded(value, TENS ** (exponent - digits + 1), rounding)
 
 
-EIGHTHS = st.integers(-20, 20)
-"""How far off a value is, in eighths of the last digit: ends of intervals and what is between."""
-SHIFTS = st.sampled_from([F(0), F(1, 10**9), F(-1, 10**9)])
-POWERS_OF_TEN_OFTEN = st.one_of(st.integers(0, 9999), st.sampled_from([1, 10, 100, 1000]))
+@st.composite
+def texts(draw: st.DrawFn) -> tuple[str, int, int | None]:
+    """A printed number, which of its quanta is meant, and how many digits, if those are counted."""
+    forms = ["decimal", "whole", "{}E{:+03d}", "{} × 10^{}", r"-{} \times 10^{{{}}}"]
+    form = draw(st.sampled_from(forms))
+    digits = draw(st.integers(0, 9999) | st.sampled_from([1, 10, 100, 1000]))
+    places = draw(st.integers(0, 3))
+    if form == "decimal":
+        return "-" * draw(st.booleans()) + f"{digits / 10**places:.{places}f}", 0, None
+    digits = max(digits, 1)
+    if form == "whole":  # zeros at its end may be no digits
+        text = str(digits * 10**places)
+        place = draw(st.integers(0, len(text) - len(text.rstrip("0"))))
+        return text, place, len(text) - place if place else None
+    count = len(str(digits))
+    mantissa = f"{digits / 10 ** (count - 1):.{count - 1}f}"
+    return form.format(mantissa, draw(st.integers(-12, 12))), 0, count
 
 
-@given(
-    POWERS_OF_TEN_OFTEN,
-    st.integers(0, 4),
-    st.booleans(),
-    st.sampled_from(Rounding),
-    EIGHTHS,
-    SHIFTS,
-)
-def test_decimals(digits: int, places: int, minus: bool, rounding: Rounding, k: int, e: F) -> None:
-    quantum = TENS**-places
-    text = "-" * minus + f"{digits / 10**places:.{places}f}"
+OFF = st.integers(-20, 20).flatmap(lambda k: st.sampled_from([F(k, 8), F(k, 80)]))
+"""How far off a value is, in last digits: ends of intervals and what is between."""
+
+
+@settings(max_examples=300)
+@given(texts(), st.sampled_from(Rounding), OFF, st.sampled_from([F(0), F(1, 10**9), F(-1, 10**9)]))
+def test_a_value_prints_as_the_text_if_and_only_if_it_lies_in_its_interval(
+    printed_as: tuple[str, int, int | None], rounding: Rounding, off: F, more: F
+) -> None:
+    text, place, digits = printed_as
     printed = parse(text)
-    assert printed.quantum == quantum
-    value = printed.value + (F(k, 8) + e) * quantum
-    prints_so = rounded(value, quantum, rounding) == printed.value
-    assert printed.interval(rounding).contains(value) == prints_so
-
-
-@given(
-    st.integers(1, 4), st.data(), st.integers(-12, 12), st.sampled_from(Rounding), EIGHTHS, SHIFTS
-)
-def test_digits_before_an_exponent(
-    count: int, data: st.DataObject, power: int, rounding: Rounding, k: int, e: F
-) -> None:
-    low = 10 ** (count - 1)
-    digits = data.draw(st.one_of(st.just(low), st.integers(low, 10 * low - 1)))
-    mantissa = f"{digits / low:.{count - 1}f}"
-    form = data.draw(st.sampled_from(["{}E{:+03d}", "{} × 10^{}", r"-{} \times 10^{{{}}}"]))
-    printed = parse(form.format(mantissa, power))
-    value = printed.value + (F(k, 80) + e) * printed.quantum
-    prints_so = rounded_to_digits(value, count, rounding) == printed.value
-    assert printed.interval(rounding).contains(value) == prints_so
-
-
-@given(POWERS_OF_TEN_OFTEN.filter(bool), st.sampled_from(Rounding), EIGHTHS, st.data())
-def test_zeros_at_the_end_may_be_no_digits(
-    number: int, rounding: Rounding, k: int, data: st.DataObject
-) -> None:
-    printed = parse(str(number * 10 ** data.draw(st.integers(0, 3))))
-    place = data.draw(st.integers(1, len(printed.quanta) - 1)) if len(printed.quanta) > 1 else 0
     quantum = printed.quanta[place]
-    value = printed.value + F(k, 80) * quantum
-    if place:
-        own = rounded_to_digits(value, len(printed.text) - place, rounding)
-    else:
+    value = printed.value + (off + more) * quantum
+    if digits is None:
+        assert quantum == TENS ** -len(text.partition(".")[2])
         own = rounded(value, quantum, rounding)
+    else:
+        own = rounded_to_digits(value, digits, rounding)
     assert printed.interval(rounding, quantum).contains(value) == (own == printed.value)
     for strict, loose in pairwise(printed.interval(quantum=q) for q in printed.quanta):
         assert loose.encloses(*strict.ends) or loose.ends[1] == strict.ends[1]
@@ -187,11 +172,6 @@ def test_an_empty_interval_and_a_missing_end_are_refused() -> None:
             Interval(*ends)
     with pytest.raises(ValueError, match="no end on one side"):
         _ = Interval(None, F(1)).ends
-
-
-def test_short_numbers_are_written_out_and_others_with_an_exponent() -> None:
-    texts = [decimal_text(3 * TENS**power) for power in (-6, -5, 5, 6)]
-    assert texts == ["3E-6", "0.00003", "300000", "3E+6"]
 
 
 @given(st.fractions(max_denominator=10**6), st.integers(-40, 40))

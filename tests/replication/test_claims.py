@@ -4,7 +4,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from reference.ledger import Claim, load
+from reference.ledger import INFERRED, Claim, load
 from replication.audit.record import Record
 
 LEDGER = load()
@@ -51,21 +51,36 @@ FORMULA_ROUNDING = 2e-15
 """Fewer than ten roundings of 1.1e-16 each."""
 
 
+KNOWN = {*LEDGER.claims, *(INFERRED + key for key in LEDGER.inferred)}
+
+
 @pytest.mark.parametrize("claim", LEDGER.claims.values(), ids=lambda claim: claim.id)
 def test_claim(claim: Claim, record: Record) -> None:
     judged = record.claim(claim.id)
     assert judged.verdict == expected(claim)
-    assert judged.explanation
+    assert judged.explanation.endswith(".")
     assert (judged.printed, judged.unit, judged.where) == (claim.text, claim.unit, str(claim.place))
-    if judged.computed is not None:
-        assert judged.reference is not None
+    assert (judged.interval_exact is None) == (claim.kind == "remark")
+    assert {entry for entries in judged.rests_on.values() for entry in entries} <= KNOWN
+    proof = (judged.computed, judged.reference, judged.enclosure_exact, judged.holds or None)
+    assert len({value is None for value in proof}) == 1, "computed with all its proof, or not"
+    if judged.computed is not None and judged.enclosure_exact is not None:
         bound = SHEET_ROUNDING if claim.by_scheme else FORMULA_ROUNDING
-        assert judged.computed == pytest.approx(float(judged.reference), rel=bound, abs=0)
+        assert judged.computed == pytest.approx(float(str(judged.reference)), rel=bound, abs=0)
+        low, high = (F(str(end)) for end in judged.enclosure_exact)
+        slack = abs(F(judged.computed)) / 10**12  # a double is some roundings beside the range
+        assert low - slack <= F(judged.computed) <= high + slack
         if judged.computed not in (0, 2 / 3):  # exact text, of which a double is a rounding
             inside = claim.interval().contains(F(judged.computed))
             assert inside == (judged.verdict == "reproduced")
-    if claim.id in NOT_REPRODUCED and judged.computed is not None:
-        assert judged.computed == pytest.approx(NOT_REPRODUCED[claim.id], rel=1e-5)
+        if claim.id in NOT_REPRODUCED:
+            assert judged.computed == pytest.approx(NOT_REPRODUCED[claim.id], rel=1e-5)
+            assert judged.back_solved
+            assert judged.slips
+    listed = [(j.rounding, j.choices, j.header, j.scheme) for j in judged.otherwise]
+    assert len(set(listed)) == len(listed)
+    same = [j for j in judged.otherwise if (j.verdict, j.scheme) == (judged.verdict, "published")]
+    assert same == [], "only what differs is listed"
     if judged.verdict == "not checkable" and claim.given:
         assert claim.given in judged.explanation
 

@@ -4,16 +4,15 @@ from fractions import Fraction as F
 
 import pytest
 
-from reference.formulas import derive
 from reference.ledger import Ledger, load
 from replication.audit.explain import Screen, equation_edits
-from replication.audit.verdict import assess_equation, follows
+from replication.audit.verdict import Verdict, assess_equation, follows
 
 LEDGER = load()
 ASSUMED = {f"inferred:{name}": entry.nominal for name, entry in LEDGER.inferred.items()}
 
 
-def state(ledger: Ledger, name: str) -> tuple[object, ...]:
+def state(ledger: Ledger, name: str) -> tuple[Verdict, *tuple[object, ...]]:
     assessed = assess_equation(ledger, name, constants=False)
     return assessed.verdict, assessed.factor, tuple(check.holds for check in assessed.checks)
 
@@ -35,7 +34,14 @@ def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
     edits = {edit for edit, _ in equation_edits(text, LEDGER.written, LEDGER.dimensions)}
     assert len(edits) >= 11
     printed = state(LEDGER, name)
-    unseen = {e for e in edits if state(LEDGER.misprint(name, e), name) == printed}
+    unseen = set()
+    for edit in edits:
+        changed = LEDGER.misprint(name, edit)
+        edited = state(changed, name)
+        # What remainders refuse quickly, polynomials refuse, and the other way round.
+        assert follows(changed, name) == (not edited[0].is_failure)
+        if edited == printed:
+            unseen.add(edit)
     assert unseen == set(UNSEEN.get(name, []))
 
 
@@ -62,13 +68,7 @@ def test_equation_16_would_follow_for_a_depth_in_diameters_or_without_the_2() ->
         r"X/R = ((L/D \rho_p/\rho_t + k_1)/kt)\ln(1+k_t\rho_t V^2/R_t)",
         r"X/R = ((2L/D \rho_p/\rho_t + 2k_1)/2kt)\ln((R_t + k_t\rho_t V^2)/R_t)",
     ):
-        changed = LEDGER.misprint("eq16", text)
-        assert all(
-            check.holds
-            for check in derive(
-                LEDGER.equations["eq16"], changed.sides, LEDGER.written, LEDGER.symbols
-            )
-        ), text
+        assert follows(LEDGER.misprint("eq16", text), "eq16"), text
 
 
 def test_a_premise_that_is_misprinted_is_missed_by_what_follows_from_it() -> None:
@@ -76,13 +76,6 @@ def test_a_premise_that_is_misprinted_is_missed_by_what_follows_from_it() -> Non
     for name in ("eq13-shallow", "eq13-deep", "eqA-1"):
         assert assess_equation(changed, name).verdict.is_failure
     assert not assess_equation(changed, "eq12").verdict.is_failure
-
-
-def test_every_derived_equation_has_a_derivation_and_each_check_speaks() -> None:
-    assert {e.id for e in LEDGER.equations.values() if not e.checks} == {"eq8"}
-    for name in LEDGER.equations.keys() - {"eq8"}:
-        checks = list(derive(LEDGER.equations[name], LEDGER.sides, LEDGER.written, LEDGER.symbols))
-        assert len({check.says for check in checks}) == len(checks) >= 1
 
 
 # Verdicts
@@ -101,6 +94,9 @@ def test_equation(name: str) -> None:
     assert assessed.verdict == EXPECTED.get(name, "reproduced")
     assert assessed.factor == (F(1, 2) if name == "eq16" else None)
     assert set(assessed.constants) == set(LEDGER.constants_of(name))
+    said = [check.says for check in assessed.checks]
+    assert len(set(said)) == len(said)
+    assert said or name == "eq8"
 
 
 def test_two_misprints_in_one_equation_leave_its_constants_undecided() -> None:

@@ -2,13 +2,13 @@
 
 import math
 import random
-from dataclasses import replace
 from fractions import Fraction as F
 from functools import cache
 from itertools import pairwise
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from reference.ledger import Convention, load
 from replication.audit import wording
