@@ -24,7 +24,7 @@ from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
-from spreadsheets.plan import NOT_COMPUTED, Value, WorkbookPlan, place_of
+from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
 from spreadsheets.sheets import (
     AS_PRINTED,
     KINDS,
@@ -90,7 +90,7 @@ def build(
     ('Sheet beta 5', '7.67')
     """
     check_scheme(scheme)
-    ledger = ledger or load()
+    ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
     typed = _typed_inputs(inputs.inputs_of(pages, report=case is None), impacts, ledger)
@@ -99,31 +99,28 @@ def build(
     held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
     sheets = [run(replace(impact, **held), scheme) for impact in impacts.values()]
     count = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
-    runs = [
-        (replace(page, steps=sheet.steps, rows=count), sheet)
-        for page, sheet in zip(pages, sheets, strict=True)
-    ]
-    coarse = []
-    if case is None:
-        for page, sheet in runs:
-            run_of = run(replace(sheet.impact, step=si[inputs.COARSE]), scheme)
-            name = f"{page.name} coarse"
-            coarse.append((replace(page, name=name, coarse=True, steps=run_of.steps), run_of))
-    findings = None
     if case is None:
         from replication.audit.audit import audit
 
         findings = findings_of(record or audit(), scheme, ledger)
-    pages, coarse_pages = ([page for page, _ in each] for each in (runs, coarse))
-    plan = workbook_plan(ledger, pages, coarse_pages, findings)
-    values = dict(_keyed(_values(ledger, runs, coarse, typed, si)))
+        pages += [replace(page, name=f"{page.name} coarse", coarse=True) for page in pages]
+        coarse = [replace(sheet.impact, step=si["dt_coarse"]) for sheet in sheets]
+        sheets += [run(impact, scheme) for impact in coarse]
+    runs = [
+        (replace(page, steps=sheet.steps, rows=count), sheet)
+        for page, sheet in zip(pages, sheets, strict=True)
+    ]
+    plan = workbook_plan(ledger, [page for page, _ in runs], findings)
+    values = dict(_keyed(_values(ledger, runs, typed, si)))
     if findings is not None:
         values |= live_verdicts(ledger, plan, values, findings)
     warnings = [
-        f"{page.name}: {doubt}" for page, sheet in runs for doubt in doubts_about(sheet).values()
+        f"{page.name}: {doubt}"
+        for page, sheet in runs
+        if not page.coarse
+        for doubt in doubts_about(sheet).values()
     ]
-    rounding = max(rounding_bound(sheet) for _, sheet in (*runs, *coarse))
-    return Workbook(plan, values, warnings, rounding)
+    return Workbook(plan, values, warnings, max(map(rounding_bound, sheets)))
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -157,13 +154,12 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
     verdicts, explanations = {}, {}
     for claim in record.claims:
-        verdict, explanation = claim.verdict, claim.explanation
+        verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
         for judged in claim.otherwise:
             if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
-                verdict = judged.verdict
+                verdicts[claim.id] = judged.verdict
         if scheme != SCHEMES[0] and ledger.claims[claim.id].by_scheme:
-            explanation = f"With the {SCHEMES[0]} scheme: {explanation}"
-        verdicts[claim.id], explanations[claim.id] = str(verdict), explanation
+            explanations[claim.id] = f"With the {SCHEMES[0]} scheme: {claim.explanation}"
     counts = Counter(verdicts.values())
     return Findings(
         headline=record.headline,
@@ -228,7 +224,7 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     )
 
 
-# The values, sheet by sheet, as trees: a branch is a part of a key, a list a number in brackets
+# The values, sheet by sheet, as trees: a branch is a part of a key, a list a column, None no cell
 
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
@@ -236,19 +232,21 @@ Runs = Sequence[tuple[CaseSheet, Sheet]]
 
 
 def _values(
-    ledger: Ledger, runs: Runs, coarse: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
+    ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
     """Every value but the live verdicts; `si`: the inputs by name, in SI."""
     changed = {entry.name for entry, n in typed.items() if n != entry.of_report(ledger)}
-    first, last = runs[0][1].impact, runs[-1][1].impact
-    pages = {page.part: _sheet(page, sheet, si) for page, sheet in (*runs, *coarse)}
-    for page, _ in coarse:
+    pages = {page.part: _sheet(page, sheet, si) for page, sheet in runs}
+    for page in (page for page, _ in runs if page.coarse):
         values, fine = pages[page.part], pages[page.slug]["depth_um"]
         over = values["depth_um"] / fine if fine else NOT_COMPUTED
         values |= {"fine_depth_um": fine, "over_fine": over}
+    runs = [(page, sheet) for page, sheet in runs if not page.coarse]
+    first, (last_page, last) = runs[0][1].impact, runs[-1]
     results = ("depth_um", "normalized_depth", "message")
-    table, columns = pages[runs[-1][0].part], (*Row._fields, "velocity_middle")
-    rows = [{k: row[k] for k in columns if k in row} for row in table["row"][: steps.TABLE_ROWS]]
+    table = pages[last_page.part]
+    columns = [name for name in table["row"] if name not in ("index", "depth_um")]
+    rows = {name: table["row"][name][: steps.TABLE_ROWS] for name in columns}
     return {
         "inputs": _inputs(runs, typed, si, changed),
         "overview": {
@@ -256,19 +254,15 @@ def _values(
             "inputs_unusable": 0,
             **{page.part: {x: pages[page.part][x] for x in results} for page, _ in runs},
         },
-        "table": {name: table[name] for name in _ABOVE_TABLE} | {"row": rows},
+        "table": {name: table[name] for name in steps.ABOVE_TABLE} | {"row": rows},
         "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
-        "figure_5": _figure_5(last, si),
+        "figure_5": _figure_5(last.impact, si),
         "convergence": _convergence(runs, si),
-        "frank_zook": _frank_zook(last, si),
+        "frank_zook": _frank_zook(last.impact, si),
         "crater": _crater(first, si, float(ledger.value("observed-third"))),
         "resistance": _resistance(runs, si),
         **pages,
     }
-
-
-_ABOVE_TABLE = ("radius", "particle_density", "mass", "diameter", "velocity", "resistance")
-"""What Table A-1 prints above its rows."""
 
 
 def _inputs(
@@ -279,7 +273,7 @@ def _inputs(
         "from": "yours",
         "unusable": 0,
         "changed": len(changed),
-        "message": inputs.MESSAGES["changed" if changed else "same"],
+        "message": MESSAGES["changed" if changed else "unchanged"],
         "D_p": first.diameter,
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
@@ -293,7 +287,7 @@ def _inputs(
         check = "yours" if name in changed else own
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
     for page, sheet in runs:
-        values[page.named("R_t")] = sheet.impact.target_resistance
+        values[f"R_t{page.of}"] = sheet.impact.target_resistance
     return values
 
 
@@ -307,7 +301,7 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         **_of(impact, "mass", "diameter", "step", "stop_velocity"),
         **_of(sheet, "steps", "final_depth", "normalized_depth"),
         **label,
-        "row": _rows(sheet, page.rows),
+        "row": _columns(sheet, page.rows),
         "message": message,
         "trust": trust,
         "stopped": 1,
@@ -337,16 +331,16 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
     velocities = [low + (high - low) * point / last for point in range(figures.POINTS)]
     points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {what: [point[what] for point in points] for what in points[0]}
-    return {"message": figures.COMPLETE, "velocity": velocities, **columns}
+    return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
 
 
 def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
     """The ladder of the cases as written, with inputs that are as yet those in use."""
     of_runs = {name: si[name] for name in figures.RUN_INPUTS}
-    of_runs |= {page.named("R_t"): sheet.impact.target_resistance for page, sheet in runs}
+    of_runs |= {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
     time_steps = ladder(si["dt_s"], figures.LEVELS)
     return {
-        "message": figures.CURRENT,
+        "message": MESSAGES["current"],
         "step": time_steps,
         "step_ns": [step * 1e9 for step in time_steps],
         **{page.slug: _levels(sheet, time_steps) for page, sheet in runs},
@@ -373,11 +367,11 @@ def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
-    volume = _cubed(crater.volume(impact.radius))
+    volume = crater.volume(impact.radius)
     contact = crater.contact_diameter(third, impact.diameter)
     values: Tree = {
-        **volume,
-        "on_line": si["CV_PV_line"] * volume["volume_um3"],
+        **_volume("particle_volume", volume),
+        "on_line": si["CV_PV_line"] * (volume * 1e6 * 1e6 * 1e6),
         "third": third,
         "contact_diameter": contact,
         "contact_diameter_um": contact * 1e6,
@@ -390,7 +384,7 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
             "over_diameter": y / 2,
             "depth": x,
             "depth_um": x * 1e6,
-            **_cubed(crater.cap_volume(x, impact.radius)),
+            **_volume("volume", crater.cap_volume(x, impact.radius)),
             "ratio": crater.volume_ratio(y),
         }
     sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
@@ -441,8 +435,9 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
         for name, branch in tree.items():
             yield from _keyed(branch, f"{key}.{name}" if key else name)
     elif isinstance(tree, list):
-        for k, branch in enumerate(tree):
-            yield from _keyed(branch, f"{key}[{k}]")
+        for number, value in enumerate(tree):
+            if value is not None:
+                yield f"{key}[{number}]", value if isinstance(value, str) else float(value)
     else:
         yield key, tree if isinstance(tree, str) else float(tree)
 
@@ -455,9 +450,8 @@ def live_verdicts(
     Whether a live verdict is the proven one, a test asks.
     """
     live: dict[str, Value] = {}
-    keys = {place: cell.key for place, cell in plan.cells()}
     for claim in computed_claims(ledger):
-        value = values[keys[place_of(str(claim.workbook))]]
+        value = values[plan.cell(place_of(str(claim.workbook))).key]
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
@@ -468,7 +462,7 @@ def live_verdicts(
             live[f"overview.{name}"] = live[f"audit.{name}.computed"]
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
-            value = values[keys["Table A-1", claim.place.cell]]
+            value = values[plan.cell(("Table A-1", claim.place.cell)).key]
             live |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
     return live
 
@@ -493,29 +487,27 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
     kinds = doubts_about(sheet)
     trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
-    message = (steps.DOUBTFUL, steps.REVERSED, steps.COMPLETE)[trust]
-    return trust, message if sheet.steps else steps.NO_STEPS
+    message = ("doubtful", "reversed", "complete")[trust]
+    return trust, MESSAGES[message if sheet.steps else "no_steps"]
 
 
-def _cubed(volume: float) -> dict[str, float]:
-    return {"volume": volume, "volume_um3": volume * 1e6 * 1e6 * 1e6}
+def _volume(name: str, volume: float) -> dict[str, float]:
+    return {name: volume, f"{name}_um3": volume * 1e6 * 1e6 * 1e6}
 
 
-def _rows(sheet: Sheet, count: int) -> list[dict[str, Any]]:
-    """The cells of rows 0 to `count`; blank ("") below the stop."""
-    impact, centered = sheet.impact, sheet.scheme == "centered"
-    materials = impact.radius, impact.mass, impact.target_density, impact.target_resistance
-    rows: list[dict[str, Any]] = []
-    for k, row in enumerate(sheet.rows):
-        values = {"index": k, **row._asdict(), "depth_um": row.depth * 1e6}
-        if centered:
-            a = deceleration(row.depth, row.velocity_initial, *materials)
-            values["velocity_middle"] = row.velocity_initial - a * (impact.step / 2)
-        rows.append(values)
-    blank = dict.fromkeys(("index", *Row._fields, "depth_um", *["velocity_middle"] * centered), "")
-    for name in ("velocity_final", "velocity_middle"):
-        rows[0].pop(name, None)
-    return rows + [blank] * (count - sheet.steps)
+def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
+    """The cells of rows 0 to `count` by column; blank ("") below the stop."""
+    impact = sheet.impact
+    columns: dict[str, Any] = dict(zip(Row._fields, zip(*sheet.rows, strict=True), strict=True))
+    columns["index"] = range(len(sheet.rows))
+    columns["depth_um"] = (x * 1e6 for x in columns["depth"])
+    if sheet.scheme == "centered":
+        materials = impact.radius, impact.mass, impact.target_density, impact.target_resistance
+        begins = zip(columns["depth"][1:], columns["velocity_initial"][1:], strict=True)
+        middle = (v - deceleration(x, v, *materials) * (impact.step / 2) for x, v in begins)
+        columns["velocity_middle"] = (None, *middle)
+    blank = [""] * (count - sheet.steps)
+    return {name: [*column, *blank] for name, column in columns.items()}
 
 
 def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
@@ -525,17 +517,14 @@ def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
     sheets = [run(replace(impact, step=step), written.scheme) for step in time_steps]
     depths = [sheet.final_depth * 1e6 for sheet in sheets]
     errors = [reached - rest for reached in depths]
-    orders = {
-        f"order[{k}]": figures.NO_ORDER if order is None else order
-        for k, order in enumerate(starmap(error_order, pairwise(errors)), 1)
-    }
+    orders = starmap(error_order, pairwise(errors))
     return {
         "rest_um": rest,
         "steps": [sheet.steps for sheet in sheets],
         "depth_um": depths,
         "error": errors,
         "size": list(map(abs, errors)),
-        **orders,
+        "order": [None, *(figures.NO_ORDER if order is None else order for order in orders)],
     }
 
 
@@ -550,7 +539,8 @@ def _verdict(value: Value, interval: Interval) -> str:
     else:
         ends = interval.lower, interval.upper
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
-        inside = replace(interval, lower=low, upper=high).contains(Fraction(value))
+        around = Interval(low, high, interval.lower_closed, interval.upper_closed)
+        inside = around.contains(Fraction(value))
     return AS_PRINTED if inside else OTHERWISE
 
 

@@ -7,10 +7,12 @@ carries the SHA-256 of its parts, so that one that somebody changed is never tak
 import math
 import re
 import zipfile
+from collections import namedtuple
 from collections.abc import Mapping
 from errno import EEXIST
 from functools import cache
 from hashlib import sha256
+from html import escape
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -35,14 +37,17 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     ):
         if keys:
             raise ValueError(f"{len(keys)} {what} value(s), the first is {min(keys)!r}")
-    shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
-    for (sheet, address), cell in plan.cells():
-        value = values[cell.key] if cell.key else cell.text if cell.number is None else cell.number
-        if isinstance(value, float) and not math.isfinite(value):
-            where = f"{cell.key} ({sheet}!{address})"
-            raise ValueError(f"{where} is {value}: not a number a cell can hold")
-        if cell.key or value != "":
-            shown[sheet][address] = value
+    shown: dict[str, dict[str, Value]] = {}
+    for sheet in plan.sheets:
+        own = shown[sheet.name] = {}
+        for address, cell in sheet.cells.items():
+            number = cell.text if cell.number is None else cell.number
+            value = values[cell.key] if cell.key else number
+            if isinstance(value, float) and not math.isfinite(value):
+                where = f"{cell.key} ({sheet.name}!{address})"
+                raise ValueError(f"{where} is {value}: not a number a cell can hold")
+            if cell.key or value != "":
+                own[address] = value
     return shown
 
 
@@ -79,14 +84,11 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        return _sealed(_unpacked(content)) == content
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            parts = {name: archive.read(name) for name in archive.namelist()}
+        return _sealed(parts) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
-
-
-def _unpacked(content: bytes) -> dict[str, bytes]:
-    with zipfile.ZipFile(BytesIO(content)) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
 
 
 def _sealed(parts: dict[str, bytes]) -> bytes:
@@ -108,40 +110,45 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     import xlsxwriter
 
     shown = cell_values(plan, values)
-    buffer = BytesIO()
     # The font of all cells, since column widths are counted in digits of the default one; a copy,
     # since XlsxWriter writes into it.
     options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
-    book = xlsxwriter.Workbook(buffer, options)
+    book = xlsxwriter.Workbook(BytesIO(), options)
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
+        name, sample, _ = name.partition(" sample")
         look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
+        look |= {"align": "center"} if sample else {}
         return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
-    worksheet = _worksheet()
+    page_class, packager = _classes()
     for sheet in plan.sheets:
-        page = book.add_worksheet(sheet.name, worksheet)
+        page = book.add_worksheet(sheet.name, page_class)
         _set_up(page, sheet)
+        own = shown[sheet.name]
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.number_format, cell.wrap)
-            _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
+            if cell.formula:
+                page.put_formula(address, cell.formula, look, own[address])
+            else:
+                _write_cell(page, address, cell, own.get(address, ""), look)
+            if cell.name:
+                named = f"={_absolute(sheet.name, address)}"
+                if book.define_name(cell.name, named) == -1:
+                    raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         for rule in sheet.rules:
             # A format for a rule has the properties that it changes, and no font or number format.
             look = book.add_format(tables()["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
-        for address, cell in sheet.cells.items():
-            if not cell.name:
-                continue
-            if book.define_name(cell.name, f"={_absolute(sheet.name, address)}") == -1:
-                raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         if sheet.chart:
             _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
+    book._get_packager = lambda: packager
     book.close()
-    parts = _unpacked(buffer.getvalue())
+    parts = packager.parts
     for start, pattern, words in _CORRECTIONS:
         parts |= {n: re.sub(pattern, words, parts[n]) for n in parts if n.startswith(start)}
     return _sealed(parts)
@@ -175,15 +182,17 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.ignore_errors(dict.fromkeys(kinds, everywhere))
 
 
-def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
-    from xlsxwriter.utility import xl_cell_to_rowcol
+def _place(address: str) -> tuple[int, int]:
+    """Row and column of a cell, counted from 0."""
+    return int(address[1:]) - 1, ord(address[0]) - ord("A")
 
-    place = xl_cell_to_rowcol(address)
+
+def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
+    """A text, a number, or an input, with what may be typed into it."""
+    place = _place(address)
     if cell.link:
         sheet, target = cell.link
         page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)
-    elif cell.formula:
-        page.write_formula(*place, cell.formula, style, value)
     elif isinstance(value, str):
         write = page.write_string if value else page.write_blank
         write(*place, value, style)
@@ -191,13 +200,13 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         page.write_number(*place, _Exact(value), style)
     # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
-        page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
+        page.data_validation(*place, *place, {"validate": "list", "source": list(cell.choices)})
     elif cell.limits:
         least, most = cell.limits
         words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
         asked = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
         said = {"input_message": words, "error_title": "Out of range", "error_message": words}
-        page.data_validation(address, asked | said)
+        page.data_validation(*place, *place, asked | said)
 
 
 def _absolute(sheet: str, cells: str) -> str:
@@ -216,30 +225,45 @@ class _Exact(float):
         return float.__repr__(self)
 
 
-def _worksheet() -> type[Any]:
-    """A worksheet that stores a formula's value "" as the text that it is, not as a blank number.
+def _classes() -> tuple[type[Any], Any]:
+    """A class of worksheets that write formulas fast, and something that keeps a book's parts.
 
-    Formulas go the short way: to look in each for functions newer than Excel 2010, which ours do
-    not have, and for marks in its cell's address takes half of the time.
+    XlsxWriter looks in each formula for functions newer than Excel 2010, which ours do not have,
+    and stores the value "" without the type of a text. It would pack the parts, only for us to
+    unpack, correct and seal them.
     """
-    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet
+    from xlsxwriter.packager import Packager
+    from xlsxwriter.worksheet import Worksheet
+
+    # By this name XlsxWriter knows a cell whose value it stores with a chart.
+    Formula = namedtuple("Formula", "address formula format value")
 
     class Page(Worksheet):  # type: ignore[misc]
-        def _write_formula(
-            self, row: int, column: int, formula: str, style: Any, value: Any
-        ) -> int:
+        def put_formula(self, address: str, formula: str, style: Any, value: Any) -> None:
+            row, column = _place(address)
             self._check_dimensions(row, column)
-            self.table[row][column] = CellFormulaTuple(formula.removeprefix("="), style, value)
-            return 0
+            expression = escape(formula[1:], quote=False)
+            self.table[row][column] = Formula(address, expression, style, value)
 
-        def _xml_formula_element(self, formula: str, result: Any, attributes: Any = ()) -> None:
-            places = "".join(f' {key}="{value}"' for key, value in attributes)
-            if isinstance(result, str):
-                places += "" if result else ' t="str"'
-                result = self._escape_data(result)
-            self.fh.write(f"<c{places}><f>{self._escape_data(formula)}</f><v>{result}</v></c>")
+        def _write_cell(self, row: int, column: int, cell: Any) -> None:
+            if type(cell) is not Formula:
+                super()._write_cell(row, column, cell)
+                return
+            value, kind = cell.value, ""
+            if isinstance(value, bool):
+                value, kind = int(value), ' t="b"'
+            elif isinstance(value, str):
+                value, kind = escape(value, quote=False), ' t="str"'
+            place = f'r="{cell.address}" s="{cell.format._get_xf_index()}"{kind}'
+            self.fh.write(f"<c {place}><f>{cell.formula}</f><v>{value}</v></c>")
 
-    return Page
+    class Parts(Packager):  # type: ignore[misc]
+        def _create_package(self) -> list[Any]:
+            files = super()._create_package()
+            self.parts = {name: file.getvalue().encode() for file, name, _ in files}
+            return []
+
+    return Page, Parts()
 
 
 # Charts; XlsxWriter stores the charted values with them.

@@ -26,7 +26,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any
 
 from spreadsheets.plan import Place, Value, WorkbookPlan
 
@@ -72,8 +72,12 @@ class Engine(ABC):
         """The version of the program that would be used; not asked for when it is missing."""
 
     @abstractmethod
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        """Recalculate a workbook and yield its cells, blank ones included or not."""
+
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        """Recalculate workbooks and yield the cells of each, blank ones included or not."""
+        """The same for several files."""
+        return map(self._cells, paths)
 
     def recalculate(self, path: Path) -> Recalculated:
         """Compute every formula of an .xlsx file again; the file itself stays as it is."""
@@ -91,6 +95,18 @@ class Engine(ABC):
                 if value is not None and value != "":
                     recalculated[-1].setdefault(sheet, {})[place] = value
         return recalculated
+
+    def _run(self, command: list[str], workbooks: int = 1) -> str:
+        """The output of a program that recalculates so many workbooks."""
+        limit = TIME_LIMIT_S * workbooks
+        try:
+            status, output, complaint = run_program(command, limit)
+        except subprocess.TimeoutExpired as error:
+            raise EngineError(self.name, f"no answer within {limit} s") from error
+        if status != 0:
+            # The last line says why; those before it are the program's own chatter.
+            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
+        return output
 
 
 def address(row: int, column: int) -> str:
@@ -115,9 +131,6 @@ class IronCalc(Engine):
 
     def version(self) -> str:
         return version(self.name)
-
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        return map(self._cells, paths)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         model = self._load(path)
@@ -190,39 +203,7 @@ def run_program(
     return process.returncode, output, complaint
 
 
-class SystemEngine(Engine):
-    """An engine that is a program of its own. `_telling`: how its --version tells the version."""
-
-    _telling: str
-
-    @abstractmethod
-    def _program(self) -> str:
-        """The program's path. Raises LookupError with a sentence on what to install."""
-
-    def missing(self) -> str | None:
-        try:
-            self._program()
-        except LookupError as reason:
-            return str(reason)
-        return None
-
-    def version(self) -> str:
-        match = re.search(self._telling, self._run([self._program(), "--version"]))
-        return "of no known version" if match is None else match[1]
-
-    def _run(self, command: list[str], workbooks: int = 1) -> str:
-        limit = TIME_LIMIT_S * workbooks
-        try:
-            status, output, complaint = run_program(command, limit)
-        except subprocess.TimeoutExpired as error:
-            raise EngineError(self.name, f"no answer within {limit} s") from error
-        if status != 0:
-            # The last line says why; those before it are the program's own chatter.
-            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
-        return output
-
-
-class LibreOffice(SystemEngine):
+class LibreOffice(Engine):
     """LibreOffice through UNO, its programming interface: the only way to its exact doubles.
 
     What LibreOffice saves is rounded to 15 digits, so nothing is read from a saved file. The UNO
@@ -232,26 +213,31 @@ class LibreOffice(SystemEngine):
     """
 
     name = "libreoffice"
-    _telling = r"LibreOffice\S* (\S+)"
 
-    def _program(self) -> str:
-        soffice = shutil.which("soffice") or shutil.which("libreoffice")
-        if soffice is None:
-            raise LookupError(
-                "LibreOffice is not installed: install the system package libreoffice-calc."
-            )
-        _uno_python(soffice)
-        return soffice
+    def missing(self) -> str | None:
+        if (soffice := _soffice()) is None:
+            return "LibreOffice is not installed: install the system package libreoffice-calc."
+        if _uno_python(soffice) is None:
+            return "No Python here can import uno: install the system package python3-uno."
+        return None
+
+    def version(self) -> str:
+        told = self._run([str(_soffice()), "--version"])
+        return _first(r"LibreOffice\S* (\S+)", told)
+
+    def _cells(self, path: Path) -> Iterator[Cell]:
+        (cells,) = self._cells_of_each([path])
+        return cells
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        soffice, script = self._program(), str(Path(__file__).with_name("uno_script.py"))
+        soffice, script = str(_soffice()), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
             # Copies, since LibreOffice puts a lock file beside what it opens.
             copies = [
                 str(shutil.copyfile(path, Path(folder, f"workbook{number}.xlsx")))
                 for number, path in enumerate(paths)
             ]
-            command = [_uno_python(soffice), script, soffice, f"{folder}/profile", *copies]
+            command = [str(_uno_python(soffice)), script, soffice, f"{folder}/profile", *copies]
             return map(self._read, self._run(command, len(paths)).splitlines())
 
     @staticmethod
@@ -262,19 +248,27 @@ class LibreOffice(SystemEngine):
                     yield sheet, address(row, column), value
 
 
+def _soffice() -> str | None:
+    return shutil.which("soffice") or shutil.which("libreoffice")
+
+
 @cache
-def _uno_python(soffice: str) -> str:
+def _uno_python(soffice: str) -> str | None:
     bundled = str(Path(soffice).resolve().with_name("python"))
     for python in (sys.executable, shutil.which("python3"), "/usr/bin/python3", bundled):
-        if python is None or not Path(python).is_file():
-            continue
-        probe = [python, "-c", "import uno; uno.getComponentContext"]
-        if subprocess.run(probe, capture_output=True, check=False).returncode == 0:
-            return python
-    raise LookupError("No Python here can import uno: install the system package python3-uno.")
+        if python is not None and Path(python).is_file():
+            probe = [python, "-c", "import uno; uno.getComponentContext"]
+            if subprocess.run(probe, capture_output=True, check=False).returncode == 0:
+                return python
+    return None
 
 
-class Gnumeric(SystemEngine):
+def _first(pattern: str, told: str) -> str:
+    match = re.search(pattern, told)
+    return "of no known version" if match is None else match[1]
+
+
+class Gnumeric(Engine):
     """Gnumeric through its converter `ssconvert`.
 
     Its own file format keeps no values, and CSV cannot tell a number from text, so the recalculated
@@ -284,17 +278,14 @@ class Gnumeric(SystemEngine):
 
     name = "gnumeric"
     long_doubles = True
-    _telling = r"version '(.+)'"
 
-    def _program(self) -> str:
-        if (program := shutil.which("ssconvert")) is None:
-            raise LookupError(
-                "The command ssconvert is not installed: install the system package gnumeric."
-            )
-        return program
+    def missing(self) -> str | None:
+        if shutil.which("ssconvert") is not None:
+            return None
+        return "The command ssconvert is not installed: install the system package gnumeric."
 
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        return map(self._cells, paths)
+    def version(self) -> str:
+        return _first(r"version '(.+)'", self._run(["ssconvert", "--version"]))
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -306,7 +297,7 @@ class Gnumeric(SystemEngine):
             # take any text file for a table.
             formats = (f"--{way}port-type=Gnumeric_Excel:xlsx" for way in ("im", "ex"))
             files = str(path.resolve()), str(converted)
-            self._run([self._program(), "--recalc", *formats, *files])
+            self._run(["ssconvert", "--recalc", *formats, *files])
             with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
                 book = load_workbook(converted, data_only=True)
         for sheet in book.worksheets:
@@ -351,7 +342,8 @@ operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twel
 condition numbers of at most 2, so less than 32 ulp."""
 
 
-class Difference(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Difference:
     """One cell that differs. None stands for a blank."""
 
     sheet: str

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
 from openpyxl.formula.translate import Translator, TranslatorError
-from openpyxl.utils.cell import column_index_from_string, get_column_letter, range_boundaries
+from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
 from spreadsheets.engines import run_program
 
@@ -202,6 +202,25 @@ def _limited() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
+class _Table(NamedTuple):
+    """A table of a sheet: its name in small letters, and its columns by their heads."""
+
+    name: str
+    columns: dict[str, int]
+
+
+_THIS_ROW = re.compile(
+    r"(?P<table>[^\W\d][\w.]*)?\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)+)\]"
+    r"|@\[?(?P<short>(?:[^\[\]']|'.)+)\]?)\]"
+)
+
+
+_NOTES = {
+    "vbaProject.bin": "it holds macros: they are not run",
+    "/externalLinks/": "it has links to other files: they are not followed",
+}
+
+
 class _Reader:
     """Reads the parts of one file, within one budget of bytes, cells and formulas."""
 
@@ -222,37 +241,30 @@ class _Reader:
         if strings in self.parts:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
-        tables: dict[str, _Table] = {}
         names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
         for sheet in tree.iterfind("{*}sheets/{*}sheet"):
             identity = next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
             kind, part = related[identity]
             if kind == "worksheet":
-                name = sheet.attrib["name"]
-                cells = _Sheet(self, texts)
+                cells = _Sheet(self, texts, self.tables(part))
                 self.tree(part, _Tree(row=cells.take))
-                sheets[name] = cells.filled()
-                tables |= self.tables(part, name)
+                sheets[sheet.attrib["name"]] = cells.filled()
         if not sheets:
             raise WorkbookError("has no worksheet")
-        if tables:
-            sheets = {s: _without_tables(s, cells, tables) for s, cells in sheets.items()}
-        return Book(self.path, sheets, _names(tree, names), tuple(self.notes()))
+        notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
+        return Book(self.path, sheets, _names(tree, names), tuple(notes))
 
-    def notes(self) -> Iterator[str]:
-        if any(part.endswith("vbaProject.bin") for part in self.parts):
-            yield "it holds macros: they are not run"
-        if any("/externalLinks/" in part for part in self.parts):
-            yield "it has links to other files: they are not followed"
-
-    def tables(self, sheet_part: str, sheet: str) -> dict[str, "_Table"]:
-        tables = {}
-        for kind, part in self.relations(sheet_part).values():
-            if kind == "table" and part in self.parts:
-                tree = self.tree(part)
-                heads = [c.attrib["name"] for c in tree.iterfind("{*}tableColumns/{*}tableColumn")]
-                column = range_boundaries(tree.attrib["ref"])[0] or 1
-                tables[tree.attrib["displayName"].lower()] = _Table(sheet, column, heads)
+    def tables(self, sheet_part: str) -> list[_Table]:
+        related = self.relations(sheet_part).values()
+        trees = [
+            self.tree(part) for kind, part in related if kind == "table" and part in self.parts
+        ]
+        tables = []
+        for tree in trees:
+            first = range_boundaries(tree.attrib["ref"])[0] or 1
+            heads = tree.iterfind("{*}tableColumns/{*}tableColumn")
+            columns = {head.attrib["name"]: column for column, head in enumerate(heads, first)}
+            tables.append(_Table(tree.attrib["displayName"].lower(), columns))
         return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
@@ -324,8 +336,8 @@ def _text(string: ET.Element) -> str:
 class _Sheet:
     """Collects the cells of a worksheet, row by row."""
 
-    def __init__(self, reader: _Reader, texts: list[str]) -> None:
-        self.reader, self.texts = reader, texts
+    def __init__(self, reader: _Reader, texts: list[str], tables: list[_Table]) -> None:
+        self.reader, self.texts, self.tables = reader, texts, tables
         self.cells: dict[tuple[int, int], Cell] = {}
         self.masters: dict[str, tuple[str, str]] = {}
         self.arrays: list[tuple[str, str]] = []
@@ -335,13 +347,15 @@ class _Sheet:
         self.row, self.column = int(row.get("r", self.row + 1)), 0
         for cell in row:
             self.column += 1
-            if address := cell.get("r"):
-                self.row, self.column = _corner(address)
+            if address := cell.get("r", "")[:20]:
+                self.row, self.column = coordinate_to_tuple(address)
             if not (0 < self.row <= LAST_ROW and 0 < self.column <= LAST_COLUMN):
                 raise WorkbookError(f"is damaged: no cell can be at {address!r}")
             kind, parts = cell.get("t", "n"), {_name(part): part for part in cell}
             own = parts.get("f")
             formula = None if own is None else self.formula(own)
+            if formula and self.tables:
+                formula = _THIS_ROW.sub(self.in_this_row, formula)
             value = self.value(kind, parts)
             if formula is not None or value is not None:
                 self.reader.cells += 1
@@ -368,6 +382,16 @@ class _Sheet:
         if kind == "array" and text:
             self.arrays.append((element.get("ref", here), f"={text}"))
         return f"={text}" if text else None
+
+    def in_this_row(self, match: re.Match[str]) -> str:
+        """The address of "this row" in a table of the sheet, the first one if none is named.
+
+        What names a table of another sheet stays as it is.
+        """
+        name, head = match["table"] or "", re.sub(r"'(.)", r"\1", match["long"] or match["short"])
+        named = (table for table in self.tables if name.lower() in ("", table.name))
+        column = next((table.columns.get(head) for table in named), None)
+        return f"${get_column_letter(column)}{self.row}" if column else match[0]
 
     def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:
         """A cell's value."""
@@ -407,46 +431,3 @@ def _names(tree: ET.Element, sheets: list[str]) -> dict[str, str]:
         local = f"'{sheets[int(scope)]}'!{name}" if scope is not None else name
         names[local] = entry.text[:MAX_FORMULA]
     return names
-
-
-class _Table(NamedTuple):
-    sheet: str
-    column: int
-    heads: list[str]
-
-
-_THIS_ROW = re.compile(
-    r"(?P<table>[^\W\d][\w.]*)?\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)+)\]"
-    r"|@\[?(?P<short>(?:[^\[\]']|'.)+)\]?)\]"
-)
-
-
-def _without_tables(
-    sheet: str, cells: Mapping[tuple[int, int], Cell], tables: Mapping[str, _Table]
-) -> dict[tuple[int, int], Cell]:
-    """The same cells with each "this row" of a table written as the address that it is."""
-
-    def rewritten(place: tuple[int, int], formula: str) -> str:
-        def address(match: re.Match[str]) -> str:
-            table = tables.get((match["table"] or "").lower()) or next(iter(tables.values()))
-            head = re.sub(r"'(.)", r"\1", match["long"] or match["short"])
-            if head not in table.heads or table.sheet != sheet:
-                return match[0]
-            return f"$%s{place[0]}" % get_column_letter(table.column + table.heads.index(head))
-
-        return _THIS_ROW.sub(address, formula)
-
-    return {
-        place: cell._replace(formula=cell.formula and rewritten(place, cell.formula))
-        for place, cell in cells.items()
-    }
-
-
-_ADDRESS = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
-
-
-def _corner(address: str) -> tuple[int, int]:
-    match = _ADDRESS.fullmatch(address)
-    if match is None:
-        raise WorkbookError(f"is damaged: {address[:20]!r} is no cell")
-    return int(match[2]), column_index_from_string(match[1])

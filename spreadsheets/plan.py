@@ -1,17 +1,17 @@
 """What a workbook holds, cell by cell, before any file exists.
 
 A cell holds a text, a number that is known when the workbook is planned, or something whose value
-is supplied later under the cell's *key* (`high.row[17].depth`): an input, or a formula. Whoever
+is supplied later under the cell's *key* (`high.row.depth[17]`): an input, or a formula. Whoever
 supplies the values never sees the formulas, so that the two can be compared.
 """
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from itertools import product
 from pathlib import Path
-from string import Template
 from textwrap import wrap
 from typing import Any, Literal, NamedTuple
 
@@ -28,11 +28,10 @@ Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
 
 Place = tuple[str, str]
-"""Sheet name and address: ("Crater", "C5")."""
+"""Sheet name and address: ("Crater", "C5"). No sheet has more columns than there are letters."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cell:
+class Cell(NamedTuple):
     """One cell.
 
     It holds a `text`, a `number`, an input (a `key` alone), or a `formula` with a key; or nothing
@@ -60,7 +59,7 @@ class Cell:
     column: str = ""
     link: Place | None = None
     limits: tuple[float, float] | None = None
-    choices: tuple[str, ...] = ()
+    choices: Sequence[str] = ()
     wrap: bool = False
 
 
@@ -124,31 +123,7 @@ class Chart:
         return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
-    """One quantity: its key, symbol, meaning, formula, unit, and the equation that it comes from.
-
-    The key is that within its sheet: "rha.derived". The formula calls lines above it in its table
-    by their `id` in braces; `guard`: see `guarded`. claim: where the report prints the value.
-    shown: the number format. Others: as in `Cell`.
-    """
-
-    key: str
-    formula: str
-    symbol: str = ""
-    meaning: str = ""
-    unit: str = "1"
-    source: str = ""
-    claim: str = ""
-    shown: str = "0.0000"
-    name: str = ""
-    column: str = ""
-    guard: bool = True
-
-    @property
-    def id(self) -> str:
-        """What formulas call it: "rha.derived" is {rha_derived}."""
-        return self.key.replace(".", "_")
+# What `sheets.toml` says
 
 
 @cache
@@ -157,38 +132,49 @@ def tables() -> dict[str, Any]:
     return tomllib.loads(Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8"))
 
 
-def lines_of(table: str, *cases: Mapping[str, str]) -> list[Line | str]:
-    """The lines of a table of `sheets.toml`, after the head of each block.
+MESSAGES: Mapping[str, str] = tables()["messages"]
+"""What the workbook says of its inputs and of a run, by short names."""
 
-    cases: what the words that begin with "$" stand for, in each case. A line whose key has none of
-    them stands once.
+
+class Function(str):
+    """A formula in "x"; in a text to be filled in, "{name:B7}" is the formula with B7 for its x.
+
+    >>> "={double:{at}}".format(double=Function("2*x"), at="B7")
+    '=2*B7'
     """
-    lines: list[Line | str] = []
-    for head, block in tables()[table].items():
-        filled: dict[str, Line] = {}
-        for case in cases or ({},):
-            words = {"none": NOT_COMPUTED, **case}
-            for entry in ({"key": key, **fields} for key, fields in block.items()):
-                guard = entry.pop("guard", True)
-                texts = {name: Template(x).substitute(words) for name, x in entry.items()}
-                filled.setdefault(texts["key"], Line(**texts, guard=guard))
-        lines += [head, *filled.values()]
-    return lines
+
+    def __format__(self, argument: str) -> str:
+        return re.sub(r"\bx\b", argument, self)
+
+
+_FUNCTIONS = {name: Function(formula) for name, formula in tables()["functions"].items()}
+
+
+def filled(text: str, words: Mapping[str, object]) -> str:
+    """A text of `sheets.toml` with functions, messages and these words in place of braces."""
+    return text.format_map({**_FUNCTIONS, **MESSAGES, **words})
+
+
+def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
+    """An entry of `sheets.toml` with all its texts filled; what is no text stays as it is."""
+    return {key: filled(x, words) if isinstance(x, str) else x for key, x in entry.items()}
 
 
 @dataclass(slots=True, kw_only=True)
 class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
-    It is filled from the top; `row` is where the next cells go. frozen: the first cell that
-    scrolls. repeated_rows: first and last row that head every printed page. print_area: the cells
-    printed, all by default. page_break: the last row of page 1. filtered: a table with a filter.
+    It is filled from the top; `row` is where the next cells go. entry: what `sheets.toml` says of
+    it. frozen: the first cell that scrolls. repeated_rows: first and last row that head every
+    printed page. print_area: the cells printed, all by default. page_break: the last row of page 1.
+    filtered: a table with a filter.
     """
 
     name: str
     cells: dict[str, Cell] = field(default_factory=dict)
     widths: Mapping[str, float] = field(default_factory=dict)
     row: int = 1
+    entry: Mapping[str, Any] = field(default_factory=dict)
     frozen: str = ""
     repeated_rows: tuple[int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
@@ -197,21 +183,49 @@ class SheetPlan:
     page_break: int | None = None
     filtered: str = ""
 
+    @classmethod
+    def begun(cls, kind: str, name: str = "", **words: object) -> "SheetPlan":
+        """A sheet as `sheets.toml` has it under `pages`, down to its notes, with these words."""
+        entry = tables()["pages"][kind]
+        widths = {c: width for letters, width in entry.get("widths", {}).items() for c in letters}
+        page = cls(
+            name=name or kind, entry=entry, widths=widths,
+            print_area=entry.get("print_area", ""), page_break=entry.get("page_break"),
+        )  # fmt: skip
+        if "title" in entry:
+            page.put(A=text(entry["title"], "title"))
+            page.put(A=text(f"Back to {HOME}", "link", link=(HOME, "A1")))
+        page.row = entry.get("at", page.row)
+        for note in entry.get("notes", ()):
+            page.say(filled(note, words), width=entry.get("width", 165))
+        return page
+
+    def single_cells(self, **words: object) -> None:
+        """The single cells of its entry, with these words."""
+        for address, cell in self.entry["cells"].items():
+            self.cells[address] = Cell(**filled_in(cell, words))
+
     def put(self, **cells: Cell | Literal[""] | None) -> None:
         """One row, by column; where there is no cell, nothing."""
         self.cells |= {f"{at}{self.row}": cell for at, cell in cells.items() if cell}
         self.row += 1
 
-    def say(self, *texts: str, style: str = "note", width: int = 165) -> None:
-        """Running texts, each broken into lines that fit a page."""
-        for words in texts:
-            for line in wrap(words, width, break_on_hyphens=False):
-                self.put(A=text(line, style))
+    def say(self, words: str, style: str = "note", width: int = 165) -> None:
+        """A running text, broken into lines that fit a page."""
+        for line in wrap(words, width, break_on_hyphens=False):
+            self.put(A=text(line, style))
 
-    def title(self, words: str) -> None:
-        """The first two rows: the title, and the way back."""
-        self.put(A=text(words, "title"))
-        self.put(A=text(f"Back to {HOME}", "link", link=(HOME, "A1")))
+    def column(
+        self, top: str, key: str, formulas: Iterable[str], start: int = 0, **more: Any
+    ) -> None:
+        """Formulas below one another from the cell `top` on.
+
+        Their keys are `key` with the number of each, from `start` on: "high.row.depth[1]".
+        """
+        column, first = top[0], int(top[1:]) - start
+        for k, expression in enumerate(formulas, start):
+            cell = Cell(key=f"{key}[{k}]", formula=expression, style="number", **more)
+            self.cells[f"{column}{first + k}"] = cell
 
     def heads(
         self, columns: str, words: Sequence[str], right: str, units: Sequence[str | None] = ()
@@ -224,22 +238,22 @@ class SheetPlan:
             under = (None if unit is None else text(unit, "unit right") for unit in units)
             self.put(**dict(zip(columns, under, strict=True)))
 
-    def table(self, name: str, right: str, frozen: str) -> None:
-        """Heads with their columns' widths: they stay in sight and head every printed page.
+    def table(self, right: str, frozen: str) -> None:
+        """The heads of its entry: they stay in sight and head every printed page.
 
-        name: among the `columns` of `sheets.toml`. frozen: the first column that scrolls.
+        right: the columns of numbers. frozen: the first column that scrolls.
         """
-        columns = tables()["columns"][name]
-        letters = "ABCDEFGHIJKLM"[: len(columns)]
-        self.widths = {letter: width for letter, (_, width) in zip(letters, columns, strict=True)}
+        heads = self.entry["heads"]
+        letters = "ABCDEFGHIJKLM"[: len(heads)]
+        self.widths = {letter: width for letter, (_, width) in zip(letters, heads, strict=True)}
         self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
-        self.heads(letters, [words for words, _ in columns], right)
+        self.heads(letters, [words for words, _ in heads], right)
 
     def draw(self, series: list[tuple[Place, str, str]], written: str) -> None:
-        """The sheet's chart of `sheets.toml`; `written` is the "$written" of its description."""
-        settings = tables()["charts"][self.name]
-        description = Template(settings["description"]).substitute(written=written)
-        self.chart = Chart(**{**settings, "description": description}, series=series)
+        """The chart of its entry; `written` stands in the description."""
+        settings = self.entry["chart"]
+        described = settings["description"].format(written=written)
+        self.chart = Chart(**{**settings, "description": described}, series=series)
 
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""
@@ -248,42 +262,52 @@ class SheetPlan:
             self.rules.append(Rule(cells, f'=${first}="{words}"', style))
 
     def lines(
-        self, ledger: Ledger, part: str, lines: Sequence[Line | str], columns: str = "ABCDEF"
-    ) -> None:
-        """A table of one quantity a line; a plain string heads a block, after a blank row.
+        self, ledger: Ledger, part: str, blocks: Mapping[str, Any],
+        cases: Sequence[Mapping[str, object]], columns: str = "ABCDEF", headed: bool = True,
+    ) -> None:  # fmt: skip
+        """Blocks of `sheets.toml`, one quantity a line; what a line may say stands there.
 
-        part: what its keys begin with. columns: of symbol, meaning, value, unit, printed text,
-        source. A line is transcendental that calls such a function or such a line above it.
+        part: what the keys begin with. cases: the words of each. columns: of symbol, meaning,
+        value, unit, printed text, source. headed: with heads of columns and blocks.
         """
-        heads = [words for words, _ in tables()["columns"]["lines"]]
-        self.heads(columns, heads, columns[2] + columns[4])
+        if headed:
+            self.heads(columns, [words for words, _ in tables()["lines"]], columns[2] + columns[4])
         addresses: dict[str, str] = {}
         transcendental: set[str] = set()
-        for number, line in enumerate(lines):
-            if isinstance(line, str):
+        for number, (head, block) in enumerate(blocks.items()):
+            if headed:
                 self.row += number > 0
-                self.put(**{columns[0]: text(line, "block")})
-                continue
-            called = set(re.findall(r"{(\w+)}", line.formula))
-            if re.search(r"LN\(|SIN\(|\^", line.formula) or called & transcendental:
-                transcendental.add(line.id)
-            expression = line.formula.format_map(addresses)
-            addresses[line.id] = f"{columns[2]}{self.row}"
-            value = formula(
-                f"{part}.{line.key}", guarded(expression) if line.guard else expression,
-                number_format=line.shown, name=line.name, unit=line.unit, column=line.column,
-                transcendental=line.id in transcendental,
-            )  # fmt: skip
-            source = line.source or (str(ledger.claims[line.claim].place) if line.claim else "")
-            cells = (
-                line.symbol and text(line.symbol, "text"),
-                line.meaning and text(line.meaning),
-                value,
-                unit_text(line.unit),
-                line.claim and printed(ledger, line.claim, line.unit),
-                source and text(source, "unit"),
-            )
-            self.put(**dict(zip(columns, cells, strict=True)))
+                self.put(**{columns[0]: text(head, "block")})
+            pairs = product(cases, block.items())
+            lines = {key.format_map(words): (words, line) for words, (key, line) in pairs}
+            for key, (words, line) in lines.items():
+                words = {"none": NOT_COMPUTED, **words, **addresses}
+                own = filled_in(line, words)
+                symbol, meaning, source, claim = (
+                    own.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
+                )
+                place = source or (str(ledger.claims[claim].place) if claim else "")
+                expression, cell = own.pop("formula"), f"{columns[2]}{self.row}"
+                called = {*re.findall(r"\b[A-Z]\d+\b", expression)}
+                if re.search(r"LN\(|SIN\(|\^", expression) or called & transcendental:
+                    transcendental.add(cell)
+                value = formula(
+                    f"{part}.{key}",
+                    guarded(expression) if own.pop("guard", True) else expression,
+                    number_format=own.pop("shown", "0.0000"),
+                    transcendental=cell in transcendental,
+                    **own,
+                )
+                addresses[key.rpartition(".")[2]] = cell
+                cells = (
+                    symbol and text(symbol, "text"),
+                    meaning and text(meaning),
+                    value,
+                    unit_text(value.unit),
+                    claim and printed(ledger, claim, value.unit),
+                    place and text(place, "unit"),
+                )
+                self.put(**dict(zip(columns, cells, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -299,6 +323,11 @@ class WorkbookPlan:
         for sheet in self.sheets:
             for address, cell in sheet.cells.items():
                 yield (sheet.name, address), cell
+
+    def cell(self, place: Place) -> Cell:
+        """The cell in a place, an empty one where nothing is planned."""
+        cells = next((sheet.cells for sheet in self.sheets if sheet.name == place[0]), {})
+        return cells.get(place[1], Cell())
 
     @cached_property
     def where(self) -> Mapping[str, Place]:
@@ -339,12 +368,3 @@ def guarded(expression: str) -> str:
     if not names or expression == f"={names[0]}":
         return expression
     return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'
-
-
-def log1p(x: str) -> str:
-    """The formula of ln(1 + x) for the cell x > 0, to the last digits however small x is.
-
-    Where 1 + x is rounded to u, ln(u) is right for u: times x/(u - 1) it is right for x. Below 1e-8
-    the series is, whose third term is less than the last digit of the first.
-    """
-    return f"IF({x}<0.00000001,{x}-{x}*{x}/2,{x}*LN(1+{x})/((1+{x})-1))"

@@ -372,7 +372,7 @@ _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")
 def _numbers_as_text(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
     """Typed texts that are numbers, and that formulas read: most programs calculate with them."""
     areas = (area for formula in formulas.values() for area in formula.areas if area.cells == 1)
-    read = {area.corner for area in areas if area.sheet in book.sheets} - formulas.keys()
+    read = {area.corner for area in areas} - formulas.keys()
     texts = {place: book[place].value for place in read}
     return {
         place: float(text)

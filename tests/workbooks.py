@@ -3,7 +3,7 @@
 import io
 import os
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -73,9 +73,6 @@ class Fake(Engine):
 
     def version(self) -> str:
         return "1.0"
-
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        return map(self._cells, paths)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         if self.failure and not path.name.startswith("planted"):

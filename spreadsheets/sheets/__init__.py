@@ -15,13 +15,10 @@ from spreadsheets.plan import (
     HOME,
     NOT_COMPUTED,
     Cell,
-    Line,
     Rule,
     SheetPlan,
     WorkbookPlan,
     formula,
-    lines_of,
-    log1p,
     place_of,
     printed,
     recorded,
@@ -57,55 +54,45 @@ class Findings:
 
 
 def workbook_plan(
-    ledger: Ledger,
-    cases: Sequence[CaseSheet],
-    coarse: Sequence[CaseSheet] = (),
-    findings: Findings | None = None,
+    ledger: Ledger, pages: Sequence[CaseSheet], findings: Findings | None = None
 ) -> WorkbookPlan:
     """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
 
-    With `coarse`, the same cases with the coarser step, and `findings`, the result of the audit, it
-    is the report's own workbook, with all that is about the report alone. Raises ValueError where
-    the ledger has a claim computed by a cell that is none.
+    With `findings`, the result of the audit, it is the report's own workbook, with all that is
+    about the report alone; `pages` then has the same cases with the coarser step, too. Raises
+    ValueError where the ledger has a claim computed by a cell that is none.
     """
-    report, last = findings is not None, cases[-1]
-    table = steps.table_a1(ledger, last, report)
+    report, cases = findings is not None, [page for page in pages if not page.coarse]
+    table = steps.table_a1(ledger, cases[-1], report)
     sheets = [inputs.sheet(ledger, cases, report), table]
     sheets += [steps.table_a1_check(ledger, table)] if report else []
-    sheets += [steps.sheet(ledger, case) for case in (*cases, *coarse)]
-    sheets += [
-        figures.figure_3(cases),
-        figures.figure_5(last),
-        figures.convergence(cases),
-        _frank_zook(ledger),
-        _crater(ledger),
-        _resistance(ledger, cases),
-    ]
-    if findings is not None:
-        sheets.append(_audit(ledger, findings))
-        cells = {sheet.name: sheet.cells for sheet in sheets}
-        for claim in computed_claims(ledger):
-            name, address = place_of(str(claim.workbook))
-            cell = cells.get(name, {}).get(address)
-            if cell is None or not cell.formula:
-                raise ValueError(
-                    f"claim {claim.id!r}: the workbook computes nothing in {name}!{address}"
-                )
-    kinds = {case.name: "of a case" for case in cases} | {case.name: "coarse" for case in coarse}
-    said = {sheet.name: tables()["shows"][kinds.get(sheet.name, sheet.name)] for sheet in sheets}
-    first = _overview(ledger, cases, said, findings)
-    return WorkbookPlan(
-        sheets=(first, *sheets),
-        title=f"{ledger.report.title}: the model as a workbook",
+    sheets += [steps.sheet(ledger, page) for page in pages]
+    sheets += [figures.figure_3(cases), figures.figure_5(cases[-1]), figures.convergence(cases)]
+    words = [{**case.words, "third": ledger.value("observed-third")} for case in cases]
+    sheets += [_formulas(ledger, name, words) for name in ("Frank-Zook", "Crater", "Resistance")]
+    sheets += [_audit(ledger, findings)] if findings else []
+    coarse = {page.name for page in pages if page.coarse}
+    kinds = ((s, "shows_coarse" if s.name in coarse else "shows") for s in sheets)
+    shows = {sheet.name: sheet.entry[kind] for sheet, kind in kinds}
+    written = ledger.report
+    plan = WorkbookPlan(
+        sheets=(_overview(ledger, cases, shows, findings), *sheets),
+        title=f"{written.title}: the model as a workbook",
         properties={
             "author": PROGRAM,
-            "subject": f"The model of a report by {ledger.report.author} "
-            f"({ledger.report.year}), as live formulas beside their computed values",
+            "subject": f"The model of a report by {written.author} ({written.year}), as live "
+            "formulas beside their computed values",
             "keywords": "cold spray, penetration, replication, audit",
             "comments": "No macros, no links to other files, no dates: the same inputs give the "
             "same file.",
         },
     )
+    for claim in computed_claims(ledger) if report else ():
+        if not plan.cell(place_of(str(claim.workbook))).formula:
+            raise ValueError(
+                f"claim {claim.id!r}: the workbook computes nothing in {claim.workbook}"
+            )
+    return plan
 
 
 def _block(page: SheetPlan, *words: str, right: str = "") -> None:
@@ -151,24 +138,19 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
         "Depth over radius", "The report prints", "State of the run", right="BCDE",
     )  # fmt: skip
     for case in cases:
-        like = {"unit": "um", "column": f"{case.part}.depth_um"}
-        cells = {"A": text(case.name, "link", link=(case.name, "A1"))}
-        for column, what, style, more in (
-            ("B", "depth_um", "result", like | {"number_format": "0.0000"}),
-            ("D", "normalized_depth", "result", {"number_format": "0.0000"}),
-            ("F", "message", "state", {}),
-        ):
-            shown = f"={case.result(what)}"
-            if column == "F" and not case.resistance_given:
-                # Beside the name of a sheet for another beta: the beta in use.
-                there = f"'{case.name}'!"
-                shown = f'=IF({there}I2="","",{there}I1&": ")&{shown[1:]}'
-            cells[column] = formula(f"overview.{case.slug}.{what}", shown, style, **more)
-        if case.is_reports:
-            cells["C"] = printed(ledger, case.claim("depth"), "um")
-            cells["E"] = printed(ledger, case.claim("ratio"))
+        key, there, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"number_format": "0.0000"}
+        # Beside the name of a sheet for another beta: the beta in use.
+        beta = "" if case.resistance_given else f'IF({there}I2="","",{there}I1&": ")&'
+        end, like = case.suffix, {"unit": "um", "column": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
-        page.put(**cells)
+        page.put(
+            A=text(case.name, "link", link=(case.name, "A1")),
+            B=formula(f"{key}.depth_um", f"=depth_um{end}", "result", **like, **fixed),
+            D=formula(f"{key}.normalized_depth", f"=normalized_depth{end}", "result", **fixed),
+            F=formula(f"{key}.message", f"={beta}message{end}", "state"),
+            C=printed(ledger, case.claim("depth"), "um") if case.is_reports else None,
+            E=printed(ledger, case.claim("ratio")) if case.is_reports else None,
+        )
     for words, name in (
         ("Inputs that are not the report’s", "inputs_changed"),
         ("Inputs that cannot be used", "inputs_unusable"),
@@ -212,49 +194,14 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
     )
 
 
-# The report's closed formulas
-
-
-def _formulas(
-    ledger: Ledger, name: str, heading: str, said: Sequence[str], lines: Sequence[Line | str]
-) -> SheetPlan:
-    """One table under notes; its keys begin with the sheet's name."""
-    columns = zip("ABCDEF", tables()["columns"]["lines"], strict=True)
-    page = SheetPlan(name=name, widths={letter: width for letter, (_, width) in columns})
-    page.title(heading)
-    page.say(*said)
+def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) -> SheetPlan:
+    """A sheet of closed formulas: one table under notes; its keys begin with the sheet's name."""
+    page, part = SheetPlan.begun(name), name.lower().replace("-", "_")
+    page.widths = {c: width for c, (_, width) in zip("ABCDEF", tables()["lines"], strict=True)}
     page.row += 1
     page.repeated_rows, page.frozen = (page.row, page.row), f"A{page.row + 1}"
-    page.lines(ledger, name.lower().replace("-", "_"), lines)
+    page.lines(ledger, part, tables()[part], words)
     return page
-
-
-def _crater(ledger: Ledger) -> SheetPlan:
-    """Section 2's geometry of a sphere pressed into a flat surface, and Eq. 1."""
-    said = (
-        "A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. "
-        "Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3."
-    )
-    lines = lines_of("crater", {"third": str(ledger.value("observed-third"))})
-    return _formulas(ledger, "Crater", "Crater and particle", [said], lines)
-
-
-def _resistance(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
-    """Beta by three routes, grain strengths, centerline stress, strain rate."""
-    words = [{"slug": c.slug, "sheet": c.name, "R_t": c.named("R_t")} for c in cases]
-    return _formulas(ledger, "Resistance", "Target resistance", [], lines_of("resistance", *words))
-
-
-def _frank_zook(ledger: Ledger) -> SheetPlan:
-    """Eq. 16 as it is printed, and as it follows from Eqs. 14 and 15."""
-    said = (
-        "Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the depth in "
-        "diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the derived "
-        "one is twice the printed one."
-    )
-    logarithms = {f"log_{which}": log1p(f"{{{which}_pressure}}") for which in ("rha", "lower")}
-    heading = "Frank-Zook depth of a noneroding penetrator"
-    return _formulas(ledger, "Frank-Zook", heading, [said], lines_of("frank_zook", logarithms))
 
 
 # Audit
@@ -271,14 +218,8 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     """The sheet. Each claim's entry in the ledger names the cell that computes it."""
     last = _HEAD_ROW + len(ledger.claims)
     verdicts = f"F{_HEAD_ROW + 1}:F{last}"
-    page = SheetPlan(name="Audit", print_area=f"A1:I{last}", filtered=f"A{_HEAD_ROW}:L{last}")
-    page.title("Audit: every number that the report prints")
-    page.say(
-        "Live verdict: whether the computed cell, with the inputs in use, prints as the report "
-        "does; From and To are the values that print so. The audit’s verdict is about the report: "
-        "it does not follow the inputs, and its proof is printed by coldspray claims ID.",
-        width=150,
-    )
+    page = SheetPlan.begun("Audit")
+    page.print_area, page.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
     page.row = 6
     page.put(A=text("Live verdicts", "block"))
     for words, what in KINDS:
@@ -286,7 +227,7 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
         counted = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
         page.put(A=text(words, "text"), B=counted)
     page.row = _HEAD_ROW
-    page.table("audit", "CEHI", "B")
+    page.table("CEHI", "B")
     for claim in ledger.claims.values():
         page.put(**_row(ledger, claim, findings, page.row))
     page.color(verdicts, {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"})

@@ -4,6 +4,7 @@ Below the stop follow rows that stay blank until an input needs them. If even th
 the sheet says so instead of giving a depth; if the time step is too long for the motion, too.
 """
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.ledger import Claim, Ledger
@@ -12,12 +13,10 @@ from spreadsheets.plan import (
     HOME,
     NOT_COMPUTED,
     Cell,
-    Line,
     Rule,
     SheetPlan,
+    filled,
     formula,
-    lines_of,
-    log1p,
     printed,
     recorded,
     tables,
@@ -64,39 +63,46 @@ class CaseSheet:
     rows: int = 0
     coarse: bool = False
 
-    def claim(self, what: str) -> str:
-        """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
-        return f"{what}-beta-{self.beta}" if self.is_reports else ""
+    @property
+    def of(self) -> str:
+        """What the defined names of its own inputs end with: "_low" in R_t_low, or nothing."""
+        return "" if self.slug == "case" else f"_{self.slug}"
 
-    def named(self, symbol: str) -> str:
-        """The defined name of this case's `symbol`: R_t_low beside R_t_high, or R_t alone."""
-        return symbol if self.slug == "case" else f"{symbol}_{self.slug}"
+    @property
+    def suffix(self) -> str:
+        """What the defined names of its results end with: "_low", "_low_coarse", or nothing."""
+        return f"{self.of}_coarse" if self.coarse else self.of
 
     @property
     def part(self) -> str:
         """What the keys of its sheet begin with: "low", or "low_coarse"."""
         return f"{self.slug}_coarse" if self.coarse else self.slug
 
-    def result(self, what: str) -> str:
-        """The defined name of a result of its sheet: depth_um_low, or depth_um_low_coarse."""
-        return f"{self.named(what)}_coarse" if self.coarse else self.named(what)
+    def claim(self, what: str) -> str:
+        """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
+        return f"{what}-beta-{self.beta}" if self.is_reports else ""
 
     def rules(self, cells: str) -> list[Rule]:
         """How cells look that say whether the run can be trusted."""
-        return [
-            Rule(cells, f"={self.result('trust')}={state}", style)
-            for state, style in ((0, "warning"), (1, "changed"))
-        ]
+        trust = f"=trust{self.suffix}="
+        return [Rule(cells, f"{trust}0", "warning"), Rule(cells, f"{trust}1", "changed")]
 
     @property
-    def step_name(self) -> str:
-        """The defined name of its time step."""
-        return "dt_coarse" if self.coarse else "dt_s"
-
-    @property
-    def last_row(self) -> int:
-        """The last prepared row of its sheet."""
-        return FIRST_ROW + self.rows
+    def words(self) -> dict[str, str]:
+        """What the words of `sheets.toml` stand for in this case: names, cells and claims."""
+        own = self.is_reports and not self.coarse
+        return {
+            "slug": self.slug, "part": self.part, "of": self.of, "suffix": self.suffix,
+            "sheet": self.name, "label": self.label, "beta": self.beta,
+            "dt": "dt_coarse" if self.coarse else "dt_s",
+            **{column: f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}" for column in "ABDF"},
+            "first": f"A{FIRST_ROW}",
+            "depth_claim": self.claim("depth") if own else "",
+            "ratio_claim": self.claim("ratio") if own else "",
+            "unclaimed": "" if own else "Appendix",
+            "fine_claim": self.claim("depth"),
+            "resistance_claim": "a1-resistance" if self.slug == "high" else "",
+        }  # fmt: skip
 
 
 def prepared_rows(steps: int, wanted: int | None = None) -> int:
@@ -118,23 +124,41 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-_WIDTHS = {"I": 8.0, "J": 33.0, "K": 13.0, "L": 7.0, "M": 24.0, "N": 26.0}
-
-
 def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
-    """The sheet of one case."""
-    columns = "ABCDEFGH" if case.scheme == "centered" else "ABCDEFG"
-    widths = {"A": 5.0, **dict.fromkeys("BCDEF", 11.0), "G": 8.0, **_WIDTHS}
-    page = SheetPlan(name=case.name, widths={**widths, "H": 13.0 if "H" in columns else 3.0})
-    _head(page, case, columns)
-    page.row = FIRST_ROW - 2
-    page.lines(ledger, case.part, _results(case), "IJKLMN")
-    last = max(FIRST_ROW + case.steps, page.row - 1)
-    for step in range(case.rows + 1):
-        page.cells |= _row(step, case)
-    used = f"A{FIRST_ROW}:{columns[-1]}{case.last_row}"
-    page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (FIRST_ROW - 2, FIRST_ROW - 1)
-    page.print_area = f"A1:M{last}"
+    """The sheet of one case: title with the live β, state of the run, notes, rows, results."""
+    centered, top = case.scheme == "centered", FIRST_ROW - 2
+    columns = {c: x for c, x in tables()["rows"].items() if c != "H" or centered}
+    page = SheetPlan.begun(
+        "of a case", case.name,
+        scheme=case.scheme, drag=SCHEMES[case.scheme], rows=case.rows, most=MAX_ROWS,
+    )  # fmt: skip
+    page.widths = {**page.widths, "H": 13.0 if centered else page.widths["H"]}
+    page.single_cells(**case.words)
+    if case.resistance_given:
+        page.cells["I1"] = text(case.label, "title")
+        del page.cells["I2"]
+    page.row = top
+    units = [written(entry["unit"]) or None for entry in columns.values()]
+    page.heads("".join(columns), [x["head"] for x in columns.values()], "".join(columns), units)
+    page.row = top
+    results = tables()["case"] | (tables()["coarse"] if case.coarse else {})
+    page.lines(ledger, case.part, results, [case.words], "IJKLMN")
+    for column, entry in columns.items():
+        words = case.words | {"drag": "H" if centered else "C"}
+        like = {
+            "unit": entry["unit"],
+            "column": f"{case.part}.{entry['like']}" if "like" in entry else "",
+        }
+        key, shown = f"{case.part}.row.{entry['key']}", entry.get("shown", "General")
+        if "start" in entry:
+            start = _where_running(entry["start"], {**words, "row": FIRST_ROW})
+            plain = shown if column == "C" else "General"
+            page.column(f"{column}{FIRST_ROW}", key, [start], number_format=plain, **like)
+        below = step_formulas(entry, words, FIRST_ROW, case.rows)
+        page.column(f"{column}{FIRST_ROW + 1}", key, below, 1, number_format=shown, **like)
+    page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (top, top + 1)
+    page.print_area = f"A1:M{max(FIRST_ROW + case.steps, page.row - 1)}"
+    used = f"A{FIRST_ROW}:{max(columns)}{FIRST_ROW + case.rows}"
     page.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
         Rule("I2", "=ISTEXT($I$2)", "changed"),
@@ -143,151 +167,28 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     return page
 
 
-def _head(page: SheetPlan, case: CaseSheet, columns: str) -> None:
-    """The title with the live β, the state of the run, notes, and the heads of the columns."""
-    page.title("Rigid-body penetration, row by row")
-    state = formula(f"{case.part}.message", _message(case), "message", name=case.result("message"))
-    page.put(A=state)
-    page.say(
-        "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed "
-        f"positive; {SCHEMES[case.scheme]} (scheme: {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
-        "The run stops with the first row below v_stop; printed pages end with the last row as "
-        f"written. {case.rows} rows are prepared; coldspray workbook prepares N, up to {MAX_ROWS}, "
-        "with the same options and --rows N.",
-        width=205,
-    )
-    page.cells["I1"] = text(case.label, "title")
-    if not case.resistance_given:
-        beta = case.named("beta")
-        # Programs join a number to a text with 15 digits or 17; Gnumeric, even a rounded one, with
-        # those of a long double.
-        label = f'="β = "&IF(ISNUMBER({beta}),ROUND({beta},6),{beta})'
-        renamed = f'=IF(ISNUMBER({beta}),IF(I1="{case.label}","","{KEPT_NAME}"),"")'
-        page.cells["I1"] = formula(f"{case.part}.label", label, "title")
-        page.cells["I2"] = formula(f"{case.part}.renamed", renamed, "message")
-    page.row = FIRST_ROW - 2
-    rows = [tables()["rows"][column] for column in columns]
-    units = [written(row["unit"]) or None for row in rows]
-    page.heads(columns, [row["head"] for row in rows], columns, units)
-
-
 def step_formulas(
-    row: int, first: bool, counted: str, resistance: str, step: str, middle: str = ""
-) -> dict[str, str]:
-    """The formulas of one time step, by column (appendix, Eqs. A-1 to A-3, both cases of Eq. 13).
+    entry: Mapping[str, str], words: Mapping[str, str], first: int, count: int
+) -> Iterator[str]:
+    """The formulas of a column of the scheme in rows 1 to `count`, where row 0 is row `first`.
 
-    Columns C to F hold dx/dt initial, x, d²x/dt² and dx/dt final; `first` marks the row after row
-    0, with its half step. counted: what stands in column A until the stop. resistance, step: names
-    of R_t and the time step. middle: the centered scheme's column of the velocity in mid-row. The
-    order of the operations is fixed: it decides the last digit.
+    entry: of the table `rows` in `sheets.toml`. words: those of the case, and "drag".
     """
-    above = row - 1
-    reached = f"C{above}" if first else f"F{above}"
-    v, x, a = f"C{row}", f"D{row}", f"E{row}"
-    area = f"IF({x}<R_p,D_p*{x}-{x}*{x},R_p*R_p)"
-
-    def deceleration(velocity: str) -> str:
-        return f"(0.5*rho_t*{velocity}*{velocity}+{resistance})*pi_*{area}/M_p"
-
-    formulas = {
-        "C": reached,
-        "D": f"{v}*({step}/2)" if first else f"D{above}+{v}*{step}",
-        "E": deceleration(f"{middle}{row}" if middle else v),
-        "F": f"{v}-{a}*{step}",
-    }
-    if middle:
-        formulas[middle] = f"{v}-{deceleration(v)}*({step}/2)"
-    going = f'=IF(ISNUMBER(A{above}),IF({reached}<v_stop,"",{counted}),"")'
-    return {"A": going} | {column: where_running(row, text) for column, text in formulas.items()}
+    words = {**words, "row": "{0}", "above": "{1}"}
+    row_1 = _where_running(entry.get("first", entry["then"]), words | {"reached": "C{1}"})
+    below = _where_running(entry["then"], words | {"reached": "F{1}"})
+    yield row_1.format(first + 1, first)
+    for row in range(first + 2, first + count + 1):
+        yield below.format(row, row - 1)
 
 
-def where_running(row: int, expression: str) -> str:
-    """A formula of a row, blank below the stop.
+def _where_running(expression: str, words: Mapping[str, object]) -> str:
+    """A formula of a row with these words, blank below the stop.
 
     A test for "" instead of a number fails in two spreadsheet programs.
     """
-    return f'=IF(ISNUMBER(A{row}),{expression},"")'
-
-
-def _row(step: int, case: CaseSheet) -> dict[str, Cell]:
-    """One row of the sheet; row 0 is the impact itself, with no final velocity."""
-    row, dt, resistance = FIRST_ROW + step, case.step_name, case.named("R_t")
-    if step:
-        middle = "H" if case.scheme == "centered" else ""
-        formulas = step_formulas(row, step == 1, f"A{row - 1}+1", resistance, dt, middle)
-    else:
-        needed = ("V_impact", "R_p", "rho_p", "rho_t", resistance, dt, "v_stop", "M_p")
-        formulas = {"A": f'=IF(COUNT({",".join(needed)})={len(needed)},0,"")'}
-        starts = {"C": "V_impact", "D": "0", "E": "0"}
-        formulas |= {column: where_running(row, text) for column, text in starts.items()}
-    formulas["B"] = where_running(row, f"A{row}*{dt}" if step else "0")
-    formulas["G"] = where_running(row, f"D{row}*1000000")
-    cells = {}
-    for column, expression in formulas.items():
-        shown = tables()["rows"][column]
-        cells[f"{column}{row}"] = formula(
-            f"{case.part}.row[{step}].{shown['key']}",
-            expression,
-            number_format=shown["shown"] if step or column == "C" else "General",
-            unit=shown["unit"],
-            column=shown["column"] and f"{case.part}.{shown['column']}",
-        )
-    return cells
-
-
-# The block beside the rows
-
-KEPT_NAME = "The sheet keeps the name with which it was written."
-COMPLETE = "Complete: the velocity is below v_stop."
-REVERSED = "Complete, but the last step reverses the velocity."
-DOUBTFUL = "DO NOT TRUST THIS RUN: the time step is too long."
-NO_STEPS = "NO STEPS: the impact velocity is below v_stop."
-OUT_OF_ROWS = "OUT OF ROWS: the rows end before the particle stops."
-INVALID = "NOT COMPUTED: an input cannot be used, see Inputs."
-"""What is said of a run: `Overview` prints at most 60 letters, some of them for β."""
-
-
-def _message(case: CaseSheet) -> str:
-    stopped, steps, trust = (case.result(what) for what in ("stopped", "steps", "trust"))
-    run = f'IF({trust}=2,"{COMPLETE}",IF({trust}=1,"{REVERSED}","{DOUBTFUL}"))'
-    run = f'IF({stopped}=1,IF({steps}=0,"{NO_STEPS}",{run}),"{OUT_OF_ROWS}")'
-    return f'=IF(ISNUMBER({stopped}),{run},"{INVALID}")'
-
-
-_RESULTS = (
-    "stopped", "final_depth", "depth_um", "normalized_depth", "steps", "stop_time",
-    "final_velocity", "exact_depth_um", "trust",
-)  # fmt: skip
-"""The lines with defined names."""
-
-
-def _results(case: CaseSheet) -> list[Line | str]:
-    """The lines of the block, from `sheets.toml`."""
-    own = case.is_reports and not case.coarse
-    work, rest = rest_depth("{pressure}", "{c}")
-    words = {
-        **{name: case.result(name) for name in _RESULTS},
-        **{column: f"{column}{FIRST_ROW}:{column}{case.last_row}" for column in "ABDF"},
-        "part": case.part,
-        "first": f"A{FIRST_ROW}",
-        "R_t": case.named("R_t"),
-        "step": case.step_name,
-        "work": work,
-        "rest": rest,
-        "depth_claim": case.claim("depth") if own else "",
-        "ratio_claim": case.claim("ratio") if own else "",
-        "unclaimed": "" if own else "Appendix",
-        "fine": case.named("depth_um"),
-        "fine_claim": case.claim("depth"),
-    }
-    return lines_of("case", words) + (lines_of("coarse", words) if case.coarse else [])
-
-
-def rest_depth(pressure: str, c: str) -> tuple[str, str]:
-    """The formulas of c from the cell of rho_t V²/2R_t, and of X/R at rest from the cell of c."""
-    angle = f"ASIN(SQRT(3*{c})/2)/3"
-    shallow = f"4*SIN({angle})*SIN({angle}+pi_/3)"
-    return f"=4*rho_p/(3*rho_t)*{log1p(pressure)}", f"=IF({c}<=2/3,{shallow},1/3+{c})"
+    bare = expression if expression[0] == "=" else f'=IF(ISNUMBER(A{{row}}),{expression},"")'
+    return filled(bare, words)
 
 
 # Table A-1: the report has it cell for cell in A1:F12; every number format gives the text that the
@@ -295,6 +196,9 @@ def rest_depth(pressure: str, c: str) -> tuple[str, str]:
 
 TABLE_ROWS = 5
 """Rows of the table, row 0 (the impact itself) included."""
+
+ABOVE_TABLE: Mapping[str, Sequence[str]] = tables()["table_a1"]["above"]
+"""What stands above them, by the ends of the keys: label and input."""
 
 _FIRST = 8
 
@@ -309,11 +213,12 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 
     report: with the printed text beside it, in columns H to M.
     """
-    claims, resistance, centered = _claims(ledger), case.named("R_t"), case.scheme == "centered"
-    columns = "ABCDEFG" if centered else "ABCDEF"
-    widths = dict.fromkeys("ABCDEFGHIJKLM", 13.0) | ({} if centered else {"G": 4.0})
-    page = SheetPlan(name="Table A-1", widths=widths)
-    cells = page.cells
+    claims, centered = _claims(ledger), case.scheme == "centered"
+    page = SheetPlan.begun("Table A-1")
+    page.widths = {**page.widths, "G": 13.0 if centered else page.widths["G"]}
+    entries, heads, cells = tables()["rows"], tables()["table_a1"]["heads"], page.cells
+    if centered:
+        heads = {**heads, "G": entries["H"]["head"]}
 
     def live(address: str, what: str, expression: str) -> None:
         """A cell in the unit of what is printed there, and as it is: "6E-10" or "2.00E-10"."""
@@ -322,34 +227,28 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         unit = "m/s" if claim is None else claim.unit
         cells[address] = formula(f"table.{what}", expression, number_format=shown, unit=unit)
 
-    above, heads = tables()["table_a1"]["above"], tables()["table_a1"]["columns"]
-    for row, (label, (what, symbol)) in enumerate(above.items(), start=1):
+    for row, (what, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
         cells[f"A{row}"] = text(label)
-        live(f"B{row}", what, f"={resistance if symbol == 'R_t' else symbol}")
-    for column in columns:
-        head = heads[column]["head"]
+        live(f"B{row}", what, f"={symbol}".format_map(case.words))
+    for column, head in heads.items():
         cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
-    for step in range(TABLE_ROWS):
-        row = _FIRST + step
-        if step:
-            time = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)*{case.step_name}"
-            middle = "G" if centered else ""
-            formulas = step_formulas(row, step == 1, time, resistance, case.step_name, middle)
-        else:
-            starts = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
-            ready = f"ISNUMBER('{case.name}'!A{FIRST_ROW})"
-            formulas = {column: f'=IF({ready},{text},"")' for column, text in starts.items()}
-        for column, expression in formulas.items():
-            live(f"{column}{row}", f"row[{step}].{heads[column]['key']}", expression)
+    columns = {column: entries["H" if column == "G" else column] for column in heads}
+    columns["A"] = {"key": "time", "start": "0", "then": tables()["table_a1"]["time"]}
+    words = case.words | {"drag": "G" if centered else "C"}
+    for column, entry in columns.items():
+        if column != "B":
+            ready, start = f"ISNUMBER('{case.name}'!A{FIRST_ROW})", entry.get("start")
+            formulas = [f'=IF({ready},{start},"")'] if start else []
+            formulas += step_formulas(entry, words, _FIRST, TABLE_ROWS - 1)
+            for step, expression in enumerate(formulas, start=TABLE_ROWS - len(formulas)):
+                live(f"{column}{_FIRST + step}", f"row.{entry['key']}[{step}]", expression)
     if report:
         cells |= _as_printed(ledger, claims)
     page.row = 14
-    page.say(
-        f"Table A-1, rigid body penetration. Columns A to {columns[-1]} are live, "
-        f"with the inputs of {case.name}."
-        + (" Columns H to M are the report’s text." if report else ""),
-        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.",
-    )
+    live_columns = f"Columns A to {max(heads)} are live, with the inputs of {case.name}."
+    beside = " Columns H to M are the report’s text." if report else ""
+    page.say(f"Table A-1, rigid body penetration. {live_columns}{beside}")
+    page.say("M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.")
     cells["A18"] = text(f"Back to {HOME}", "link", link=(HOME, "A1"))
     return page
 
@@ -357,11 +256,11 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     """The table as the report prints it, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
-    table = tables()["table_a1"]
-    cells = {f"H{row}": text(label, "unit") for row, label in enumerate(table["above"], start=1)}
-    for column, there in shifted.items():
-        if head := table["columns"][column]["head"]:
-            cells[f"{there}{_FIRST - 1}"] = text(head, "unit right")
+    labels = enumerate((label for label, _ in ABOVE_TABLE.values()), start=1)
+    cells = {f"H{row}": text(label, "unit") for row, label in labels}
+    for column, head in tables()["table_a1"]["heads"].items():
+        if head:
+            cells[f"{shifted[column]}{_FIRST - 1}"] = text(head, "unit right")
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
@@ -375,46 +274,41 @@ SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
 
 def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
-    page = SheetPlan(name="Table A-1 check")
-    page.title("Table A-1: printed and computed")
-    page.say(
-        "Computed: the live cell of the sheet Table A-1, with all its digits. Difference: computed "
-        "minus printed, in units of the last printed digit; up to 0.5 it prints the same."
-    )
+    page = SheetPlan.begun("Table A-1 check")
     page.row = 6
-    page.table("table_a1_check", "DEFH", "B")
+    page.table("DEFH", "B")
     first = page.row
     for address, claim in _claims(ledger).items():
-        page.put(**_check(claim, address, page.row, table))
+        assert claim.printed is not None
+        row, key, shown = page.row, f"table_check.{address}", table.cells[address].number_format
+        difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
+        if claim.is_exact:
+            difference, same = f"E{row}-D{row}", f"F{row}=0"
+        difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
+        verdict = f'IF({same},"{SAME_TEXT}","{OTHER_TEXT}")'
+        verdict = f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
+        page.put(
+            A=text(address, "link", link=(table.name, address)),
+            B=text(claim.title),
+            C=unit_text(claim.unit),
+            D=recorded(float(claim.printed.value), claim=claim.id, number_format=shown),
+            E=formula(
+                f"{key}.computed",
+                f"='{table.name}'!{address}",
+                number_format="0.0000000000000000E+00",
+                unit=claim.unit,
+            ),
+            # Rounding is done by each program in its own way: it may cost a last digit.
+            F=formula(
+                f"{key}.difference",
+                difference,
+                "result",
+                number_format="0.0000",
+                transcendental=True,
+            ),
+            G=formula(f"{key}.verdict", verdict, "text"),
+            H=recorded(float(claim.printed.quantum), number_format="0E+00"),
+        )
     verdicts = f"G{first}:G{page.row - 1}"
     page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})
     return page
-
-
-def _check(claim: Claim, address: str, row: int, table: SheetPlan) -> dict[str, Cell]:
-    assert claim.printed is not None
-    key, there = f"table_check.{address}", f"='{table.name}'!{address}"
-    difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
-    if claim.is_exact:
-        difference, same = f"E{row}-D{row}", f"F{row}=0"
-    verdict = f'IF({same},"{SAME_TEXT}","{OTHER_TEXT}")'
-    cells = (
-        text(address, "link", link=(table.name, address)),
-        text(claim.title),
-        unit_text(claim.unit),
-        recorded(
-            float(claim.printed.value), claim=claim.id,
-            number_format=table.cells[address].number_format,
-        ),
-        formula(
-            f"{key}.computed", there, number_format="0.0000000000000000E+00", unit=claim.unit
-        ),
-        # Rounding is done by each program in its own way: it may cost a last digit.
-        formula(
-            f"{key}.difference", f'=IF(ISNUMBER(E{row}),{difference},"–")', "result",
-            number_format="0.0000", transcendental=True,
-        ),
-        formula(f"{key}.verdict", f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")', "text"),
-        recorded(float(claim.printed.quantum), number_format="0E+00"),
-    )  # fmt: skip
-    return dict(zip("ABCDEFGH", cells, strict=True))

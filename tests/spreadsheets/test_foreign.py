@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from foreign.writers import Exact
+from workbooks import rewritten
 
 from spreadsheets import foreign
 from spreadsheets.foreign import Cell, WorkbookError, read
@@ -46,13 +47,12 @@ def spoiled(
     extra: Mapping[str, bytes] | None = None,
 ) -> Path:
     """The same workbook with some of its parts changed or added."""
-    another = path.with_name("spoiled.xlsx")
-    with zipfile.ZipFile(path) as old, zipfile.ZipFile(another, "w", zipfile.ZIP_DEFLATED) as new:
-        for name in old.namelist():
-            data = old.read(name)
-            new.writestr(name, (change or {}).get(name, bytes)(data))
+    another, changes = path.with_name("spoiled.xlsx"), change or {}
+    content = rewritten(path.read_bytes(), lambda name, data: changes.get(name, bytes)(data))
+    another.write_bytes(content)
+    with zipfile.ZipFile(another, "a") as archive:
         for name, data in (extra or {}).items():
-            new.writestr(name, data)
+            archive.writestr(name, data)
     return another
 
 
@@ -119,9 +119,14 @@ def test_this_row_of_a_table_is_an_address(tmp_path: Path) -> None:
         sheet.write_number(1, 0, 3.0)
         sheet.write_formula(1, 1, "=Steps[[#This Row],[v old]]*2", None, 6)
         sheet.write_formula(2, 1, "=Steps[@[v old]]+Steps[@x]", None, 0)
-    cells = read(tmp_path / "table.xlsx").sheets["Sheet1"]
-    assert cells[2, 2].formula == "=$A2*2"
-    assert cells[3, 2].formula == "=$A3+$B3"
+        beside = book.add_worksheet()
+        beside.add_table(0, 2, 2, 2, {"name": "More", "columns": [{"header": "x"}]})
+        beside.write_formula(1, 4, "=Steps[@x]+More[@x]", None, 0)
+    sheets = read(tmp_path / "table.xlsx").sheets
+    assert sheets["Sheet1"][2, 2].formula == "=$A2*2"
+    assert sheets["Sheet1"][3, 2].formula == "=$A3+$B3"
+    # A table of another sheet is not taken for the sheet's own.
+    assert sheets["Sheet2"][2, 5].formula == "=Steps[@x]+$C2"
 
 
 @pytest.mark.parametrize(

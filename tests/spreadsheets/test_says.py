@@ -15,20 +15,12 @@ from replication.cases import BETA_5
 from replication.error import warnings
 from replication.models.sheet import run
 from spreadsheets.engines import Recalculated
-from spreadsheets.plan import NOT_COMPUTED, Value
+from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
-from spreadsheets.sheets.figures import CURRENT, STALE
-from spreadsheets.sheets.inputs import INPUTS, MESSAGES
-from spreadsheets.sheets.steps import (
-    COMPLETE,
-    DOUBTFUL,
-    INVALID,
-    KEPT_NAME,
-    NO_STEPS,
-    OUT_OF_ROWS,
-    REVERSED,
-)
 
+COMPLETE, REVERSED, DOUBTFUL = (MESSAGES[kind] for kind in ("complete", "reversed", "doubtful"))
+NO_STEPS, OUT_OF_ROWS, INVALID = (MESSAGES[kind] for kind in ("no_steps", "out_of_rows", "invalid"))
+KEPT_NAME, CURRENT, STALE = (MESSAGES[kind] for kind in ("kept_name", "current", "stale"))
 RESULTS = ("final_depth", "depth_um", "normalized_depth", "steps", "stop_time")
 NO_RESULT = dict.fromkeys((*(f"high.{name}" for name in RESULTS), "overview.high.depth_um"),
                           NOT_COMPUTED)  # fmt: skip
@@ -84,7 +76,7 @@ TYPED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     ),
     "report": (
         {"from": "report", "V_impact": 600.0, "rho_t": 0.0, "beta_high": 4.0},
-        {"inputs.message": MESSAGES["report"], "inputs.changed": 0, "inputs.unusable": 0},
+        {"inputs.message": MESSAGES["reports_own"], "inputs.changed": 0, "inputs.unusable": 0},
     ),
 }  # fmt: skip
 """Name -> what is typed, by the name of the input and in its unit, and what then stands where."""
@@ -194,9 +186,9 @@ def test_doubts_are_those_of_the_command() -> None:
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
     """Every sixth input is left blank, so that each formula lacks one of its own here or there."""
-    names, paths = [*INPUTS, "beta_low", "beta_high"], []
+    names, paths = [key for key in emitted.book.values if key.endswith(".typed")], []
     for first in range(6):
-        blank = {f"inputs.{name}.typed": None for name in names[first::6]}
+        blank = dict.fromkeys(names[first::6])
         paths.append(emitted.typed(blank, tmp_path / f"{first}.xlsx"))
     for first, result in enumerate(usable("formualizer").recalculate_many(paths)):
         page = Page(emitted, result)

@@ -31,8 +31,7 @@ from replication.models.sheet import run
 from replication.workbook import Workbook, findings_of, live_verdicts
 from spreadsheets import emit
 from spreadsheets.engines import OF_FUNCTIONS, Engine, compare, tolerances
-from spreadsheets.plan import Value
-from spreadsheets.sheets.inputs import INPUTS
+from spreadsheets.plan import Value, tables
 
 LEDGER = load()
 GIVEN = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
@@ -110,7 +109,8 @@ def typed_inputs(build: Callable[..., Workbook], seed: int) -> tuple[dict[str, V
     but for what they tell apart from those typed, such as whose an input is. And their bound.
     """
     draw, ledger = Random(seed + 1).uniform, LEDGER
-    for source in (INPUTS[name].source for name in MATERIALS):
+    sources = {name: x["source"] for of in tables()["inputs"].values() for name, x in of.items()}
+    for source in map(sources.__getitem__, MATERIALS):
         number = float(LEDGER.value(source) / to_si(LEDGER.claims[source].unit))
         ledger = ledger.misprint(source, f"{number * draw(0.8, 1.25):.3f}")
     values: dict[str, Value] = {}
@@ -194,12 +194,12 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(
     assert compare(book.cells, result, tolerances(book.plan, book.cells, book.rounding / 20)) == []
     allowed = tolerances(book.plan, book.cells, book.rounding)
     for key, largest in (
-        ("high.row[130].velocity_final", 500.0),
-        ("high.row[60].depth", 7.67e-6),
+        ("high.row.velocity_final[130]", 500.0),
+        ("high.row.depth[60]", 7.67e-6),
         ("high.final_velocity", 500.0),
         ("high.depth_um", 7.67),
         ("overview.low.depth_um", 10.03),
-        ("crater.volume", 5.6e-15),
+        ("crater.particle_volume", 5.6e-15),
         ("inputs.M_p", 5e-11),
     ):
         sheet, at = book.plan.where[key]
