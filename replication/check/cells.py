@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from statistics import median
 
 from replication.check.examination import NEAR, Examination, near
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
@@ -49,21 +48,25 @@ NO_CONTACT = "this area is not that of the contact at the depth of its row"
 
 
 def wrong_area(f: Examination) -> tuple[Line, set[int]] | None:
-    """The column beside the table whose area brakes the rows, and the rows where it is wrong."""
-    if "deceleration" not in f.rows.columns:
+    """The column beside the table by whose area the rows brake, and the rows where it is wrong.
+
+    None if there is no such column, or if it is right.
+    """
+    if not f.table.helpers or "deceleration" not in f.rows.columns:
         return None
+    forces: dict[int, tuple[float, float]] = {}
+    for k in range(1, f.table.steps + 1):
+        x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
+        if x and v is not None and a is not None:
+            stress = 0.5 * f.case.target_density * v * v + f.case.resistance
+            forces[k] = a * f.case.mass / stress, math.pi * contact(f.case, x)
     for line in f.table.helpers:
-        factors: dict[int, tuple[float, float]] = {}
-        for k in range(1, f.table.steps + 1):
-            x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
-            number = line.at(f.table.zero + k)
-            if x and v is not None and a is not None and number:
-                stress = 0.5 * f.case.target_density * v * v + f.case.resistance
-                force = a * f.case.mass / stress
-                factors[k] = force / number, force / (math.pi * contact(f.case, x))
-        unit = median([by for by, _ in factors.values()]) if len(factors) >= LEAST else 0.0
-        if power_of_ten(unit) is not None and all(near(by, unit) for by, _ in factors.values()):
-            return line, {k for k, (_, share) in factors.items() if not near(share, 1.0)}
+        numbers = {k: number for k in forces if (number := line.at(f.table.zero + k))}
+        units = [forces[k][0] / number for k, number in numbers.items()]
+        is_area = len(units) >= LEAST and power_of_ten(units[0]) is not None
+        if is_area and all(near(unit, units[0]) for unit in units):
+            wrong = {k for k in numbers if not near(*forces[k])}
+            return (line, wrong) if wrong else None
     return None
 
 

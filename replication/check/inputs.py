@@ -34,10 +34,12 @@ from spreadsheets.recalculation import Calculation
 
 _MAX_CANDIDATES = 4_000
 _MAX_CHOICES = 64
-_FOLLOWS = {
-    "diameter": {"radius"}, "mass": {"particle_density"}, "resistance": {"beta", "flow_stress"},
-}  # fmt: skip
-"""What follows from other inputs, and what need not be known where it is."""
+RESTS_ON = {
+    "diameter": ("radius",),
+    "mass": ("radius", "particle_density"),
+    "resistance": ("beta", "flow_stress"),
+}
+"""What follows from other inputs, and from which."""
 
 
 @cache
@@ -77,7 +79,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     choices = {
         role: [cell for cell in cells if not calculation.areas(cell.place)] or cells
         for role, cells in nearest.items()
-        if role not in _FOLLOWS or any(not calculation.areas(cell.place) for cell in cells)
+        if role not in RESTS_ON or any(not calculation.areas(cell.place) for cell in cells)
     }
     for role, place in mapped.items():
         value = calculation.number(place)
@@ -92,14 +94,14 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     for role in ("stop_velocity", "particle_density"):
         if role not in choices and len(unread.get(role, ())) == 1:
             choices[role] = unread.pop(role)
-    if not _FOLLOWS["resistance"] <= {*choices, *unread}:
+    if not {*choices, *unread}.issuperset(RESTS_ON["resistance"]):
         labelled = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
         if labelled:  # whatever else its formula reads, it is the resistance
             choices.setdefault("resistance", labelled)
-    feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in _FOLLOWS}
-    for role, of in (("mass", "radius particle_density"), ("resistance", "beta flow_stress")):
+    feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in RESTS_ON}
+    for role in ("mass", "resistance"):
         # A cell without a known label whose formula reads these cells and nothing else.
-        sources = {choices[name][0].place if name in choices else None for name in of.split()}
+        sources = {choices[of][0].place if of in choices else None for of in RESTS_ON[role]}
         for cell in reads if role not in feeding and None not in sources else ():
             areas = () if cell.roles else calculation.areas(cell.place)
             if areas and {calculation.source(area.corner) for area in areas} == sources:
@@ -108,7 +110,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     examination = _settled(table, choices, feeding, next(rounded, math.pi))
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
     settled = {role: own for role, own in examination.inputs.items() if own.place}
-    derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in _FOLLOWS}
+    derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
 
@@ -214,8 +216,7 @@ def _hinted(table: Table) -> Report:
     report = report_inputs()
     speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
     first = tuple(islice(filter(None, speeds), 1))
-    before, after = table.number("time", 2), table.number("time", 3)
-    step = (after - before,) if before is not None and after and after > before else ()
+    step = tuple(filter(None, [_usual(table, "time")]))
     return {**report, "velocity": report["velocity"] + first, "step": report["step"] + step}
 
 
@@ -265,9 +266,6 @@ def _settled(
     pi: float,
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
-    for role, enough in _FOLLOWS.items():  # what follows from others can be done without
-        if enough <= set(choices) and len(choices.get(role, ())) > 1:
-            choices = {name: cells for name, cells in choices.items() if name != role}
     several = {
         role: cells
         for role, cells in choices.items()
@@ -306,7 +304,7 @@ def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examin
     negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
-    inputs = _completed(table, chosen, columns)
+    inputs = _completed(table, chosen, columns, powers)
     for own in inputs.values():
         if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
             where = address(own.place, True) if own.place else f"the table on {table.sheet!r}"
@@ -330,22 +328,10 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     that contradict the fewest units named, then the fewest of these ties, then none at all, then
     those nearest to the report's numbers.
     """
-    report = report_inputs()
-    speed = "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
-    rows = range(table.zero + 2, table.zero + table.steps + 1)
-
-    def usual(role: str, over: str | None = None, later: int = 0) -> float:
-        """By how much a column changes from row to row, in units of another's number."""
-        line, base = table.lines.get(role), table.lines.get(over or role)
-        if line is None or base is None:
-            return 0.0
-        pairs = ((line.change(at + later), base.at(at) if over else 1.0) for at in rows)
-        ratios = [abs(a / b) for a, b in pairs if a and b and math.isfinite(a / b)]
-        return median(ratios) if ratios else 0.0
-
+    report, speed = report_inputs(), _speed(table)
     # What the step would be, and what a column would be, if all cells were in SI units.
-    step, move = usual("time"), usual("depth", speed)
-    brake = usual(speed, "deceleration", speed == "velocity_initial")
+    step, move = _usual(table, "time"), _usual(table, "depth", speed)
+    brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
     units = {role: line.unit for role, line in table.lines.items()}
     named = {role: power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
              for role, unit in units.items()}  # fmt: skip
@@ -380,6 +366,22 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     return min(options, key=lambda option: option[0])[1]
 
 
+def _speed(table: Table) -> str:
+    """The velocity that its rows move by."""
+    return "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
+
+
+def _usual(table: Table, role: str, over: str | None = None, later: int = 0) -> float:
+    """By how much a column changes from row to row, in units of another's number; 0 if never."""
+    line, base = table.lines.get(role), table.lines.get(over or role)
+    if line is None or base is None:
+        return 0.0
+    rows = range(table.zero + 2, table.zero + table.steps + 1)
+    pairs = ((line.change(at + later), base.at(at) if over else 1.0) for at in rows)
+    ratios = [abs(a / b) for a, b in pairs if a and b and math.isfinite(a / b)]
+    return median(ratios) if ratios else 0.0
+
+
 def _round(ratio: float) -> int:
     """The nearest power of ten, within what any unit could be."""
     return max(-30, min(30, round(math.log10(ratio)))) if 0 < ratio < math.inf else 0
@@ -398,7 +400,10 @@ def _whole(factor: float, named: int | None) -> int:
 
 
 def _completed(
-    table: Table, chosen: Mapping[str, Input], columns: Mapping[str, Mapping[int, float]]
+    table: Table,
+    chosen: Mapping[str, Input],
+    columns: Mapping[str, Mapping[int, float]],
+    powers: Mapping[str, int],
 ) -> dict[str, Input]:
     """The inputs, with those that follow from others or from the columns."""
     inputs, report = dict(chosen), report_inputs()
@@ -419,7 +424,7 @@ def _completed(
         density = inputs["mass"].si / volume if volume else 0.0
         add("particle_density", density, "follows", "mass", "radius")
     if "step" not in inputs:
-        step = _step(columns)
+        step = _step(table, powers)
         add("step", step, "formulas" if step in _typed(table.calculation) else "rows")
     for role in ("particle_density", "target_density", "resistance"):
         add(role, report[role][0], "report")
@@ -431,15 +436,11 @@ def _typed(calculation: Calculation) -> set[float]:
     return {number for formula in calculation.formulas.values() for number in formula.literals}
 
 
-def _step(columns: Mapping[str, Mapping[int, float]]) -> float:
+def _step(table: Table, powers: Mapping[str, int]) -> float:
     """The step that the rows have taken, as the shortest decimal that they agree with."""
-    times, x = columns.get("time", {}), columns["depth"]
-    steps = [t - times[k - 1] for k, t in times.items() if k - 1 in times]
-    if not steps:
-        speeds = columns.get("velocity_initial") or columns["velocity_final"]
-        rows = [(k, v) for k, v in speeds.items() if k > 1 and v and {k, k - 1} <= set(x)]
-        steps = [(x[k] - x[k - 1]) / v for k, v in rows]
-    step = abs(median(steps)) if steps else 0.0
+    speed = _speed(table)
+    step = _usual(table, "time") * 10.0 ** powers.get("time", 0)
+    step = step or _usual(table, "depth", speed) * 10.0 ** (powers["depth"] - powers[speed])
     return _shortest(step, 1e-6) if 0 < step < math.inf else report_inputs()["step"][0]
 
 
@@ -480,7 +481,7 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
             case = case.holding(cell.role, cell.si)
         agreed = replace(examination.following(case), intended=intended)
         if agreed.agreement(rules) >= 0.5:
-            hidden = {role for cell in fed for role in (cell.role, *_FOLLOWS[cell.role])}
+            hidden = {role for cell in fed for role in (cell.role, RESTS_ON[cell.role][-1])}
             inputs = dict(examination.inputs)
             for role, value in tried.items():
                 known = "assumed" if role in hidden else "formulas" if value in typed else how

@@ -15,7 +15,7 @@ from statistics import median
 from reference.units import to_si
 from replication.check.cells import NO_CONTACT, drifting, each_cell, order, wrong_area
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
-from replication.check.inputs import report_inputs
+from replication.check.inputs import RESTS_ON, report_inputs
 from replication.check.scheme import (
     BEYOND,
     BRAKES,
@@ -27,7 +27,7 @@ from replication.check.scheme import (
     Rule,
     march,
 )  # fmt: skip
-from replication.check.table import Line, address, results
+from replication.check.table import Line, address
 from replication.check.words import (
     INPUTS,
     power_of_ten,
@@ -62,6 +62,7 @@ def judge(f: Examination) -> None:
         _as_rounded(f, f.table.digits)
     _stop(f)
     _effects(f)
+    _misread(f)
 
 
 # ---- units and inputs: what the workbook says of them, what its formulas make of them
@@ -84,10 +85,6 @@ def _changed(role: str, value: float, by: float) -> Change:
     return partial(Case.with_input, role=role, value=value, by=by)
 
 
-_BETWEEN = {"particle_density": "mass", "flow_stress": "resistance"}
-"""The cell by way of which the rows take an input."""
-
-
 def _calibrate(f: Examination) -> None:
     """An input that the rows take in another unit than its label says."""
     if f.agreement(BRAKES) >= 0.5:
@@ -96,26 +93,22 @@ def _calibrate(f: Examination) -> None:
     for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
-        between = f.derived.get(_BETWEEN.get(role, "")) if own.unit else None
-        if between and math.isclose(between.si, getattr(f.intended, between.role), rel_tol=1e-8):
-            continue  # it has its unit, and the rows take it from a cell that has it right
         factor = Fraction(10) ** power
         value = scaled(own.si, factor)
         changed = f.following(f.case.with_input(role, value, float(factor)))
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
-        if not own.unit and power % 3:  # no unit is ten times another, so the number is a choice
-            f.inputs = {**f.inputs, role: replace(own, si=value, factor=own.factor * factor)}
-            f.intended = f.intended.with_input(role, value, float(factor))
-            return
-        if own.unit and any(near(value, number) for number in report_inputs()[role]):
+        # No unit is ten times another: without one, the number is a choice.
+        chosen = not own.unit and power % 3
+        if chosen or (own.unit and any(near(value, x) for x in report_inputs()[role])):
             taken = replace(own, si=value, factor=own.factor * factor)
             f.inputs = {**f.inputs, role: taken}
             f.intended = f.intended.with_input(role, value, float(factor))
-            right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
-            text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
-            f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+            if not chosen:
+                right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
+                text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
+                f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
         else:
             expected = scaled(own.si, 1 / factor / own.factor)
             text = f"the formulas take {title(role)} as {quantity(value, role)}, {times_too(power)}"
@@ -132,11 +125,7 @@ def _derived(f: Examination) -> None:
     if "beta" in known and "flow_stress" in known:
         stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
         _product(f, known["beta"], known["flow_stress"], stated.resistance)
-    for role, of in (
-        ("diameter", ("radius",)),
-        ("mass", ("radius", "particle_density")),
-        ("resistance", ("beta", "flow_stress")),
-    ):
+    for role, of in RESTS_ON.items():
         cell = f.derived.get(role)
         sources = [known[name] for name in of if name in known]
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
@@ -357,7 +346,7 @@ def _named(f: Examination) -> None:
         role, at = rows.shows(part, first)
         wanted = rows.wanted(role, at) if role == fills else None
         cells = f.cells(role, at, at if part == "start" else None)
-        if part == "brake" and (area := wrong_area(f)) and area[1]:
+        if part == "brake" and (area := wrong_area(f)):
             line, rows_off = area
             cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
         text = f"{rule.name}: {rule.says}"
@@ -367,7 +356,7 @@ def _named(f: Examination) -> None:
 def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     area = wrong_area(f) if part == "brake" else None
-    own = area[0] if area and area[1] else f.table.lines[role]
+    own = area[0] if area else f.table.lines[role]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
@@ -470,12 +459,16 @@ def _stop(f: Examination) -> None:
     cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
     prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
     place = f.table.place(role, steps)
-    named = (each for kind, each in results(f.table) if kind == "depth")
+    named = (each for kind, each in f.table.results if kind == "depth")
     shown = any(a.corner in f.table.places for each in named for a in f.calculation.areas(each))
     if changed or prepared or (2 * steps < whole and not shown):
         f.add("not calculated", [place], None, text)
     else:
         f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
+
+
+def _stops_elsewhere(f: Examination) -> bool:
+    return any(difference.change == OTHER_STOP for difference in f.differences)
 
 
 def _effects(f: Examination) -> None:
@@ -491,7 +484,7 @@ def _effects(f: Examination) -> None:
                 f.differing += k > steps
             else:
                 f.differing += abs(own - right) > 1e-9 * abs(right)
-    if not any(d.change == OTHER_STOP for d in f.differences):
+    if not _stops_elsewhere(f):
         steps = f.table.steps
     with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)
     f.differences = sorted(with_effects, key=lambda d: d.rank)
@@ -520,3 +513,18 @@ def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
     else:
         return None
     return march(case, rules, fixed, steps=steps)["depth"].get(steps)
+
+
+def _misread(f: Examination) -> None:
+    """Results that do not read the last row of a table that ends as it should."""
+    steps = f.table.steps
+    for kind, place in f.table.results if f.ends and not _stops_elsewhere(f) else ():
+        areas = (area for area in f.calculation.areas(place) if area.cells == 1)
+        read = (f.table.places.get(area.corner) for area in areas)
+        for role, k in filter(None, read):
+            if role == "depth" and k != steps:
+                what = "the final depth" if kind == "depth" else "the depth over the radius"
+                text = f"{what} reads row {k} of the table, not {steps}, its last"
+                wanted = address(f.table.place("depth", steps))
+                formula = f.calculation.book[place].formula
+                f.add("odd formula", [place], wanted, text, formula)

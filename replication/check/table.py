@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import groupby, pairwise, product
 from statistics import median
 
 from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
@@ -132,7 +132,7 @@ class Line:
     @cached_property
     def falls(self) -> bool:
         """Whether it looks like a velocity: positive at first, and rarely rising."""
-        pairs = self._pairs
+        pairs = list(pairwise(self.numbers))
         falling = sum(b <= a for a, b in pairs)
         ends_lower = bool(pairs) and pairs[0][0] > max(0.0, pairs[-1][1])
         return ends_lower and falling >= 0.9 * len(pairs)
@@ -140,14 +140,10 @@ class Line:
     @cached_property
     def rises(self) -> bool:
         """Whether it looks like a depth: not negative, rarely falling, and no mere count."""
-        pairs = self._pairs
+        pairs = list(pairwise(self.numbers))
         rising = sum(b >= a for a, b in pairs)
         counts = all(b - a == 1 for a, b in pairs)
         return pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
-
-    @cached_property
-    def _pairs(self) -> list[tuple[float, float]]:
-        return list(pairwise(self.numbers))
 
     @cached_property
     def numbers(self) -> list[float]:
@@ -199,18 +195,19 @@ def span(cells: Iterable[tuple[int, int]]) -> str:
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
     """Neighbouring cells of a column (of a row, if `across`) with the same label, together."""
-    line, along = (1, 2) if across else (2, 1)
-    run: list[Position] = []
-    for place in sorted(labels, key=lambda place: (place[0], place[line], place[along])):
-        if run:
-            last = run[-1]
-            after = (last[0], last[line], int(last[along]) + 1)
-            if after != (place[0], place[line], place[along]) or labels[last] != labels[place]:
-                yield run
-                run = []
-        run.append(place)
-    if run:
-        yield run
+
+    def by_line(place: Position) -> tuple[str, int, int]:
+        sheet, row, column = place
+        return (sheet, row, column) if across else (sheet, column, row)
+
+    def run(entry: tuple[int, Position]) -> tuple[object, ...]:
+        """What neighbours have in common: their rows grow as their ranks do."""
+        rank, place = entry
+        sheet, line, along = by_line(place)
+        return sheet, line, along - rank, labels[place]
+
+    for _, entries in groupby(enumerate(sorted(labels, key=by_line)), run):
+        yield [place for _, place in entries]
 
 
 def lines(calculation: Calculation) -> Iterator[Line]:
@@ -306,6 +303,24 @@ class Table:
         return span(self.place(role, k)[1:] for k in (rows[0], rows[-1]))
 
     @cached_property
+    def results(self) -> tuple[tuple[str, Position], ...]:
+        """Cells beside or below a label that says final depth, or depth over radius: kind, place.
+
+        A cell below it that numbers follow is the first of a list, not a result.
+        """
+        number, labelled = self.calculation.number, []
+        for (sheet, row, column), text in self.calculation.values.items():
+            kind = result_of(text) if isinstance(text, str) else None
+            for down, right in ((0, 1), (0, 2), (1, 0)) if kind else ():
+                place = (sheet, row + down, column + right)
+                inside = any(line.covers(place) for line in self.every_line)
+                is_listed = down and number((sheet, row + 2, column)) is not None
+                if number(place) is not None and not is_listed and not inside:
+                    labelled.append((str(kind), place))
+                    break
+        return tuple(labelled)
+
+    @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:
         """Every cell of the table -> its role and row."""
         rows = range(self.steps + 1)
@@ -337,10 +352,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
         if not any(line.overlaps(depth) or line.overlaps(speed) for line in used):
             table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
             # Other quantities grow like this, too: it takes a third one, or names for both.
-            if table and (
-                len(table.lines) > 2
-                or all(role in line.roles for role, line in table.lines.items())
-            ):
+            named = all(role in line.roles for role, line in table.lines.items())
+            if named or len(table.lines) > 2:
                 chosen.append(table)
     if given:
         chosen = [table for table in chosen if all(line in table.lines.values() for line in given)]
@@ -407,7 +420,7 @@ def _viewed(table: Table, others: Sequence[Table]) -> bool:
     return all(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
 
 
-def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
+def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
     """The table around a depth and a velocity: its other columns and its rows."""
     first, last = max(depth.first, speed.first), min(depth.last, speed.last)
     beside = [
@@ -430,9 +443,7 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table | None:
     touch = [at for at in zeros if "time" in roles and roles["time"].at(at) == 0]
     zero = (touch or zeros or [first - 1])[-1]
     last = _end(depth, speed, zero, last)
-    ordered = {role: roles[role] for role in COLUMNS if role in roles and roles[role].first <= last}
-    if "depth" not in ordered or not any(role.startswith("velocity") for role in ordered):
-        return None
+    ordered = {role: roles[role] for role in COLUMNS if role in roles}
     helpers = tuple(line for line in beside if line not in roles.values())
     return Table(ordered, zero, last - zero, helpers)
 
@@ -490,24 +501,3 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             return at if at < last - 1 and ended else last
     return last
-
-
-def results(table: Table) -> Iterator[tuple[str, Position]]:
-    """Cells beside or below a label that says final depth, or depth over radius.
-
-    A cell below it that numbers follow is the first of a list, not a result.
-    """
-    for (sheet, row, column), text in table.calculation.values.items():
-        kind = result_of(text) if isinstance(text, str) else None
-        if kind is not None:
-            for down, right in ((0, 1), (0, 2), (1, 0)):
-                place = (sheet, row + down, column + right)
-                inside = any(line.covers(place) for line in table.every_line)
-                after = (sheet, row + 2, column) if down else None
-                if (
-                    table.calculation.number(place) is not None
-                    and table.calculation.number(after) is None
-                    and not inside
-                ):
-                    yield kind, place
-                    break

@@ -9,7 +9,7 @@ import math
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import cache
 from importlib import resources
@@ -24,6 +24,7 @@ COLUMNS = _WORDS["columns"]
 """The columns of the sheet, in the order of a row, and what they measure."""
 INPUTS = _WORDS["inputs"]
 """What a cell beside the table may hold, and what it measures."""
+_MEASURES = {**COLUMNS, **INPUTS}
 
 _MAX_LABEL = 80
 
@@ -86,13 +87,12 @@ def _symbol(text: str) -> str:
 
 def _symbols(table: str, text: str) -> list[str]:
     """The entries of a table of symbols that a text is."""
-    symbol = _symbol(text)
-    return [name for name, pattern in _WORDS[table].items() if re.fullmatch(pattern, symbol)]
+    return _words(table, _symbol(text), re.fullmatch)
 
 
-def _words(table: str, text: str) -> list[str]:
+def _words(table: str, text: str, fits: Callable[[str, str], object] = re.search) -> list[str]:
     """The entries of a table of words that stand in a text."""
-    return [name for name, pattern in _WORDS[table].items() if re.search(pattern, text)]
+    return [name for name, pattern in _WORDS[table].items() if fits(pattern, text)]
 
 
 @cache
@@ -171,7 +171,7 @@ def quantity(value: float, role: str) -> str:
     >>> quantity(11e-6, "radius"), quantity(5.0, "beta")
     ('1.1e-05 m', '5')
     """
-    return with_unit(f"{value:.10g}", {**COLUMNS, **INPUTS}[role])
+    return with_unit(f"{value:.10g}", _MEASURES[role])
 
 
 def unit_text(role: str, power: int) -> str:
@@ -180,7 +180,7 @@ def unit_text(role: str, power: int) -> str:
     >>> unit_text("depth", -6), unit_text("depth", 0), unit_text("radius", 5)
     ('um', 'm', '1e5 m')
     """
-    unit = {**COLUMNS, **INPUTS}[role]
+    unit = _MEASURES[role]
     named = [text for text in _WORDS["units"][unit].split() if to_si(text) == Fraction(10) ** power]
     return unit if power == 0 else next(iter(named), f"1e{power} {unit}")
 

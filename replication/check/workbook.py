@@ -11,8 +11,8 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.inputs import find, numbers_beside, report_inputs
-from replication.check.judge import OTHER_STOP, judge
-from replication.check.table import LEAST, Line, address, lines, results, runs, tables
+from replication.check.judge import judge
+from replication.check.table import LEAST, Line, address, lines, runs, tables
 from replication.check.words import COLUMNS, INPUTS, count
 from replication.reading import place as named
 from replication.text import with_unit
@@ -82,7 +82,6 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         examinations = [find(table, beside, cells) for table in read_tables]
     for f in examinations:
         judge(f)
-        _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
         *(d for v in examinations for d in v.differences),
@@ -190,10 +189,6 @@ _HEADER = {
     "radius": "a1-radius", "particle_density": "a1-density", "mass": "a1-mass",
     "diameter": "a1-diameter", "velocity": "a1-initial-velocity", "resistance": "a1-resistance",
 }  # fmt: skip
-_GIVEN = (
-    "velocity", "radius", "particle_density", "target_density", "step", "stop_velocity",
-)  # fmt: skip
-"""With other inputs than the report's nothing is as it prints."""
 _CASES = ("beta-5", "beta-3")
 """The cases by their claims, in the order of the report's inputs; Table A-1 is the first."""
 _ROWS = 5
@@ -206,7 +201,9 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
     `alone`: it is the only table, so labelled results are its own.
     """
     report = report_inputs()
-    given = [(f.inputs[role].si, report[role][0]) for role in _GIVEN if role in f.inputs]
+    # With other inputs than the report's nothing is as it prints.
+    impact = load().groups["impact"].keys() & f.inputs.keys()
+    given = [(f.inputs[role].si, report[role][0]) for role in impact]
     alike = [near(f.case.resistance, resistance) for resistance in report["resistance"]]
     if not any(alike) or not all(near(*pair) for pair in given):
         return
@@ -222,7 +219,7 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
             name = f"a1-{role.replace('_', '-')}-{k}"
             if name in load().claims and k in column:
                 yield _judged(name, f.table.place(role, k), Fraction(column[k]))
-    yield from _results(f, case, dict(results(f.table)) if alone else {})
+    yield from _results(f, case, dict(f.table.results) if alone else {})
 
 
 def _results(f: Examination, case: str, cells: Mapping[str, Position]) -> Iterator[HeldNumber]:
@@ -239,21 +236,6 @@ def _results(f: Examination, case: str, cells: Mapping[str, Position]) -> Iterat
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
-
-
-def _misread(f: Examination) -> None:
-    """Results that do not read the last row of a table that ends as it should."""
-    steps, stops = f.table.steps, any(d.change == OTHER_STOP for d in f.differences)
-    for kind, place in results(f.table) if f.ends and not stops else ():
-        areas = (area for area in f.calculation.areas(place) if area.cells == 1)
-        read = (f.table.places.get(area.corner) for area in areas)
-        for role, k in filter(None, read):
-            if role == "depth" and k != steps:
-                what = "the final depth" if kind == "depth" else "the depth over the radius"
-                text = f"{what} reads row {k} of the table, not {steps}, its last"
-                wanted = f.table.place("depth", steps)
-                formula = f.calculation.book[place].formula
-                f.add("odd formula", [place], address(wanted), text, formula)
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:

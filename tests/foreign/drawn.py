@@ -4,7 +4,18 @@ import random
 import re
 from dataclasses import asdict
 
-from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, letters, place
+from foreign.layouts import (
+    BRAKE,
+    DEPTH,
+    END,
+    START,
+    TIME,
+    Foreign,
+    Table,
+    add_column,
+    letters,
+    place,
+)
 from openpyxl.utils.cell import absolute_coordinate
 
 from replication.models.impact import Impact
@@ -53,22 +64,16 @@ INPUT_UNITS = {
 }
 
 
-def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from top to bottom)
+def drawn(seed: int, impact: Impact) -> Foreign:
     """A workbook of that seed: everything about it is drawn, but what it calculates."""
     r = random.Random(seed)
     f = Foreign(f"random-{seed}", impact, si=False)
     sheet = r.choice(["Sheet1", "Tabelle1", "Feuil1", "sim", "my sheet", "v=500"])
     data = sheet if r.random() < 0.7 else "Inputs"
     across = r.random() < 0.2
-    table, corner = r.randrange(12, 30), r.randrange(1, 5)
+    top, left = r.randrange(12, 30), r.randrange(1, 5)
     with_units = r.choice(["head", "row", "none"])
     simple = with_units == "none"
-
-    def at(line: int, along: int) -> str:
-        """The cell of a line of the table, `along` cells from its heads."""
-        down, right = (line, along) if across else (along, line)
-        return f"{letters(corner + right)}{table + down}"
-
     si = _inputs(f, r, data, simple)
     prefix = "" if data == sheet else f"{data}!"
     si = {name: cell.replace("$", f"{prefix}$", 1) for name, cell in si.items()}
@@ -78,69 +83,67 @@ def drawn(seed: int, impact: Impact) -> Foreign:  # noqa: C901  (one sheet, from
     if r.random() < 0.4:
         r.shuffle(order)
     helpers = [h for h in HELPERS if r.random() < 0.3]
-    lines = order + helpers
+    names = order + helpers
     if "n" in helpers and r.random() < 0.5:
-        lines = ["n", *[name for name in lines if name != "n"]]
+        names = ["n", *[name for name in names if name != "n"]]
     gap = 2 if r.random() < 0.15 else 1
-    line = {name: i * gap for i, name in enumerate(lines)}
     units = {role: r.choice(UNITS[role]) if role in UNITS and not simple
              else UNITS.get(role, [("m/s", "")])[0] for role in order}  # fmt: skip
     first = 2 if with_units == "row" else 1
-    for name in lines:
+    table = Table((left if across else top) + first, 0, f.steps, across, own=True)
+    lines = {name: str(top + i * gap) if across else letters(left + i * gap)
+             for i, name in enumerate(names)}  # fmt: skip
+    for name, line in lines.items():
         head = r.choice(HEADS[name]) if name in HEADS else HELPERS[name]
         unit = units[name][0] if name in units else ""
         if with_units != "head":
             head = re.sub(r" \(UNIT\)| \[UNIT\]|/UNIT| in UNIT|, UNIT", "", head)
         bracketed = f"({unit})" if "/UNIT" in head and "/" in unit else unit
-        f.put(sheet, at(line[name], 0), head.replace("UNIT", bracketed))
+        f.cells[table.place(sheet, line, -first)] = head.replace("UNIT", bracketed)
         if with_units == "row" and unit:
-            f.put(sheet, at(line[name], 1), unit)
+            f.cells[table.place(sheet, line, 1 - first)] = unit
     negative = r.random() < 0.2 and BRAKE in order
+    for name, texts in _contents(lines, across, units, si, negative).items():
+        add_column(f, sheet, table, lines[name], "", name if name in order else "", *texts)
+    return f
 
-    def cell(name: str, k: int) -> str:
-        return at(line[name], first + k)
 
-    def inner(name: str, k: int) -> str:
+def _contents(
+    lines: dict[str, str], across: bool, units: dict[str, tuple[str, str]], si: dict[str, str],
+    negative: bool,
+) -> dict[str, tuple[str, ...]]:  # fmt: skip
+    """What stands in row 0 of a line, in the rows that follow, and in row 1 where it is another."""
+
+    def cell(name: str, row: str = "{r}") -> str:
+        return f"{row}{lines[name]}" if across else f"{lines[name]}{row}"
+
+    def inner(name: str, row: str = "{r}") -> str:
         """The cell's value in SI."""
         factor = units[name][1]
-        return f"{cell(name, k)}/{factor}" if factor else cell(name, k)
+        return f"{cell(name, row)}/{factor}" if factor else cell(name, row)
 
     def outer(name: str, text: str) -> str:
         factor = units[name][1]
         return f"=({text})*{factor}" if factor else f"={text}"
 
-    minus = "-" if negative else ""
-    for k in range(f.steps + 1):
-        values: dict[str, str | float] = {}
-        if TIME in order:
-            values[TIME] = outer(TIME, f"{inner(TIME, k - 1)}+{si['step']}") if k else 0
-        values[START] = f"={si['velocity']}" if k < 2 else f"={cell(END, k - 1)}"
-        v = cell(START, k)
-        if k == 0:
-            values |= {DEPTH: 0, BRAKE: 0}
-        else:
-            x = inner(DEPTH, k)
-            moved = f"{v}*{si['step']}/2" if k == 1 else f"{inner(DEPTH, k - 1)}+{v}*{si['step']}"
-            values[DEPTH] = outer(DEPTH, moved)
-            area = f"(2*{si['radius']}*({x})-({x})^2)"
-            if "area" in helpers:
-                values["area"] = f"=PI()*{area}"
-                area = cell("area", k)
-            else:
-                area = f"PI()*{area}"
-            force = f"(0.5*{si['target_density']}*{v}^2+{si['resistance']})*{area}"
-            values[BRAKE] = outer(BRAKE, f"{minus}{force}/{si['mass']}")
-            sign = "+" if negative else "-"
-            values[END] = f"={v}{sign}{inner(BRAKE, k)}*{si['step']}"
-        if "energy" in helpers:
-            values["energy"] = f"=0.5*{si['mass']}*{v}^2"
-        if "n" in helpers:
-            values["n"] = k
-        for name, content in values.items():
-            f.put(sheet, cell(name, k), content)
-            if name in order:
-                f.where[name, k] = place(sheet, cell(name, k))
-    return f
+    minus, plus = ("-", "+") if negative else ("", "-")
+    v, x, moved = cell(START), inner(DEPTH), f"{cell(START)}*{si['step']}"
+    area = f"(2*{si['radius']}*({x})-({x})^2)"
+    contact = cell("area") if "area" in lines else f"PI()*{area}"
+    force = f"(0.5*{si['target_density']}*{v}^2+{si['resistance']})*{contact}"
+    start, energy = f"={si['velocity']}", f"=0.5*{si['mass']}*{v}^2"
+    contents = {
+        START: (start, f"={cell(END, '{p}')}", start),
+        DEPTH: ("0", outer(DEPTH, f"{inner(DEPTH, '{p}')}+{moved}"), outer(DEPTH, f"{moved}/2")),
+        "area": ("", f"=PI()*{area}"),
+        BRAKE: ("0", outer(BRAKE, f"{minus}{force}/{si['mass']}")),
+        END: ("", f"={v}{plus}{inner(BRAKE)}*{si['step']}"),
+        "energy": (energy, energy),
+        "n": ("{k}", "{k}"),
+    }
+    if TIME in lines:
+        contents[TIME] = ("0", outer(TIME, f"{inner(TIME, '{p}')}+{si['step']}"))
+    return {name: contents[name] for name in lines}
 
 
 def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import copy
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -15,26 +15,25 @@ Values = Mapping[Place, Any]
 class Planted:
     """A spoiled workbook: the kind that ought to be named, at which cell, or one of some cells."""
 
-    fault: str
     kind: str
     workbook: Foreign
     cells: tuple[Place, ...]
     wrong: dict[Place, Any] = field(default_factory=dict)
-    status: int = 1
+    status: bool = True
 
 
 Plant = Callable[[Foreign, Values], Planted | None]
-FAULTS: list[Plant] = []
+FAULTS: dict[str, Plant] = {}
 """Each plants its fault in a workbook with these values, or nothing where it cannot be."""
 
 
-def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Callable[..., Plant]:
+def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Callable[..., None]:
     """Make a fault of a function that says what other cells hold, or what is `stored` in them.
 
     It ought to be named at the first of them, or at one of as many as are `near`.
     """
 
-    def register(changes: Callable[[Foreign, Values], Mapping[Place, Any] | None]) -> Plant:
+    def register(changes: Callable[[Foreign, Values], Mapping[Place, Any] | None]) -> None:
         def plant(f: Foreign, values: Values) -> Planted | None:
             changed = changes(f, values) or {}
             changed = {p: content for p, content in changed.items() if content != f.cells.get(p)}
@@ -42,13 +41,23 @@ def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Calla
                 return None
             g = copy.deepcopy(f)
             g.cells |= {} if stored else changed
-            return Planted(name, kind, g, tuple(changed)[:near], changed if stored else {})
+            return Planted(kind, g, tuple(changed)[:near], changed if stored else {})
 
-        plant.__name__ = changes.__name__
-        FAULTS.append(plant)
-        return plant
+        FAULTS[name] = plant
 
     return register
+
+
+def in_column(
+    name: str, kind: str, role: str, steps: Iterable[int],
+    change: Callable[[Foreign, str, Any], object], *, stored: bool = False,
+) -> None:  # fmt: skip
+    """A fault in a column, in some steps or all: what a formula with its value is changed into."""
+
+    def changes(f: Foreign, values: Values) -> Mapping[Place, Any]:
+        return {p: change(f, t, values.get(p)) for p, t in _formulas(f, role, *steps).items()}
+
+    fault(name, kind, stored=stored)(changes)
 
 
 def ref(place: Place) -> str:
@@ -62,44 +71,13 @@ def _formulas(f: Foreign, role: str, *steps: int) -> dict[Place, str]:
     return {p: t for p, t in texts.items() if isinstance(t, str) and t.startswith("=")}
 
 
-@fault("stale value", "stale value", stored=True)
-def stale_value(f: Foreign, values: Values) -> Mapping[Place, Any]:
-    """One stored value is not what its formula gives."""
-    return {place: values[place] * (1 + 1e-11) for place in _formulas(f, BRAKE, 60)}
-
-
-@fault("typed number", "typed number")
-def typed_number(f: Foreign, values: Values) -> Mapping[Place, Any]:
-    """A number over a formula, half a percent off."""
-    return {place: float(f"{values[place] * 1.005:.6g}") for place in _formulas(f, DEPTH, 40)}
-
-
-@fault("typed number, right value", "typed number")
-def typed_right_number(f: Foreign, values: Values) -> Mapping[Place, Any]:
-    """The right number over a formula: wrong as soon as an input changes."""
-    role = END if (END, 77) in f.where else START
-    return {place: values[place] for place in _formulas(f, role, 77)}
-
-
-@fault("odd formula", "odd formula")
-def odd_formula(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """A formula copied without its references moving: it reads the row before."""
-    return dict(zip(_formulas(f, DEPTH, 52), _formulas(f, DEPTH, 51).values(), strict=True))
-
-
-@fault("odd formula, factor", "odd formula")
-def odd_sign(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """One formula with another factor in it."""
-    return {place: f"=({text[1:]})*1.01" for place, text in _formulas(f, BRAKE, 33).items()}
-
-
 def _names(f: Foreign, place: Place) -> list[str]:
     """The names of a cell."""
     cell = f"${letters(place[2])}${place[1]}"
     return [name for name, meaning in f.names.items() if meaning.rpartition("!")[2] == cell]
 
 
-def _typed(f: Foreign, text: str) -> str:
+def _typed(f: Foreign, text: str, _: object) -> str:
     """A formula with the value of an input in place of its cell."""
     references = []
     for role, place in f.inputs.items():
@@ -115,20 +93,30 @@ def _typed(f: Foreign, text: str) -> str:
     return text
 
 
-@fault("typed constant, one cell", "typed constant")
-def typed_constant(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """An input's value in place of its cell, in one formula."""
-    return {place: _typed(f, text) for place, text in _formulas(f, BRAKE, 45).items()}
+in_column("stale value", "stale value", BRAKE, [60], lambda _f, _, v: v * (1 + 1e-11), stored=True)
+in_column("typed number", "typed number", DEPTH, [40], lambda _f, _, v: float(f"{v * 1.005:.6g}"))
 
 
-@fault("typed constant, column", "typed constant")
-def typed_column(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """An input's value in place of its cell, in a whole column."""
-    return {place: _typed(f, text) for place, text in _formulas(f, BRAKE).items()}
+@fault("typed number, right value", "typed number")
+def _(f: Foreign, values: Values) -> Mapping[Place, Any]:
+    """The right number over a formula: wrong as soon as an input changes."""
+    role = END if (END, 77) in f.where else START
+    return {place: values[place] for place in _formulas(f, role, 77)}
+
+
+@fault("odd formula", "odd formula")
+def _(f: Foreign, _: Values) -> Mapping[Place, Any]:
+    """A formula copied without its references moving: it reads the row before."""
+    return dict(zip(_formulas(f, DEPTH, 52), _formulas(f, DEPTH, 51).values(), strict=True))
+
+
+in_column("odd formula, factor", "odd formula", BRAKE, [33], lambda _f, t, _: f"=({t[1:]})*1.01")
+in_column("typed constant, one cell", "typed constant", BRAKE, [45], _typed)
+in_column("typed constant, column", "typed constant", BRAKE, [], _typed)
 
 
 @fault("operation order", "operation order", near=999)
-def operation_order(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """The same product from its other end, which changes last digits."""
     product = r"=(-?\(.*?\))\*PI\(\)\*(\(.*\))/([^/()]+)"
     texts = _formulas(f, BRAKE)
@@ -138,7 +126,7 @@ def operation_order(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 
 
 @fault("no half step", "other scheme")
-def no_half_step(f: Foreign, _: Values) -> Mapping[Place, Any]:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any]:
     """The first step as long as the others."""
     texts = _formulas(f, DEPTH, 1).items()
     old, new = "/2", ""
@@ -148,7 +136,7 @@ def no_half_step(f: Foreign, _: Values) -> Mapping[Place, Any]:
 
 
 @fault("middle velocity", "other scheme", near=3)
-def middle_velocity(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """The drag at the velocity in the middle of the step."""
     texts = _formulas(f, BRAKE)
     if {"A(x)", "force"} & set(f.cells.values()) or not f.si or (START, 1) not in f.where:
@@ -168,7 +156,7 @@ def middle_velocity(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 
 
 @fault("explicit Euler", "other scheme", near=3)
-def explicit_euler(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """The depth moves on by the velocity of the row before.
 
     In row 2 that is still nearly the same: row 2 or 3 shows it.
@@ -182,10 +170,7 @@ def explicit_euler(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     return changes
 
 
-@fault("drag without 1/2", "other scheme")
-def drag_without_half(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """The factor 1/2 of the drag left out."""
-    return {place: text.replace("0.5*", "", 1) for place, text in _formulas(f, BRAKE).items()}
+in_column("drag without 1/2", "other scheme", BRAKE, [], lambda _f, t, _: t.replace("0.5*", "", 1))
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
@@ -201,10 +186,10 @@ def early_stop(f: Foreign, _: Values) -> Planted | None:
                for p, c in f.cells.items() if p not in gone}  # fmt: skip
     role = END if (END, 40) in f.where else START
     cells = (f.where[role, f.steps - 9],)
-    return Planted("stop at another velocity", "other scheme", g, cells)
+    return Planted("other scheme", g, cells)
 
 
-FAULTS.append(early_stop)
+FAULTS["stop at another velocity"] = early_stop
 
 
 def _across(f: Foreign) -> bool:
@@ -232,26 +217,16 @@ def _replaced(f: Foreign, pattern: str, to: str) -> Mapping[Place, Any]:
     return dict(next(([entry] for entry in changed if entry[1] != f.cells[entry[0]]), []))
 
 
-@fault("wrong mass formula, pi", "odd formula")
-def wrong_pi(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """The mass with three digits of pi."""
-    return _replaced(f, r"(4/3\*)PI\(\)|PI\(\)(/6)", r"\g<1>3.14\2")
-
-
-@fault("wrong mass formula", "odd formula")
-def wrong_mass(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """The mass with the square of the radius or without a third."""
-    return _replaced(f, r"4/3\*PI\(\)|PI\(\)/6", "4*PI()")
-
-
-@fault("wrong diameter formula", "odd formula")
-def wrong_diameter(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """The diameter is the radius."""
-    return _replaced(f, r"^=2\*(\$?[A-Z]+\$?\d+)$", r"=\1")
+for _name, _pattern, _to in (
+    ("wrong mass formula, pi", r"(4/3\*)PI\(\)|PI\(\)(/6)", r"\g<1>3.14\2"),
+    ("wrong mass formula", r"4/3\*PI\(\)|PI\(\)/6", "4*PI()"),
+    ("wrong diameter formula", r"^=2\*(\$?[A-Z]+\$?\d+)$", r"=\1"),
+):
+    fault(_name, "odd formula")(lambda f, _, p=_pattern, to=_to: _replaced(f, p, to))
 
 
 @fault("wrong resistance formula", "odd formula")
-def wrong_resistance(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """The resistance is a sum where it should be a product."""
     if not {"beta", "flow_stress"} <= set(f.inputs) or f.name == "side-by-side":
         return None
@@ -263,7 +238,7 @@ UNITS = (("µm", "mm"), ("(m)", "(mm)"), ("[m]", "[mm]"), ("in m", "in mm"), (" 
 
 
 @fault("unit in a head", "unit")
-def wrong_head(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A head that says millimetres over metres, or micrometres."""
     sheet, row, column = f.where[DEPTH, 1]
     for back in range(2, 5):
@@ -278,7 +253,7 @@ def wrong_head(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 
 
 @fault("unit of an input", "unit")
-def wrong_unit_input(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """The radius a thousand times too large, as if its cell were in millimetres."""
     place = f.inputs.get("radius")
     if place is None or not _formulas(f, DEPTH, 3):
@@ -294,14 +269,14 @@ def other_velocity(f: Foreign, _: Values) -> Planted | None:
     g = made(f.name, replace(f.impact, velocity=450.0)) if f.name in BY_HAND else f
     if g.cells[g.inputs["velocity"]] != 450.0:
         return None  # its velocity is typed in another unit
-    return Planted("other input", "other input", g, (g.inputs["velocity"],), status=0)
+    return Planted("other input", g, (g.inputs["velocity"],), status=False)
 
 
-FAULTS.append(other_velocity)
+FAULTS["other input"] = other_velocity
 
 
 @fault("misprint", "printed number")
-def misprint(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
+def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A final depth typed beside the table, with two digits swapped."""
     if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
         return None

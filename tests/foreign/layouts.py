@@ -107,7 +107,7 @@ def made(layout: str, impact: Impact, rows: int | None = None) -> Foreign:
                 if content is not None:
                     f.cells[sheet, row, c] = content
         elif parts:
-            _column(f, sheet, table, first, *parts)
+            add_column(f, sheet, table, first, *parts)
         elif word == "table":
             options = dict(re.findall(r"(heads|steps) (\d+)", rest))
             start, across = rest.split()[0], "across" in rest
@@ -126,7 +126,7 @@ def made(layout: str, impact: Impact, rows: int | None = None) -> Foreign:
     return f
 
 
-def _column(
+def add_column(
     f: Foreign, sheet: str, table: Table, line: str, head: str, role: str, zero: str, rest: str,
     first: str = "",
 ) -> None:  # fmt: skip

@@ -7,8 +7,8 @@ import math
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Sequence
-from functools import cache
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, partial
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
@@ -65,28 +65,18 @@ def _with_values(books: Iterable[Foreign]) -> list[tuple[Foreign, writers.Values
 
 
 def planted(
-    plant: Callable[..., Planted | None],
-    folder: Path,
-    books: Sequence[tuple[Foreign, writers.Values]] | None = None,
-) -> tuple[str, list[tuple[str, bool, bool]]]:
-    """One fault in every workbook that can have it: its name; each workbook, found, found alone.
+    fault: str, folder: Path, books: Iterable[tuple[Foreign, writers.Values]]
+) -> Iterator[tuple[str, bool, bool]]:
+    """One fault in every workbook that can have it: the workbook, found, found alone.
 
     Found: named rightly, placed on the right cell, called the first, and the depth that should be
     is the right one; alone: nothing else accused.
     """
-    fault, result = "", []
-    for f, values in books or to_spoil():
-        spoiled = plant(f, values)
-        if spoiled is not None:
+    for f, values in books:
+        if spoiled := FAULTS[fault](f, values):
             path = folder / "spoiled.xlsx"
-            if spoiled.wrong:
-                writers.with_xlsxwriter(spoiled.workbook, path, values, spoiled.wrong)
-            else:
-                writers.with_openpyxl(spoiled.workbook, path)
-            fault = spoiled.fault
-            done = check(path)
-            result.append((f.name, _found(spoiled, done), len(done.causes) <= 1))
-    return fault, result
+            done = check(writers.written(spoiled.workbook, path, values, spoiled.wrong))
+            yield f.name, _found(spoiled, done), len(done.causes) <= 1
 
 
 def _found(spoiled: Planted, done: Check) -> bool:
@@ -94,18 +84,18 @@ def _found(spoiled: Planted, done: Check) -> bool:
     depths = [examination.right_depth for examination in done.examinations]
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
-    if spoiled.status:
-        first = done.first
-        return first is not None and first.kind == spoiled.kind and first.place in spoiled.cells
-    said = any(d.kind == spoiled.kind and d.place in spoiled.cells for d in done.differences)
-    return said and done.first is None
+    accused = [done.first] if spoiled.status else done.differences
+    said = any(d and d.kind == spoiled.kind and d.place in spoiled.cells for d in accused)
+    return said and (done.first is not None) == spoiled.status
 
 
 WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "LibreOffice .xls")
+Row = tuple[str, list[str]]
+"""A row of one of the two tables, and the workbooks that it speaks against."""
 
 
-def right_row(made_by: str, folder: Path) -> tuple[str, list[str]]:
-    """A row of the first table, and the workbooks that are not clean."""
+def right_row(made_by: str, folder: Path) -> Row:
+    """How many right workbooks are clean."""
     books = workbooks(made_by)
     paths = [folder / f"{number}.xlsx" for number in range(len(books))]
     for f, path in zip(books, paths, strict=True):
@@ -119,29 +109,34 @@ def right_row(made_by: str, folder: Path) -> tuple[str, list[str]]:
     return f"| {made_by} | {len(books)} | {len(books) - len(missed)} |", missed
 
 
-def planted_row(plant: Callable[..., Planted | None], folder: Path) -> tuple[str, list[str]]:
-    """A row of the second table, and the workbooks in which the fault is not found."""
-    fault, result = planted(plant, folder)
+def planted_row(fault: str, folder: Path) -> Row:
+    """In how many workbooks a fault is found."""
+    result = list(planted(fault, folder, to_spoil()))
     missed = [name for name, good, _ in result if not good]
     alone = sum(lone for *_, lone in result)
     return f"| {fault} | {len(result)} | {len(result) - len(missed)} | {alone} |", missed
 
 
+TABLES: dict[str, dict[str, Callable[[Path], Row]]] = {
+    "| made by | right workbooks | clean |\n|---|---|---|":
+        {made_by: partial(right_row, made_by) for made_by in WRITERS},
+    "| planted | workbooks | found, named and placed | nothing else accused |\n|---|---|---|---|":
+        {fault: partial(planted_row, fault) for fault in FAULTS},
+}  # fmt: skip
+
+
 def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        print("| made by | right workbooks | clean |\n|---|---|---|")
-        for made_by in WRITERS:
-            if shutil.which("soffice") or not made_by.startswith("LibreOffice"):
-                print(right_row(made_by, folder)[0], flush=True)
-        print("\n| planted | workbooks | found, named and placed | nothing else accused |")
-        print("|---|---|---|---|")
-        for plant in FAULTS:
-            print(planted_row(plant, folder)[0], flush=True)
+        for head, rows in TABLES.items():
+            print(f"\n{head}")
+            for made_by, row in rows.items():
+                if shutil.which("soffice") or not made_by.startswith("LibreOffice"):
+                    print(row(folder)[0], flush=True)
         books = [drawn(seed, CASES[seed % 2]) for seed in AFRESH]
         good = sum(clean(f, writers.with_openpyxl(f, folder / "drawn.xlsx")) for f in books)
         some = _with_values(books[:10])
-        result = [entry for plant in FAULTS for entry in planted(plant, folder, some)[1]]
+        result = [entry for fault in FAULTS for entry in planted(fault, folder, some)]
         print(f"\nDrawn afresh: {good} of {len(books)} clean, "
               f"{sum(entry[1] for entry in result)} of {len(result)} faults found")  # fmt: skip
 

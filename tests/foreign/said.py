@@ -9,7 +9,6 @@ digits are in it.
 """
 
 import math
-import random
 import re
 import sys
 import tempfile
@@ -21,9 +20,10 @@ from typing import Any, NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
-from foreign import faults, layouts, writers
+from foreign import layouts, writers
 from foreign.drawn import drawn
-from foreign.layouts import BY_HAND, Content, Foreign, made
+from foreign.faults import FAULTS
+from foreign.layouts import BY_HAND, Foreign, made
 
 from replication.cases import BETA_3, BETA_5
 from replication.check import show
@@ -32,7 +32,6 @@ from replication.check.examination import KINDS
 from replication.check.scheme import KNOWN, REPORT, Case, march
 from replication.check.show import check_record, diff_record
 from replication.check.workbook import Check, check
-from replication.models.impact import Impact
 from spreadsheets.foreign import WorkbookError
 
 COARSE = replace(BETA_5, step=5e-10)
@@ -42,10 +41,9 @@ Edits = list[tuple[str, str]]
 
 
 class Book(NamedTuple):
-    """A workbook to check: what it is made from, what --map says, false values stored in it."""
+    """A workbook to check, what --map says, the values stored in it, and which are false."""
 
     f: Foreign
-    like: Foreign | None = None
     given: Mapping[str, str] | None = None
     values: writers.Values | None = None
     wrong: writers.Values | None = None
@@ -70,18 +68,18 @@ def cases() -> dict[str, dict[str, Edits]]:
 
 def _edit(text: str) -> tuple[str, str]:
     """A cell, of a sheet whose name may have blanks, and what it is to hold; or a word of ours."""
-    cell = re.match(r"(?!map|before|stored)([^=|]+!)?[A-Z]+\d+(:\d*)*(?= |$)", text)
+    cell = re.match(r"(?!map|before|stored)(((?! =).)+!)?[A-Z]+\d+(:\d*)*(?= |$)", text)
     word = cell[0] if cell else text.partition(" ")[0]
     return word, text[len(word) + 1 :]
 
 
-def start(edits: Edits, *, changed: bool = True) -> Foreign:
-    """The right workbook that a case starts from, with its own rows and inputs if `changed`."""
+def start(edits: Edits) -> Foreign:
+    """The right workbook that a case starts from, with its own rows and inputs."""
     given = dict(edits)
     layout = given.get("layout", "plain")
     impact = BETA_5 if layout in BY_HAND else COARSE
-    if not changed:
-        return made(layout, impact)
+    if layout.startswith("random-"):
+        return drawn(int(layout.partition("-")[2]), impact)
     inputs = {name: float(given[name]) for name in ("velocity", "radius", "beta", "step")
               if name in given}  # fmt: skip
     return made(layout, replace(impact, **inputs), int(given.get("rows", 0)))
@@ -105,19 +103,14 @@ def edited(f: Foreign, edits: Edits) -> Foreign:
 
 
 def book(edits: Edits) -> Book:
-    """A case: its workbook, the one it is made from, what --map says, and false values stored."""
-    f, like = edited(start(edits), edits), start(edits, changed=False)
+    """A case as a workbook."""
+    f = edited(start(edits), edits)
     false = dict(_edit(text) for word, text in edits if word == "stored")
     wrong = {
         place: v for cell, text in false.items() for place, v in layouts.contents(f, cell, text)
     }
-    return Book(
-        f,
-        like if like.cells else None,
-        dict(text.split("=", 1) for word, text in edits if word == "map"),
-        writers.calculated(f) if wrong else {},
-        wrong,
-    )
+    given = dict(text.split("=", 1) for word, text in edits if word == "map")
+    return Book(f, given, writers.calculated(f) if wrong else {}, wrong)
 
 
 def right(*books: Foreign) -> Iterator[str]:
@@ -138,17 +131,17 @@ def to_spoil(name: str) -> tuple[Foreign, writers.Values]:
     return f, writers.calculated(f)
 
 
-def planted(plant: Callable[..., faults.Planted | None]) -> Iterator[str]:
+def planted(fault: str) -> Iterator[str]:
     """One fault in two layouts, another two for the next fault."""
-    number, done = faults.FAULTS.index(plant), 0
+    first, done = 5 * list(FAULTS).index(fault), 0
     for i in range(len(SPOILED)):
-        f, values = to_spoil(SPOILED[(5 * number + i) % len(SPOILED)])
-        if plant is faults.operation_order and any("^" in str(c) for c in f.cells.values()):
+        f, values = to_spoil(SPOILED[(first + i) % len(SPOILED)])
+        if fault == "operation order" and any("^" in str(c) for c in f.cells.values()):
             continue  # which may differ in the last digit from machine to machine
-        spoiled = plant(f, values)
+        spoiled = FAULTS[fault](f, values)
         if spoiled is not None and done < 2:
             done += 1
-            yield from said(f"in {f.name}", Book(spoiled.workbook, f, {}, values, spoiled.wrong))
+            yield from said(f"in {f.name}", Book(spoiled.workbook, {}, values, spoiled.wrong))
 
 
 def other_digits() -> Iterator[str]:
@@ -162,40 +155,11 @@ def other_digits() -> Iterator[str]:
             if isinstance(content := f.cells[place], float) and report.get(role, {}).get(k):
                 unit = 10.0 ** round(math.log10(content / report[role][k]))
                 f.cells[place] = float(f"{rows[role][k] * unit:.6g}")
-        yield from said(f"six digits of {rules[1].name}", Book(f, made("six-digits", BETA_5)))
+        yield from said(f"six digits of {rules[1].name}", Book(f))
     f = made("pasted", BETA_5)
     texts = {p: f"{v:.6g}".replace(".", ",") for p, v in f.cells.items() if isinstance(v, float)}
     f.cells |= texts
     yield from said("numbers as text, with commas", Book(f))
-
-
-CONTENTS: tuple[Content, ...] = (
-    None, 0, -1, 3, 1e-6, 1e15, 450, True, "x", "v [mm]", "dt", "(m)", "µm", "0,5", "=1/0",
-    "=2+3", "={c}*2", "={c}-{c}", "=1000*{c}",
-)  # fmt: skip
-"""What is written over cells drawn at random; {c} is another cell of the sheet."""
-
-
-def at_random() -> Iterator[str]:
-    """Drawn layouts with contents written over one input or head and over two other cells."""
-    for seed in range(100, 126):
-        r = random.Random(seed)
-        f = drawn(seed, COARSE) if seed % 4 else made(SPOILED[seed // 4 % 12], BETA_5)
-        like = replace(f, cells=dict(f.cells))
-        outside = [place for place in f.cells if place not in f.where.values()]
-        told = []
-        for places in (outside, list(f.cells), list(f.where.values())):
-            here, another = r.choice(places), r.choice(places)
-            there = f"'{another[0]}'!{layouts.letters(another[2])}{another[1]}"
-            content = r.choice(CONTENTS)
-            if isinstance(content, str):
-                content = content.format(c=there)
-            told.append(f"{content!r} in {here[0]}!{layouts.letters(here[2])}{here[1]}")
-            if content is None:
-                f.cells.pop(here, None)
-            else:
-                f.cells[here] = content
-        yield from said(f"{f.name}: {', '.join(told)}", Book(f, like))
 
 
 # ---- what is said of them
@@ -204,11 +168,7 @@ def at_random() -> Iterator[str]:
 def checked(book: Book) -> Check:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "book.xlsx")
-        if book.wrong:
-            writers.with_xlsxwriter(book.f, path, book.values or {}, book.wrong)
-        else:
-            writers.with_openpyxl(book.f, path)
-        return check(path, book.given or {})
+        return check(writers.written(book.f, path, book.values, book.wrong), book.given)
 
 
 def whole(title: str, book: Book) -> Iterator[str]:
@@ -245,7 +205,7 @@ MOST = 7
 def said(title: str, book: Book) -> Iterator[str]:
     """The answer in few lines: status, verdict, every difference, what was taken for what.
 
-    Of this only what is otherwise in the workbook that it is `like`.
+    Of this only what is otherwise in the right workbook of its layout.
     """
     try:
         record = check_record(checked(book))
@@ -273,26 +233,24 @@ def said(title: str, book: Book) -> Iterator[str]:
                  for c in claims if not c["met"]]  # fmt: skip
         not_so = f"; not {', '.join(unmet)}" if unmet else ""
         yield f"  {len(claims) - len(unmet)} of {len(claims)} printed numbers{not_so}"
-    before = _taken(book.like) if book.like else [[]]
-    for taken, usual in zip(_taken_of(record), before * len(record["taken"]), strict=False):
+    before = usual(book.f.name) * len(record["taken"])
+    for taken, expected in zip(_taken(record), before, strict=False):
         here = {entry.partition(" ")[0] for entry in taken}
-        gone = [role for entry in usual[1:] if (role := entry.partition(" ")[0]) not in here]
-        another = [entry for entry in taken if entry not in usual] + [f"no {role}" for role in gone]
+        gone = [role for entry in expected[1:] if (role := entry.partition(" ")[0]) not in here]
+        another = [entry for entry in taken if entry not in expected]
+        another += [f"no {role}" for role in gone]
         if another:
             yield f"  taken: {', '.join(another)}"
 
 
-_RIGHT: dict[tuple[str, Impact], list[list[str]]] = {}
+@cache
+def usual(layout: str) -> list[list[str]]:
+    """What is taken for what in the right workbook of a layout."""
+    f = start([("layout", layout)])
+    return list(_taken(check_record(checked(Book(f))))) if f.cells else [[]]
 
 
-def _taken(f: Foreign) -> list[list[str]]:
-    """What is taken for what in a right workbook."""
-    if (f.name, f.impact) not in _RIGHT:
-        _RIGHT[f.name, f.impact] = list(_taken_of(check_record(checked(Book(f)))))
-    return _RIGHT[f.name, f.impact]
-
-
-def _taken_of(record: Mapping[str, Any]) -> Iterator[list[str]]:
+def _taken(record: Mapping[str, Any]) -> Iterator[list[str]]:
     for table in record["taken"]:
         yield [
             f"{table['sheet']}: {table['steps']} steps {table['direction']}, {table['scheme']}",
@@ -374,10 +332,9 @@ SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
     "right: beta 3": partial(right, *(made(layout, BETA_3) for layout in (
         "table-a1", "french", "one-velocity", "pasted", "no-deceleration"))),
     "right: drawn": partial(right, *(drawn(seed, COARSE) for seed in (1, 3, 4, 7, 8, 11))),
-    **{f"planted: {plant.__name__}": partial(planted, plant) for plant in faults.FAULTS},
+    **{f"planted: {fault}": partial(planted, fault) for fault in FAULTS},
     **{name: partial(answers, name) for name in CASES},
     "digits of other schemes": other_digits,
-    "spoiled at random": at_random,
 }  # fmt: skip
 
 

@@ -73,6 +73,11 @@ class Exact(float):
     __str__ = float.__repr__
 
 
+def written(f: Foreign, path: Path, values: Values | None, wrong: Values | None) -> Path:
+    """A file without stored values; with them, some of them `wrong`, where there are such."""
+    return with_xlsxwriter(f, path, values or {}, wrong) if wrong else with_openpyxl(f, path)
+
+
 def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
     """The same workbooks, calculated and saved by LibreOffice in one run."""
     soffice = shutil.which("soffice")

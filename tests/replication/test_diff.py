@@ -2,50 +2,42 @@
 
 import json
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import pytest
 from foreign import writers
-from foreign.layouts import Foreign, made
+from foreign.layouts import made
 
 from replication.cases import BETA_5
 from replication.check.diff import KINDS, Tolerance
 
 Run = Callable[..., tuple[int, str, str]]
-Diff = Callable[..., tuple[int, dict]]
 
 
-@pytest.fixture
-def diff(coldspray: Run, tmp_path: Path) -> Diff:
-    """Compare table A-1 with a changed copy: the status and the record."""
+@pytest.mark.parametrize(
+    ("options", "kinds"),
+    [
+        ("", {"formula", "value"}),
+        ("--values-only", {"value"}),
+        ("--values-only --relative 1e-11", set()),
+        ("--values-only --digits 9", set()),
+        ("--values-only --digits 17", {"value"}),
+    ],
+)
+def test_options_say_what_is_compared(
+    coldspray: Run, tmp_path: Path, options: str, kinds: set[str]
+) -> None:
+    paths = []
+    for name, formula in (("a.xlsx", "=2*B1"), ("b.xlsx", "=2*B1*(1+1E-14)")):
+        f = made("table-a1", BETA_5)
+        f.put("Sheet1", "B4", formula)
+        paths.append(writers.with_openpyxl(f, tmp_path / name))
+    status, out, err = coldspray("diff", *paths, "--json", *options.split())
+    assert (status, err) == (bool(kinds), "")
+    assert set(json.loads(out)["summary"]) == kinds
 
-    def run(change: Callable[[Foreign], None], *options: str) -> tuple[int, dict]:
-        f, g = made("table-a1", BETA_5), made("table-a1", BETA_5)
-        change(g)
-        a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
-        b = writers.with_openpyxl(g, tmp_path / "b.xlsx")
-        status, out, err = coldspray("diff", a, b, "--json", *options)
-        assert err == ""
-        return status, json.loads(out)
 
-    return run
-
-
-def test_values_only(diff: Diff) -> None:
-    changed = partial(Foreign.put, sheet="Sheet1", address="D60", content="=D59+C60*0.0000000003")
-    assert set(diff(changed)[1]["summary"]) == {"formula", "value"}
-    assert set(diff(changed, "--values-only")[1]["summary"]) == {"value"}
-
-
-def test_tolerances(diff: Diff) -> None:
-    def nudge(f: Foreign) -> None:
-        f.put("Sheet1", "B1", 1.1e-5 * (1 + 1e-14))
-
-    assert diff(nudge)[0] == 1
-    assert diff(nudge, "--relative", "1e-11")[0] == 0
-    assert diff(nudge, "--digits", "9")[0] == 0
-    assert diff(nudge, "--digits", "17")[0] == 1
+def test_tolerances() -> None:
     assert Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
     assert not Tolerance(ulp=1).equal(1.0, 1.0 + 2**-51)
     assert not Tolerance(digits=3).equal(7.664, 7.666)
