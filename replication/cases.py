@@ -7,7 +7,7 @@ from typing import Any
 
 from reference.ledger import claims_of_case, load
 from replication.models.impact import Impact
-from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
+from replication.reading import quoted, read_numbers, tables_of
 
 INPUTS = {
     "velocity": "m/s",
@@ -43,19 +43,9 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
         raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
     impact = CASES[name]
     if file is not None:
-        tables, _ = read_tables(file, ["impact"])
-        with place(name_of(file)):
-            impact = _changed(impact, tables["impact"])
-    return _changed(impact, given)
-
-
-def _changed(impact: Impact, given: Mapping[str, Any]) -> Impact:
-    check_keys(given, allowed=INPUTS)
-    values = {}
-    for key, text in given.items():
-        with place(key):
-            values[key] = read_number(str(text), INPUTS[key])
-    return changed(impact, values)
+        with tables_of(file, ["impact"]) as (tables, _):
+            impact = changed(impact, read_numbers(tables["impact"], INPUTS))
+    return changed(impact, read_numbers(given, INPUTS))
 
 
 def changed(impact: Impact, values: Mapping[str, float]) -> Impact:

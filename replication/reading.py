@@ -1,6 +1,5 @@
 """What a user wrote: files, TOML, numbers with units, read within bounds and quoted in one line."""
 
-import math
 import re
 import sys
 import tomllib
@@ -12,9 +11,7 @@ from typing import Any
 from reference.units import quantity
 
 _SIZE = 2**20
-_DEPTH = 20
 _QUOTED = 60
-_NAME = 255
 
 
 def quoted(text: object, longest: int = _QUOTED) -> str:
@@ -27,12 +24,6 @@ def quoted(text: object, longest: int = _QUOTED) -> str:
     part = shown[:longest]
     end = "" if part == shown else "..."
     return f"{repr(part) if type(text) is str else one_line(part)}{end}"
-
-
-def name_of(path: object) -> str:
-    """The name of a file, as a message may show it: one line, and its end if it is very long."""
-    name = str(path)
-    return one_line(name if len(name) <= _NAME else f"...{name[-_NAME:]}")
 
 
 def one_line(message: str, longest: int = 340) -> str:
@@ -49,21 +40,18 @@ def one_line(message: str, longest: int = 340) -> str:
     return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1 :]}"
 
 
-def read_file(path: Path, largest: int = _SIZE) -> bytes:
-    """The bytes of a file or a pipe, at most so many.
-
-    Raises ValueError for a larger one and for a device, OSError where it cannot be read.
-    """
+def _content(path: Path) -> bytes:
+    """The bytes of a file or a pipe; ValueError for a large one and for a device, or OSError."""
     if path.is_char_device():
-        raise ValueError(f"{name_of(path)} is a device, not a file")
+        raise ValueError(f"{path} is a device, not a file")
     try:
         with path.open("rb") as file:
-            content = file.read(largest + 1)
+            content = file.read(_SIZE + 1)
     except OSError as error:
         error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
         raise
-    if len(content) > largest:
-        raise ValueError(f"{name_of(path)} is larger than {largest:,} bytes")
+    if len(content) > _SIZE:
+        raise ValueError(f"{path} is larger than {_SIZE:,} bytes")
     return content
 
 
@@ -82,57 +70,49 @@ def place(name: str) -> Iterator[None]:
         raise ValueError(f"{name}: {error}") from error
 
 
-class _Float(str):
-    """A float as it is written; unlike a text it is shown without quotes."""
-
-    __slots__ = ()
-    __repr__ = str.__str__
-
-
-_DOTTED = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEPTH)
-"""A key of so many parts, which nests as deep; one of a megabyte would take hours to read."""
+_DOTTED = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){20}""")
+"""A key of more than twenty parts; one of a megabyte would take hours to read."""
 
 
 def parse_toml(content: bytes) -> dict[str, Any]:
-    r"""A TOML document, its floats as they are written. Raises ValueError if it is none.
+    r"""A TOML document. Raises ValueError if it is none.
 
     >>> parse_toml(b"[impact]\nvelocity = 450.0")
     {'impact': {'velocity': 450.0}}
     """
-    deepest = depth = 0
-    for byte in content:
-        depth += (byte in b"[{") - (byte in b"]}")
-        deepest = max(deepest, depth)
-    if deepest > _DEPTH or _DOTTED.search(content):
-        raise ValueError(f"is nested more than {_DEPTH} deep")
     try:
+        if _DOTTED.search(content):
+            raise RecursionError
         # Notepad and others put a byte order mark before it.
-        return tomllib.loads(content.decode("utf-8-sig"), parse_float=_Float)
+        return tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise ValueError("is no TOML file: it is not UTF-8 text") from error
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"is no TOML file: {one_line(str(error), 200)}") from error
+    except RecursionError as error:
+        raise ValueError("is nested too deep") from error
     except ValueError as error:
         most = sys.get_int_max_str_digits()
         raise ValueError(f"holds a whole number of more than {most} digits") from error
 
 
-def read_tables(
+@contextmanager
+def tables_of(
     path: Path, wanted: Sequence[str], allowed: Sequence[str] = ()
-) -> tuple[dict[str, dict[str, Any]], bytes]:
-    """The tables of a TOML file by name, and its bytes.
+) -> Iterator[tuple[dict[str, dict[str, Any]], bytes]]:
+    """The tables of a TOML file by name, and its bytes; a ValueError in the block names the file.
 
-    Raises OSError, or ValueError that names the file: for what is no TOML, one table too many or
-    too few, or what is no table.
+    Raises OSError, or ValueError for what is no TOML, one table too many or too few, or what is no
+    table.
     """
-    content = read_file(path)
-    with place(name_of(path)):
+    content = _content(path)
+    with place(str(path)):
         document = parse_toml(content)
         for name, table in document.items():
             if not isinstance(table, dict):
                 raise ValueError(f"{quoted(name)} is no table: begin with a line [{wanted[0]}]")
         check_keys(document, wanted, allowed)
-    return document, content
+        yield document, content
 
 
 def check_keys(
@@ -157,14 +137,22 @@ def read_number(text: str, unit: str) -> float:
     5e-10
     """
     try:
-        number = float(text) if len(text) <= _QUOTED else math.nan
-    except ValueError:
-        number = math.nan
-    if math.isnan(number) and text.strip().lower() not in ("nan", "+nan", "-nan"):
-        try:
-            number = float(quantity(text, unit))
-        except OverflowError:
-            number = math.inf
-    if not math.isfinite(number):
-        raise ValueError(f"{quoted(text)} is no finite number that a double can hold")
-    return number
+        return float(quantity(text, unit))
+    except OverflowError as error:
+        raise ValueError(f"{quoted(text)} is no finite number that a double can hold") from error
+
+
+def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
+    """The numbers of a table as SI; `units` has the keys that it may have, and what they measure.
+
+    Raises ValueError that names the key.
+
+    >>> read_numbers({"step": "0.5 ns"}, {"radius": "m", "step": "s"})
+    {'step': 5e-10}
+    """
+    check_keys(table, allowed=units)
+    numbers = {}
+    for key, value in table.items():
+        with place(key):
+            numbers[key] = read_number(str(value), units[key])
+    return numbers

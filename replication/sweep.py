@@ -23,7 +23,7 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.impact import Impact, InputError, check, particle_mass
 from replication.models.stream import particle_velocity
-from replication.reading import check_keys, name_of, place, quoted, read_number, read_tables
+from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
 from spreadsheets.safely import check_target, draft_of
 
 Floats = npt.NDArray[np.float64]
@@ -87,11 +87,13 @@ class Plan:
 
     `sources` has every input, in the order that the file gives them: the first varies slowest, and
     of each combination there are `samples` cases, each with random numbers of its own by `seed`.
-    `extras` are of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an input
-    or a combination of them would leave the range that `Impact` allows.
+    The velocity is not among them if it follows `by_mass`. `extras` are of `EXTRAS`; `digest` is
+    the SHA-256 of the file. Raises ValueError where an input or a combination of them would leave
+    the range that `Impact` allows.
     """
 
-    sources: dict[str, Source | ByMass]
+    sources: dict[str, Source]
+    by_mass: ByMass | None
     samples: int
     seed: int
     extras: tuple[str, ...]
@@ -101,12 +103,12 @@ class Plan:
         if self.count > MAX_CASES:
             raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
         # All that `Impact` checks is monotone in each input: the ends stand for the rest.
-        bounds = {name: x.bounds for name, x in self.sources.items() if isinstance(x, Source)}
+        bounds = {name: source.bounds for name, source in self.sources.items()}
         varying = {name: ends for name, ends in bounds.items() if ends[0] != ends[1]}
         for corner in itertools.product(*varying.values()):
             ends = dict(zip(varying, corner, strict=True))
             case = {name: least for name, (least, _) in bounds.items()} | ends
-            if isinstance(law := self.sources["velocity"], ByMass):
+            if law := self.by_mass:
                 mass = particle_mass(case["radius"], case["particle_density"])
                 # Without a mass there is no velocity: infinity, which is refused.
                 args = law.average_velocity, mass, law.average_mass
@@ -120,8 +122,7 @@ class Plan:
     @property
     def grid(self) -> dict[str, int]:
         """How many values the inputs have that are gone through value by value, slowest first."""
-        sources = self.sources.items()
-        return {name: x.count for name, x in sources if isinstance(x, Source) and x.count}
+        return {name: source.count for name, source in self.sources.items() if source.count}
 
     @property
     def count(self) -> int:
@@ -136,7 +137,7 @@ class Plan:
     @property
     def columns(self) -> dict[str, str]:
         """The columns in order, inputs then results: SI unit (none for a truth value)."""
-        given = {*self.sources, "resistance"}
+        given = {*self.sources, "velocity", "resistance"}
         inputs = {name: unit for name, unit in INPUTS.items() if name in given}
         return inputs | RESULTS | {name: EXTRAS[name] for name in self.extras}
 
@@ -144,20 +145,16 @@ class Plan:
         """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
         values: dict[str, Floats] = {}
         position = np.arange(first, first + count) // self.samples
-        positions: dict[str, npt.NDArray[Any]] = {}
         for name, size in reversed(self.grid.items()):
-            position, positions[name] = np.divmod(position, size)
+            position, own = np.divmod(position, size)
+            values[name] = self.sources[name].at(own)
         for stream, name in enumerate(INPUTS):
-            if isinstance(source := self.sources.get(name), Source):
-                if source.count is None:
-                    values[name] = source.at(uniform(self.seed, stream, first, count))
-                else:
-                    values[name] = source.at(positions[name])
-        velocity = self.sources["velocity"]
-        if isinstance(velocity, ByMass):
+            if name in self.sources and name not in values:
+                values[name] = self.sources[name].at(uniform(self.seed, stream, first, count))
+        if law := self.by_mass:
             mass = arrays.ufunc(particle_mass)(values["radius"], values["particle_density"])
-            law = arrays.ufunc(particle_velocity)
-            values["velocity"] = law(velocity.average_velocity, mass, velocity.average_mass)
+            args = law.average_velocity, mass, law.average_mass
+            values["velocity"] = arrays.ufunc(particle_velocity)(*args)
         if "resistance" not in values:
             values["resistance"] = values["beta"] * values["flow_stress"]
         return {name: values[name] for name in INPUTS if name in values}
@@ -203,30 +200,23 @@ def read_plan(path: Path) -> Plan:
 
     Raises OSError, or ValueError that names the file, the table, the key and what would be right.
     """
-    tables, content = read_tables(path, ["inputs"], ["sweep"])
-    settings, table = tables.get("sweep", {}), tables["inputs"]
-    with place(name_of(path)):
+    with tables_of(path, ["inputs"], ["sweep"]) as (tables, content):
+        settings, table = tables.get("sweep", {}), tables["inputs"]
         ways = [value for value in table.values() if isinstance(value, dict)]
         with place("[sweep]"):
             check_keys(settings, [], ["case", "samples", "seed", "outputs"])
-            base, extras = _settings(settings)
+            name, asked = settings.get("case", "beta-5"), settings.get("outputs", [])
+            if not isinstance(name, str) or name not in CASES:
+                raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
+            if not isinstance(asked, list) or not all(map([*EXTRAS].__contains__, asked)):
+                known = ", ".join(EXTRAS)
+                raise ValueError(f"outputs must be a list of {known}; the depths always come")
             samples, seed = _sampling(settings, any("distribution" in way for way in ways))
         with place("[inputs]"):
-            sources = _sources(table, base)
-        return Plan(sources, samples, seed, extras, hashlib.sha256(content).hexdigest())
-
-
-def _settings(settings: Table) -> tuple[dict[str, float], tuple[str, ...]]:
-    """The inputs of the case that fills in, and the results that are asked for."""
-    name = settings.get("case", "beta-5")
-    if not isinstance(name, str) or name not in CASES:
-        raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
-    asked = settings.get("outputs", [])
-    if not isinstance(asked, list) or any(name not in EXTRAS for name in asked):
-        raise ValueError(f"outputs must be a list of {', '.join(EXTRAS)}; the depths always come")
-    values = {key: getattr(CASES[name], key) for key in INPUTS}
-    base = {key: value for key, value in values.items() if value is not None}
-    return base, tuple(name for name in EXTRAS if name in asked)
+            sources, by_mass = _sources(table, CASES[name])
+        extras = tuple(name for name in EXTRAS if name in asked)
+        digest = hashlib.sha256(content).hexdigest()
+        return Plan(sources, by_mass, samples, seed, extras, digest)
 
 
 def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
@@ -242,19 +232,22 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
     return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
 
 
-def _sources(table: Table, base: dict[str, float]) -> dict[str, Source | ByMass]:
+def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], ByMass | None]:
+    """The sources of all inputs, the table's in its order; those of the case fill in."""
     check_keys(table, [], INPUTS)
-    if "resistance" in table:
-        base = {name: base[name] for name in base if name not in ("beta", "flow_stress")}
-    rest = {name: str(value) for name, value in base.items() if name not in table}
-    sources = {}
-    for name, value in (rest | table).items():  # so that the order is the file's
+    replaced = ("beta", "flow_stress") if "resistance" in table else ("resistance",)
+    rest = {name: getattr(case, name) for name in INPUTS if name not in (*table, *replaced)}
+    sources, by_mass = {}, None
+    for name, value in (rest | table).items():
         with place(name):
-            sources[name] = read_source(name, value)
-    return sources
+            if isinstance(value, dict) and "average_mass" in value:
+                by_mass = _by_mass(name, value)
+            else:
+                sources[name] = read_source(name, value)
+    return sources, by_mass
 
 
-def read_source(name: str, value: Any) -> Source | ByMass:
+def read_source(name: str, value: Any) -> Source:
     """The source of an input, all of whose values are such as the input may have.
 
     Raises ValueError that names the key, what is wrong and what would be right.
@@ -262,14 +255,15 @@ def read_source(name: str, value: Any) -> Source | ByMass:
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
     (1e-06, 5e-06)
     """
-    table = value if isinstance(value, dict) else {}
-    if "average_mass" in table:
-        return _by_mass(name, table)
-    if "distribution" in table:
-        source = _drawn(name, table)
-    elif "from" in table or table is not value:
-        values = _spaced(name, table) if table else _listed(name, value)
-        source = Source((float(values.min()), float(values.max())), values.take, len(values))
+    if not isinstance(value, dict):
+        items = value if isinstance(value, list) else [value]
+        if not items:
+            raise ValueError("the list is empty: give one value or more")
+        source = _listed(np.array([read_number(str(item), INPUTS[name]) for item in items]))
+    elif "distribution" in value:
+        source = _drawn(value, INPUTS[name])
+    elif "from" in value:
+        source = _listed(_spaced(value, INPUTS[name]))
     else:
         raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
     for number in source.bounds:
@@ -277,19 +271,17 @@ def read_source(name: str, value: Any) -> Source | ByMass:
     return source
 
 
-def _listed(name: str, value: Any) -> Floats:
-    items = value if isinstance(value, list) else [value]
-    if not items:
-        raise ValueError("the list is empty: give one value or more")
-    return np.array([_read(item, INPUTS[name]) for item in items])
+def _listed(values: Floats) -> Source:
+    return Source((float(values.min()), float(values.max())), values.take, len(values))
 
 
-def _spaced(name: str, table: Table) -> Floats:
+def _spaced(table: Table, unit: str) -> Floats:
     check_keys(table, ["from", "to", "points"], ["scale"])
     scale = table.get("scale", "linear")
     if scale not in ("linear", "log"):
         raise ValueError(f"scale is {scale!r}: choose linear or log")
-    first, last = (_number(table, key, INPUTS[name]) for key in ("from", "to"))
+    ends = {key: table[key] for key in ("from", "to")}
+    first, last = read_numbers(ends, dict.fromkeys(ends, unit)).values()
     if scale == "log" and min(first, last) <= 0:
         raise ValueError("a log scale needs from and to greater than zero")
     count = _whole_number("points", table["points"], 2, MAX_POINTS)
@@ -301,7 +293,7 @@ def _spaced(name: str, table: Table) -> Floats:
     return values.clip(min(first, last), max(first, last))
 
 
-def _drawn(name: str, table: Table) -> Source:
+def _drawn(table: Table, unit: str) -> Source:
     """A distribution, by the inverse of its cumulative probability.
 
     Uniform between lower and upper, or normal: of the quantity itself or (log) of its logarithm.
@@ -316,7 +308,8 @@ def _drawn(name: str, table: Table) -> Source:
     log, shape, ends = kind.startswith("log"), ["mean", "deviation"], ["lower", "upper"]
     wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
     check_keys(table, ["distribution", *wanted], allowed)
-    numbers = {key: _number(table, key, INPUTS[name]) for key in table if key != "distribution"}
+    given = {key: value for key, value in table.items() if key != "distribution"}
+    numbers = read_numbers(given, dict.fromkeys(given, unit))
     for key in ("deviation", *(wanted if log else [])):
         if numbers.get(key, 1.0) <= 0:
             raise ValueError(f"{key} must be greater than zero")
@@ -360,8 +353,8 @@ def _by_mass(name: str, table: Table) -> ByMass:
     if name != "velocity":
         raise ValueError("only the velocity follows from the mass, by Eq. 1")
     units = {"average_velocity": "m/s", "average_mass": "kg"}
-    check_keys(table, list(units), [])
-    numbers = {key: _number(table, key, unit) for key, unit in units.items()}
+    check_keys(table, units)
+    numbers = read_numbers(table, units)
     check(numbers)
     return ByMass(**numbers)
 
@@ -373,18 +366,6 @@ def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
             "without point or exponent"
         )
     return value
-
-
-def _number(table: Table, key: str, unit: str) -> float:
-    with place(key):
-        return _read(table[key], unit)
-
-
-def _read(value: Any, unit: str) -> float:
-    """A number of TOML, or one in a text with its unit, as SI."""
-    if not isinstance(value, str | int):
-        raise ValueError(f"{quoted(value)} is no finite number, such as 1.1e-5 or '11 um'")
-    return read_number(str(value), unit)
 
 
 # The file of the cases: whole under its name, or not there

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import pytest
 from hypothesis import settings
+from running import coldspray
 
 from replication.audit.audit import audit
 from replication.audit.record import Record
-from replication.cli import main
 
 # No test may depend on how fast the machine is.
 settings.register_profile("unhurried", deadline=None)
@@ -22,16 +22,6 @@ def record() -> Record:
     return audit()
 
 
-@pytest.fixture
-def coldspray(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
-    """Run the command in this process: status, standard output, standard error."""
-
-    def run(*arguments: object) -> tuple[int, str, str]:
-        try:
-            status = main([str(argument) for argument in arguments])
-        except SystemExit as done:
-            status = int(str(done.code))
-        captured = capsys.readouterr()
-        return status, captured.out, captured.err
-
-    return run
+@pytest.fixture(name="coldspray")
+def command() -> Callable[..., tuple[int, str, str]]:
+    return coldspray

@@ -5,8 +5,7 @@
 Each mutant is one small change of one module: another comparison, operator, number or condition. On
 a copy of the project run the module's examples and the tests called like it, then the tests that
 import it, then those that import what imports it; the first failure ends it. A mutant that none
-notices is printed with its change: it does no harm, or a test is missing. Run it by hand: it takes
-half an hour.
+notices is printed with its change: it does no harm, or a test is missing.
 """
 
 import argparse
@@ -80,35 +79,31 @@ def _change(node: ast.AST) -> tuple[str, object] | None:
     return None
 
 
-def tests_of(module: Path) -> list[list[Path]]:
-    """The tests of a module, those that are likely to notice soonest first."""
-    name = module_of(module)
-    files = sorted((ROOT / "tests").rglob("test_*.py"))
+def tests_of(module: Path) -> list[Path]:
+    """The module's examples and its tests, those that are likely to notice soonest first."""
+    name, mine = module_of(module), {module.stem, module.parent.name}
     importers = {module_of(path) for path in EVERY if name in ours(path)}
+    files = sorted((ROOT / "tests").rglob("test_*.py"))
     # `test_check_said.py` is one of the folder `check`, too.
     about = {path: path.stem.removeprefix("test_") for path in files}
-    mine = {module.stem, module.parent.name}
     own = [path for path in files if {about[path], about[path].partition("_")[0]} & mine]
-    near = [path for path in files if name in ours(path) and path not in own]
-    far = [path for path in files if importers & ours(path) and path not in own + near]
-    return [tests for tests in ([module, *own], near, far) if tests]
+    near = [path for path in files if name in ours(path)]
+    far = [path for path in files if importers & ours(path)]
+    return list(dict.fromkeys([module, *own, *near, *far]))
 
 
 def survives(module: Path, text: str, seed: int) -> bool:
     """Whether all tests pass on a copy with this text in the place of a module."""
+    options = ("-x", "-q", "-n0", "-p", "no:cacheprovider", f"--hypothesis-seed={seed}")
+    tests = [path.relative_to(ROOT) for path in tests_of(module)]
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "project"
         shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "*.egg-info"))
         (copy / module.relative_to(ROOT)).write_text(text, "utf-8")
-        return all(_pass(copy, tests, seed) for tests in tests_of(module))
-
-
-def _pass(copy: Path, tests: list[Path], seed: int) -> bool:
-    options = ("-x", "-q", "-n0", "-p", "no:cacheprovider", f"--hypothesis-seed={seed}")
-    command = [sys.executable, "-m", "pytest", *options, *(p.relative_to(ROOT) for p in tests)]
-    here = os.environ | {"PYTHONPATH": str(copy)}
-    done = subprocess.run(command, cwd=copy, env=here, capture_output=True)
-    return done.returncode in (0, 5)  # 5: there is none
+        here = os.environ | {"PYTHONPATH": str(copy)}
+        command = [sys.executable, "-m", "pytest", *options, *tests]
+        done = subprocess.run(command, cwd=copy, env=here, capture_output=True)
+        return done.returncode in (0, 5)  # 5: there is none
 
 
 def main() -> None:

@@ -5,8 +5,8 @@ import shlex
 from pathlib import Path
 
 import pytest
+from running import coldspray
 
-from replication.cli import main
 from replication.power import measured
 
 ROOT = Path(__file__).parent.parent
@@ -25,16 +25,9 @@ def test_there_are_examples() -> None:
 
 
 @pytest.mark.parametrize(("command", "output"), EXAMPLES, ids=[c for c, _ in EXAMPLES])
-def test_example_prints_what_the_readme_says(
-    command: str,
-    output: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert main(shlex.split(command)) == 0
-    printed = capsys.readouterr().out
+def test_example_prints_what_the_readme_says(command: str, output: str) -> None:
+    status, printed, _ = coldspray(*shlex.split(command))
+    assert status == 0
     head, _, tail = output.partition("...\n")
     assert printed.startswith(head)
     assert printed.endswith(tail)

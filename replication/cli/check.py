@@ -12,10 +12,8 @@ if TYPE_CHECKING:
     from replication.check.examination import Difference
     from spreadsheets.recalculation import Calculation
 
-HELP = "check somebody's own workbook of the scheme"
 
-
-def options(command: argparse.ArgumentParser) -> None:
+def check_options(command: argparse.ArgumentParser) -> None:
     """What the command takes."""
     command.add_argument(
         "file", type=shared.path, metavar="FILE", help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods"
@@ -27,7 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
     finding_options(command)
 
 
-def run(options: argparse.Namespace) -> int:
+def run_check(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     check_files(options, options.file)
     from replication.check.examination import KINDS

@@ -6,10 +6,8 @@ from replication.cli import options as shared
 from replication.cli.check import check_files, finding_options, put
 from replication.reading import quoted
 
-HELP = "compare two workbooks: layout, formulas and values"
 
-
-def options(command: argparse.ArgumentParser) -> None:
+def diff_options(command: argparse.ArgumentParser) -> None:
     """What the command takes."""
     command.add_argument("first", type=shared.path, metavar="A.xlsx", help="one workbook")
     command.add_argument("second", type=shared.path, metavar="B.xlsx", help="the other")
@@ -29,7 +27,7 @@ def options(command: argparse.ArgumentParser) -> None:
     finding_options(command)
 
 
-def run(options: argparse.Namespace) -> int:
+def run_diff(options: argparse.Namespace) -> int:
     """Compare, and say what was found: 1 if anything differs."""
     check_files(options, options.first, options.second)
     from replication.check.diff import KINDS, Tolerance, diff

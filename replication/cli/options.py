@@ -43,12 +43,10 @@ def whole(least: int, most: int) -> Callable[[str], int]:
 
 def whole_option(
     command: "argparse._ActionsContainer", flag: str, least: int, most: int,
-    help_text: str, default: int | None = None,
+    told: str, default: int | None = None,
 ) -> None:  # fmt: skip
     """An option that takes a whole number within bounds."""
-    command.add_argument(
-        flag, type=whole(least, most), default=default, metavar="N", help=help_text
-    )
+    command.add_argument(flag, type=whole(least, most), default=default, metavar="N", help=told)
 
 
 def times(flag: str, text: str, most: int) -> list[float]:
@@ -80,17 +78,15 @@ def input_options(command: argparse.ArgumentParser, default: str = "beta-5") -> 
     command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
     command.add_argument("--case-file", type=path, metavar="FILE", help="TOML, table [impact]")
     for name, unit in INPUTS.items():
-        flag = "--" + name.replace("_", "-")
-        shown = "" if unit == "1" else f" in {unit}, or with its unit"
-        help_text = f"{name.replace('_', ' ')}{shown}"
-        command.add_argument(flag, dest=name, metavar="X", help=help_text)
+        measured = "" if unit == "1" else f" in {unit}, or with its unit"
+        told = f"{name.replace('_', ' ')}{measured}"
+        command.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=told)
 
 
 def scheme_option(command: argparse.ArgumentParser) -> None:
     """--scheme."""
-    command.add_argument(
-        "--scheme", metavar="NAME", default="published", help="published (default) or centered"
-    )
+    told = "published (default) or centered"
+    command.add_argument("--scheme", metavar="NAME", default="published", help=told)
 
 
 def given(options: argparse.Namespace) -> dict[str, str]:
@@ -139,9 +135,15 @@ def width(piped: int = 80) -> int:
 
 def may_emphasize() -> bool:
     """Whether output may be bold: to a terminal that can, and NO_COLOR is not set."""
-    return (
-        sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    )
+    is_able = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    return is_able and not os.environ.get("NO_COLOR")
+
+
+def progress(options: argparse.Namespace, **settings: Any) -> Any:
+    """A progress bar, unless quiet; none without a terminal, which is what None asks for."""
+    from tqdm import tqdm
+
+    return tqdm(**settings, disable=options.quiet or None)
 
 
 def warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:

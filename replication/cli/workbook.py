@@ -5,19 +5,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from replication.cli import options as shared
-from replication.reading import name_of
+from replication.reading import one_line
 from replication.text import aligned
 
 if TYPE_CHECKING:
     from spreadsheets.engines import EngineCheck
 
-HELP = "write the live workbook"
 
-
-def options(command: argparse.ArgumentParser) -> None:
+def workbook_options(command: argparse.ArgumentParser) -> None:
     """What the command takes."""
     output = Path("workbook.xlsx")
     command.add_argument(
@@ -33,7 +31,7 @@ def options(command: argparse.ArgumentParser) -> None:
     shared.input_options(command, "the report's two cases")
 
 
-def run(options: argparse.Namespace) -> int:
+def run_workbook(options: argparse.Namespace) -> int:
     """Write, and verify if asked to."""
     from replication import workbook
     from spreadsheets import emit, engines
@@ -41,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
-        raise ValueError(f"{name_of(options.output)}: a workbook's name ends in .xlsx")
+        raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
     own = options.case is not None or options.case_file is not None or shared.given(options)
     case = shared.case(options) if own else None
     book = workbook.build(case, options.scheme, options.rows)
@@ -50,8 +48,7 @@ def run(options: argparse.Namespace) -> int:
     write_bytes(options.output, book.to_bytes())
     checks = [
         engines.verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
-        for engine in engines.ENGINES
-        if options.verify
+        for engine in (engines.ENGINES if options.verify else ())
     ]
     passed = all(check.passed for check in checks)
     if options.json:
@@ -60,12 +57,12 @@ def run(options: argparse.Namespace) -> int:
                 "file": str(options.output),
                 "passed": passed if options.verify else None,
                 "long_double_bound": book.rounding,
-                "engines": [_record(check) for check in checks],
+                "engines": list(map(asdict, checks)),
                 "warnings": list(book.warnings),
             }
         )
     elif not options.quiet:
-        print(f"Written: {name_of(options.output)}")
+        print(f"Written: {one_line(str(options.output))}")
         if checks:
             print("", *_text(checks, book.rounding), sep="\n")
         shared.warn(options, book.warnings)
@@ -81,10 +78,6 @@ _LEGEND = """\
 Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
 LN, SIN, ASIN or a cube root, within the rounding of that chain; and, of an engine of long doubles,
 those within {bound:.1e} of the largest number of their column, a proven bound on our rounding."""
-
-
-def _record(check: "EngineCheck") -> dict[str, Any]:
-    return asdict(check) | {"wrong": [left._asdict() for left in check.wrong]}
 
 
 def _text(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:

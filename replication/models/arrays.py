@@ -8,7 +8,7 @@ Plain numbers need neither NumPy nor Numba. All in SI units.
 
 import inspect
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
@@ -51,8 +51,8 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
         compute = partial(_computed, model, many, explain)
         return _contained(compute, bound.arguments, (float,))
 
-    def many(numbers: Numbers) -> Any:
-        return _each(ufunc(model), numbers, *numbers.values())
+    def many(*values: Any) -> Any:
+        return _each(ufunc(model), *values)
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     return function
@@ -112,15 +112,15 @@ def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
     return depth[0], second[0]
 
 
-def _histories(numbers: Numbers) -> Any:
+def _histories(*values: Any) -> Any:
     """Histories; the times along an axis in which no case changes share the case's series."""
     import numpy as np
 
-    time, *cases = map(np.asarray, numbers.values())
+    time, *cases = map(np.asarray, values)
     if time.ndim and all(case.shape[-1:] in ((), (1,)) for case in cases):
         cases = [case[..., 0] if case.ndim else case for case in cases]
-        return _each(ufunc(motion.history), numbers, time, *cases)
-    results = _each(ufunc(motion.history), numbers, time[..., None], *cases)
+        return _each(ufunc(motion.history), time, *cases)
+    results = _each(ufunc(motion.history), time[..., None], *cases)
     return tuple(result[..., 0] for result in results)
 
 
@@ -144,7 +144,7 @@ def run_many(
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
-        lambda numbers: _each(ufunc(sheet.last_row), numbers, *numbers.values(), centered),
+        lambda *cases: _each(ufunc(sheet.last_row), *cases, centered),
         lambda case, depth: sheet.refusal(depth, case["step"], case["stop_velocity"]),
     )
     return _contained(compute, inputs, (float, int))
@@ -159,11 +159,9 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
     Of a case and a result that is not finite, `explain` makes the error to raise.
     """
     numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
-    if set(map(type, numbers.values())) == {float}:
-        _check(numbers, numbers.values())
-        results = plain(*numbers.values())
-    else:
-        results = many(numbers)
+    _check(numbers)
+    compute = plain if set(map(type, numbers.values())) == {float} else many
+    results = compute(*numbers.values())
     first = results[0] if isinstance(results, tuple) else results
     finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
     if not finite:
@@ -184,15 +182,13 @@ def _real(name: str, value: Any) -> Any:
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 
-def _check(numbers: Numbers, parts: Iterable[Any]) -> None:
-    """Refuse the first element of all that cannot be, if any is in these parts of the inputs."""
-    for name, value in zip(numbers, parts, strict=False):  # whether centered comes last
-        least = 0.0 if name in MAY_BE_ZERO else LEAST
-        if type(value) is float:
-            sure = least <= value <= GREATEST
-        else:
-            sure = least <= value.min(initial=1.0) and value.max(initial=1.0) <= GREATEST
-        if not sure:
+def _check(numbers: Numbers) -> None:
+    """Refuse the first element that cannot be, if there is one."""
+    for name, value in numbers.items():
+        low, high = value, value
+        if type(value) is not float:
+            low, high = value.min(initial=1.0), value.max(initial=1.0)
+        if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
             _refuse(numbers)
             return
 
@@ -228,13 +224,15 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 # How it is computed
 
 
-def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
-    """What a ufunc gives for values that broadcast, checked; an axis of its own is that of times.
+def _each(function: Any, *values: Any) -> Any:
+    """What a ufunc gives for values that broadcast; an axis of its own is that of times.
 
     Many cases are shared out to all cores by Python's threads, as compiled code lets go of its
     lock: Numba's may not be started from two threads at once, nor outlive a fork. Only the main
     thread starts any: a caller with threads, such as dask, has shared out its work already.
     """
+    import threading
+
     import numpy as np
 
     first, *others = map(np.shape, values)
@@ -242,10 +240,8 @@ def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     shape = np.broadcast_shapes(first[: len(first) - len(own)], *others)
     weight = 20 if function.signature else 1  # sheets and histories, in final depths
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
-    if pieces < 2:
-        _check(numbers, values)
+    if pieces < 2 or threading.current_thread() is not threading.main_thread():
         return function(*values)
-    import threading
     from concurrent.futures import ThreadPoolExecutor
 
     import numba
@@ -255,23 +251,13 @@ def _each(function: Any, numbers: Numbers, *values: Any) -> Any:
     views += [np.broadcast_to(value, shape) for value in values[1:]]
     results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
 
-    waiting = iter(range(pieces))  # shared: whoever is free takes the next
+    def work(piece: int) -> None:
+        ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
+        cut = (slice(None),) * axis + (slice(*ends),)
+        function(*(view[cut] for view in views), out=tuple(x[cut] for x in results))
 
-    def work() -> None:
-        for piece in waiting:
-            ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
-            cut = (slice(None),) * axis + (slice(*ends),)
-            parts = [view[cut] for view in views]
-            _check(numbers, parts)
-            function(*parts, out=tuple(result[cut] for result in results))
-
-    is_main = threading.current_thread() is threading.main_thread()
-    helpers = numba.config.NUMBA_NUM_THREADS - 1 if is_main else 0
-    with ThreadPoolExecutor(max(helpers, 1)) as pool:
-        helping = [pool.submit(work) for _ in range(helpers)]
-        work()
-    for helper in helping:
-        helper.result()
+    with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
+        list(pool.map(work, range(pieces)))  # which raises what a piece did
     return tuple(results) if len(results) > 1 else results[0]
 
 
@@ -343,8 +329,7 @@ def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type])
     if not library:
         return compute(**inputs)
     if library == "pint":
-        names = (name for name in inputs if _library(frozenset({type(inputs[name])})) == "pint")
-        raise TypeError(f"{next(names)} has units: give its magnitude in SI units")
+        raise TypeError(f"{_of('pint', inputs)[0]} has units: give its magnitude in SI units")
 
     def within(*values: Any) -> Any:
         return _contained(compute, dict(zip(inputs, values, strict=True)), types)
@@ -359,12 +344,16 @@ def _library(kinds: frozenset[type]) -> str:
     return next((library for library in ("pint", *_CONTAINED) if library in libraries), "")
 
 
+def _of(library: str, inputs: Mapping[str, Any]) -> list[str]:
+    """The inputs whose type is a library's."""
+    return [name for name, x in inputs.items() if _library(frozenset({type(x)})) == library]
+
+
 def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import xarray
 
-    for name, value in inputs.items():
-        if _library(frozenset({type(value)})) == "pandas":
-            raise TypeError(f"{name} is of pandas: beside an xarray array give its values")
+    if names := _of("pandas", inputs):
+        raise TypeError(f"{names[0]} is of pandas: beside an xarray array give its values")
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)

@@ -71,11 +71,10 @@ def _csv(record: Record) -> str:
     """A line for each claim; what does not apply is empty."""
     rows = []
     for claim in record.claims:
-        ends = {f"{name}_{end}": value
-                for name in ("interval", "enclosure")
-                for end, value in zip(("lower", "upper"), getattr(claim, name) or (None, None),
-                                      strict=True)}  # fmt: skip
-        rows.append({n: ends[n] if n in ends else getattr(claim, n) for n in _COLUMNS})
+        row = {name: getattr(claim, name, None) for name in _COLUMNS}
+        for name in ("interval", "enclosure"):
+            row[f"{name}_lower"], row[f"{name}_upper"] = getattr(claim, name) or (None, None)
+        rows.append(row)
     return rows_csv(rows)
 
 

@@ -18,18 +18,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from running import coldspray
 
 import replication.bench as module
+from replication import BETA_5, history
 from replication.bench import (
     DIGITS,
     MEASURES,
-    OURS,
-    SOLVERS,
     STEPS,
     Case,
     Point,
     Task,
-    _taylor,
     bench,
     build,
     error_for,
@@ -41,8 +40,7 @@ from replication.bench import (
     texts,
     trial,
 )
-
-Command = Callable[..., tuple[int, str, str]]
+from replication.bench.peers import SOLVERS, _taylor
 
 
 def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
@@ -94,16 +92,6 @@ def errors(case: Case, method: str, measure: str) -> list[float]:
     return [case.error(task.measure, task.run(), task.stop) for task in asked]
 
 
-def test_the_exact_history_is_exact(beta_5: Case) -> None:
-    # Times were found from depths; back from the double that is a time, the depth must be the same.
-    motion = beta_5.motion
-    assert beta_5.times[0] == beta_5.depths[0] == 0
-    for k in (1, 50, 99):
-        again = motion.depth_at_time(float(beta_5.times[k]))
-        assert abs(again / beta_5.depths[k] - 1) < 1e-30
-    assert abs(beta_5.depths[-1] / motion.final_depth - 1) < 1e-30
-
-
 # Of second order, the centered sheet is only as near as it is where it is compared at its stop.
 @pytest.mark.parametrize(("scheme", "bound"), [("published", 2e-5), ("centered", 1e-6)])
 def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(
@@ -129,14 +117,13 @@ def test_the_sheet_s_history_is_compared_down_to_where_the_sheet_ends(beta_5: Ca
     late = np.interp(np.minimum(beta_5.times, 2e-8), beta_5.times, depths)
     assert beta_5.error("history", late) > 1e-2
     # Until there only the straight lines between the exact depths are off.
-    velocity = float(beta_5.motion.velocity_at_depth(beta_5.motion.depth_at_time(2e-8)))
+    _, velocity = history(2e-8, *BETA_5.motion.values())
     assert beta_5.error("history", late, stop=velocity) < 1e-3
 
 
 EXACT = {
     **dict.fromkeys(("closed form", "closed form, many"), 4 * 2.0**-52),
-    **dict.fromkeys((name for name in OURS if name.startswith("Taylor")), 1e-14),
-    "Taylor series, many": 1e-14,
+    **{f"Taylor series{name}": 1e-14 for name in ("", ", many", ", plain Python")},
     "closed form, Numba loop, many": 1e-14,
 }
 """These have no ladder of settings, and cross the radius as if it were not there."""
@@ -241,8 +228,7 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
     assert turns[-1] == "closed"
 
 
-@pytest.fixture
-def run_of_fakes() -> dict[str, Any]:
+def test_the_table_says_it_all() -> None:
     coarse, history = {"setting": "rtol 1e-06"}, {"measure": "history"}
     points = [
         point(7e-4, 1e-4, "sheet, published"),
@@ -259,11 +245,8 @@ def run_of_fakes() -> dict[str, Any]:
     rows = [fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
-    return {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case]}
-
-
-def test_the_table_says_it_all(run_of_fakes: dict[str, Any]) -> None:
-    lines = texts(run_of_fakes)["bench.txt"].splitlines()
+    run = {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case]}
+    lines = texts(run)["bench.txt"].splitlines()
     assert lines[0] == "processor abacus, cores 1"
     rows = {line.split("  ")[0]: line.split()[2:] for line in lines[4:]}
     assert rows["closed form"] == ["setting", "0.25", "1.0e-16", "10", "15", "*"]
@@ -280,25 +263,14 @@ def test_the_table_says_it_all(run_of_fakes: dict[str, Any]) -> None:
         "  history of many cases, 6 to 14 digits: Taylor series, 200 us",
         "  history of many cases, 15 digits: none of these",
     ]
-    (case,) = run_of_fakes["cases"]
     another = case | {"name": "beta-3", "fastest": [dict(row) for row in case["fastest"]]}
     another["fastest"][0] |= {"method": "RK4, 100 steps", "best": 1e-6}
-    text = texts(run_of_fakes | {"repeat": 1, "cases": [case, another]})["bench.txt"]
+    text = texts(run | {"repeat": 1, "cases": [case, another]})["bench.txt"]
     assert "best and median of 1 repeat that" in text
     assert "  final depth, 1 digit: closed form (beta-5), RK4 (beta-3), 1 to 10 us\n" in text
 
 
-def test_figures_are_the_same_bytes_and_name_every_method(run_of_fakes: dict[str, Any]) -> None:
-    (case,) = run_of_fakes["cases"]
-    drawn = figure(case)
-    assert drawn == figure(case)
-    shown = {
-        element.text for element in ET.fromstring(drawn).iter("{http://www.w3.org/2000/svg}text")
-    }
-    assert {point["method"] for point in case["points"]} <= shown
-
-
-def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray: Command) -> None:
+def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     status, out, err = coldspray(
         *("bench", "--quick", "--limit", "0.05 s", "--json", "--out", tmp_path),
         *("--case", "beta-5", "--case", "beta-5"),
@@ -309,7 +281,9 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     assert {"processor", "cores", "system", "python", "numpy", "numba"} <= set(record["machine"])
     (case,) = record["cases"]
     assert list(case) == ["name", "inputs", "depth", "times", "points", "fastest"]
-    assert {point["method"] for point in case["points"]} >= OURS | set(FINE)
+    assert {point["method"] for point in case["points"]} >= {
+        *(*EXACT, *FINE, "sheet, published", "sheet, centered, many", "sheet, Numba loop")
+    }
     assert all((point["error"] is None) == bool(point["gap"]) for point in case["points"])
     assert any(point["gap"] for point in case["points"])
     assert all(row["method"] for row in case["fastest"] if row["digits"] <= 13)
@@ -319,6 +293,10 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path, coldspray
     assert list(rows[0]) == ["case", *case["points"][0]]
     assert [row["front"] == "true" for row in rows] == [p["front"] for p in case["points"]]
     assert {row["front"] for row in rows} == {"true", "false"}
+    drawn = (tmp_path / "bench-beta-5.svg").read_bytes()
+    assert drawn == figure(case)
+    shown = {text.text for text in ET.fromstring(drawn).iter("{http://www.w3.org/2000/svg}text")}
+    assert {point["method"] for point in case["points"] if not point["gap"]} <= shown
     assert {path.name for path in tmp_path.iterdir()} == {
         *("bench.txt", "bench.json", "bench.csv", "bench-beta-5.svg")
     }

@@ -4,7 +4,6 @@ Status 0, 1 or 2; at status 2 nothing on standard output, nothing written, and o
 standard error that has no control characters.
 """
 
-import argparse
 import io
 import json
 import os
@@ -15,34 +14,21 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Callable, Iterable
-from contextlib import chdir, redirect_stderr, redirect_stdout
+from contextlib import chdir
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from running import coldspray
 
 from replication.cases import INPUTS
-from replication.cli import main
 from spreadsheets.safely import write_folder
 
 LONGEST = 400
 """Characters of a message."""
-
-
-def run(*arguments: str) -> tuple[int, str, str]:
-    """Status, standard output and standard error of a command, in this process."""
-    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
-    with redirect_stdout(out), redirect_stderr(err):
-        try:
-            status = main(arguments)
-        except SystemExit as done:
-            status = int(str(done.code))
-    text, said = (stream.buffer.getvalue().decode() for stream in (out, err))  # type: ignore[attr-defined]
-    return status, text, said
 
 
 def state(folder: Path) -> dict[str, bytes | None]:
@@ -57,7 +43,7 @@ def check(folder: Path, *arguments: str) -> tuple[int, str]:
     """Run a command in a folder and hold what this file promises; its status, and what it says."""
     before = state(folder)
     with chdir(folder):
-        status, out, err = run(*arguments)
+        status, out, err = coldspray(*arguments)
     assert status in (0, 1, 2)
     assert "Traceback" not in err
     for line in err.splitlines():
@@ -103,8 +89,6 @@ FILES = {
     "tables.toml": 3000 * "[a." + "b" + 3000 * "]",
     "inline.toml": "[impact]\nradius = " + 500 * "{a=" + "1" + 500 * "}",
     "whole.toml": "[impact]\nradius = " + 5000 * "9",
-    "huge.toml": "[impact]\nradius = 1e99999999999",
-    "nan.toml": "[impact]\nradius = nan",
     "control.toml": '[impact]\n"\\u001b[31m" = 1',
     "key.toml": f'[impact]\n{5000 * "k"} = 1',
     "empty.toml": "",
@@ -155,6 +139,7 @@ TABLE = [
     ["audit", "--out", "a\0b"],
     ["depth", "--\x1b[31m"],
     ["depth", "--radius", "\x1b[31m"],
+    ["sheet", "--beta", "1e-200", "--flow-stress", "1e-200"],
     ["depth", "--case", "a\nb\r\x07"],
     ["claims", 100_000 * "x"],
     ["sheet", "--scheme", "\x1b\n" + 5000 * "s"],
@@ -179,11 +164,9 @@ LIGHT = ("depth", "sheet", "history", "claims")
 
 
 @cache
-def flags(command: str) -> tuple[str, ...]:
-    """The options of a command, as it declares them."""
-    parser = argparse.ArgumentParser(add_help=False)
-    import_module(f"replication.cli.{command}").options(parser)
-    return tuple(flag for action in parser._actions for flag in action.option_strings)
+def flags(command: str) -> list[str]:
+    """The options of a command, as it tells them."""
+    return sorted(set(re.findall(r"--[a-z-]+", coldspray(command, "--help")[1])))
 
 
 NUMBERS = st.one_of(
@@ -210,7 +193,7 @@ VALUES = st.one_of(
 @st.composite
 def arguments(draw: st.DrawFn, command: str) -> list[str]:
     own = [command]
-    for flag in draw(st.lists(st.sampled_from(flags(command) or ("",)), max_size=4)):
+    for flag in draw(st.lists(st.sampled_from(flags(command)), max_size=4)):
         value = draw(VALUES)
         own += draw(st.sampled_from([[flag, value], [f"{flag}={value}"], [flag], [value]]))
     return own
@@ -311,7 +294,7 @@ WORKBOOKS = [
 def workbooks(folder: Path) -> Path:
     """Files that look like workbooks, and one that is."""
     with chdir(folder):
-        assert run("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
+        assert coldspray("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
     whole = (folder / "own.xlsx").read_bytes()
     (folder / "zero.xlsx").write_bytes(b"")
     (folder / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
@@ -440,6 +423,7 @@ def test_of_two_runs_to_one_folder_the_one_that_lost_its_drafts_says_so(tmp_path
             yield "a", b"slow"
             write_folder(tmp_path, {"a": b"fast"})
 
-    with pytest.raises(OSError, match="another run is writing this file"):
+    with pytest.raises(OSError, match="another run is writing this file") as lost:
         write_folder(tmp_path, Slow(a=b""))
+    assert lost.value.filename == str(tmp_path / "a")
     assert state(tmp_path) == {"a": b"fast"}

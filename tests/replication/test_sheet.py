@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from hypothesis import strategies as st
 
 from reference.arithmetic import Reals
 from reference.motion import sheet_rows
-from replication.cases import BETA_3, BETA_5
+from replication.cases import BETA_5
 from replication.error import warnings
 from replication.models.arrays import run_many
 from replication.models.depth import final_depth
@@ -32,53 +31,24 @@ IMPACTS = st.builds(
 ).map(lambda impact: replace(impact, step=impact.radius / impact.velocity / 50))
 
 
-def test_the_report_s_sheets_and_their_first_rows() -> None:
-    rows = run(BETA_5).rows
-    assert (len(rows), run(BETA_3).steps) == (132, 178)
-    assert rows[0] == (0.0, 500.0, 0.0, 0.0, None)
-    assert rows[1].depth == 500.0 * 1e-10  # half a step; later ones are a whole
-    assert rows[2].depth == rows[1].depth + rows[2].velocity_initial * 2e-10
-
-
 @given(IMPACTS)
-@settings(max_examples=50, deadline=None)
-def test_every_row_follows_from_the_one_before(impact: Impact) -> None:
-    rows = run(impact).rows
-    for k, (before, row) in enumerate(pairwise(rows), start=1):
-        assert row.time == k * impact.step
-        expected = before.velocity_final if k > 1 else impact.velocity
-        assert row.velocity_initial == expected
-        slowed = row.velocity_initial - row.deceleration * impact.step
-        assert row.velocity_final == slowed
-    assert rows[-1].velocity_final < impact.stop_velocity
-    assert all(row.velocity_final >= impact.stop_velocity for row in rows[1:-1])
-
-
-@given(IMPACTS)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=50)
 def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impact) -> None:
-    reals = Reals(50)
-    inputs = (*impact.motion.values(), impact.step)
-    sheet = run(impact)
-    numbers = (reals.number(Fraction(value)) for value in inputs)
-    rows = sheet_rows(reals, *numbers, most_rows=sheet.steps)
+    reals, sheet = Reals(50), run(impact)
+    numbers = (reals.number(Fraction(value)) for value in (*impact.motion.values(), impact.step))
+    exact = sheet_rows(reals, *numbers, most_rows=sheet.steps)
+    assert sheet.rows[0] == (0.0, impact.velocity, 0.0, 0.0, None)
     # A row has about a dozen roundings of 2^-53, each relative to a value of at most the impact's;
     # later rows amplify them by less than ten (cosh of the deceleration's growth over an impact).
     bound = 12 * 10 * sheet.steps * 2.0**-53
-    for row, expected in zip(sheet.rows[1:], rows, strict=False):
+    before = impact.velocity
+    for k, (row, expected) in enumerate(zip(sheet.rows[1:], exact, strict=False), start=1):
+        assert (row.time, row.velocity_initial) == (k * impact.step, before)
+        assert row.velocity_final == before - row.deceleration * impact.step
         assert abs(row.depth - float(expected.depth)) <= bound * impact.radius
-        assert row.velocity_final is not None
         assert abs(row.velocity_final - float(expected.velocity_final)) <= bound * impact.velocity
-
-
-def test_beyond_the_radius_the_contact_area_stays_that_of_the_sphere() -> None:
-    deep = replace(BETA_3, velocity=1500.0)
-    beyond = [row for row in run(deep).rows if row.depth >= deep.radius]
-    assert beyond, "the case must cross the radius to test it"
-    for row in beyond:
-        stress = 0.5 * deep.target_density * row.velocity_initial**2 + deep.target_resistance
-        area = math.pi * deep.radius**2
-        assert row.deceleration == pytest.approx(stress * area / deep.mass, rel=1e-15)
+        assert (row.velocity_final < impact.stop_velocity) == (k == sheet.steps)
+        before = row.velocity_final
 
 
 def test_below_the_stop_velocity_there_is_no_step_and_at_it_one() -> None:
@@ -151,13 +121,3 @@ def test_what_speaks_for_too_long_a_step(changes: dict[str, float], kinds: list[
     sheet = run(impact)
     assert list(warnings(sheet)) == kinds
     assert ("deep" in kinds) == (sheet.final_depth > final_depth(**impact.motion) * 1.0005)
-
-
-# Many at once
-
-
-def test_cases_broadcast_and_a_single_one_is_a_number() -> None:
-    depth, steps = run_many([[500.0], [400.0]], 11e-6, 8900.0, 7850.0, [2.1e9, 3.5e9])
-    assert depth.shape == steps.shape == (2, 2)
-    assert steps[0].tolist() == [178, 131]
-    assert run_many(**BETA_5.motion) == (run(BETA_5).final_depth, 131)

@@ -1,10 +1,4 @@
-"""Speed against error: this project's methods and what a user would take otherwise, in one run.
-
-The latter are written as a user would. SciPy's `solve_ivp` finds rest by an event. The other
-solvers are told when rest comes, and integrate up to there: nothing that they lack is held against
-them. All have depth over R and velocity over V, in units of R / V of time: y' = u and
-u' = -(b u^2 + c) A(y) (Eqs. 12-13). A solver takes its setting, b, c and times, and gives y there.
-"""
+"""Speed against error: this project's methods and what a user would take otherwise, in one run."""
 
 import io
 import math
@@ -15,7 +9,7 @@ import timeit
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, partial
+from functools import partial
 from importlib.metadata import distributions
 from itertools import groupby, product
 from operator import itemgetter
@@ -30,6 +24,7 @@ from tqdm import tqdm
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
+from replication.bench.peers import SOLVERS, Function, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
@@ -38,9 +33,6 @@ from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, run
 from replication.text import aligned, json_text, number, rows_csv
 from spreadsheets.safely import write_folder
-
-Function = Callable[..., Any]
-njit: Callable[[Function], Function] = numba.njit  # which has no types
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
@@ -96,9 +88,8 @@ class Case:
             end = self.motion.depth_at_velocity(stop)
             exact = [depth for depth in self.depths if stop == 0 or depth <= end]
             wholes = [self.motion.final_depth] * len(exact)
-            computed = (computed if computed.ndim == 1 else computed[len(computed) // 2])[
-                : len(exact)
-            ]
+            row = computed if computed.ndim == 1 else computed[len(computed) // 2]
+            computed = row[: len(exact)]
         terms = zip(map(self.motion.context.mpf, computed.tolist()), exact, wholes, strict=True)
         return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
@@ -136,9 +127,6 @@ def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
 
 STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
 """Of the sheet, over that of the case."""
-
-_BASES = ("closed form", "Taylor series", *(f"sheet, {scheme}" for scheme in SCHEMES))
-OURS = {"Taylor series, plain Python", *_BASES, *(f"{method}, many" for method in _BASES)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,9 +168,9 @@ def tasks(case: Case) -> Iterator[Task]:
     for method, (form, levels, solve) in SOLVERS.items():
         for level in levels:
             yield from _solver(case, method, form.format(level), partial(solve, level))
-    yield _many("closed form, Numba loop", "no steps", case, _depth_loop, 100_001)
+    yield _many("closed form, Numba loop", "no steps", case, depth_loop, 100_001)
     for step, setting in steps:
-        name, loop = "sheet, Numba loop", partial(_sheet_loop, step, stop)
+        name, loop = "sheet, Numba loop", partial(sheet_loop, step, stop)
         yield _many(name, setting, case, loop, 1001, stop)
         alone = partial(loop, *case.columns(1))
         yield Task(name, setting, "depth", alone, stop, compiled=True)
@@ -221,151 +209,6 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
     task = partial(Task, method, setting, compiled=not method.startswith("solve_ivp"))
     yield task("depth", lambda: R * float(solve(b, c, ends)[-1]))
     yield task("history", lambda: R * np.asarray(solve(b, c, times)))
-
-
-# Solvers of the equation
-
-
-@njit
-def _acceleration(y: Any, u: Any, b: Any, c: Any) -> Any:
-    return -(b * u * u + c) * (y * (2 - y) if y < 1 else 1.0)
-
-
-@njit
-def _slope(_: Any, state: Any, b: Any, c: Any) -> Any:
-    return np.array((state[1], _acceleration(state[0], state[1], b, c)))
-
-
-def _solve_ivp(method: str, tolerance: float, b: float, c: float, times: Any) -> Any:
-    from scipy.integrate import solve_ivp
-
-    def motion(_: float, state: Any) -> tuple[float, float]:
-        y, u = state.tolist()  # Python's floats are several times faster than NumPy's scalars
-        return u, -(b * u * u + c) * (y * (2 - y) if y < 1 else 1.0)
-
-    def rest(_: float, state: Any) -> Any:
-        return state[1]
-
-    vars(rest).update(terminal=True, direction=-1)  # which is how SciPy is told
-    options: Any = {"method": method, "rtol": tolerance, "atol": tolerance, "events": rest}
-    wanted = times if len(times) > 2 else None
-    with np.errstate(all="ignore"):  # of a trial step that went too far, and is rejected
-        solved = solve_ivp(motion, (0.0, 2 * times[-1]), (0.0, 1.0), t_eval=wanted, **options)
-    if solved.status != 1:
-        raise ArithmeticError(f"never at rest: {solved.message}")
-    final = solved.y_events[0][0, 0]
-    before = [] if wanted is None else solved.y[0]
-    return np.append(before, [final] * (len(times) - len(before)))
-
-
-def _odeint(tolerance: float, b: float, c: float, times: Any) -> Any:
-    from scipy.integrate import odeint
-
-    options: Any = {"tfirst": True, "rtol": tolerance, "atol": tolerance, "mxstep": 100_000}
-    return odeint(_slope, (0.0, 1.0), times, args=(b, c), **options)[:, 0]
-
-
-def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
-    from scipy.integrate import ode
-
-    solver = ode(_slope).set_f_params(b, c)
-    solver.set_integrator("dop853", rtol=tolerance, atol=tolerance, nsteps=100_000)
-    solver.set_initial_value((0.0, 1.0), 0.0)
-    return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]
-
-
-@njit
-def _rk4(steps: Any, b: Any, c: Any, times: Any) -> Any:
-    """Runge and Kutta's method with so many steps, as many from any time to the next."""
-    depths, y, u = np.zeros(times.size), 0.0, 1.0
-    steps //= times.size - 1
-    for k in range(1, times.size):
-        h = (times[k] - times[k - 1]) / steps
-        for _ in range(steps):
-            a1 = _acceleration(y, u, b, c)
-            u2 = u + h / 2 * a1
-            a2 = _acceleration(y + h / 2 * u, u2, b, c)
-            u3 = u + h / 2 * a2
-            a3 = _acceleration(y + h / 2 * u2, u3, b, c)
-            u4 = u + h * a3
-            a4 = _acceleration(y + h * u3, u4, b, c)
-            y += h / 6 * (u + 2 * u2 + 2 * u3 + u4)
-            u += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        depths[k] = y
-    return depths
-
-
-def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
-    first, beyond = _taylor(tolerance, b, c)
-    first.time, first.state[:] = 0.0, (0.0, 1.0)
-    if first.with_events:
-        first.reset_cooldowns()
-    depths = first.propagate_grid(times)[-1][:, 0]
-    if len(depths) == len(times):
-        return depths
-    beyond.time, beyond.state[:] = first.time, first.state
-    rest = np.concatenate([[first.time], times[len(depths) :]])
-    return np.concatenate([depths, beyond.propagate_grid(rest)[-1][1:, 0]])
-
-
-@cache
-def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
-    """Integrators for up to y = 1, where the first one stops, and beyond."""
-    try:
-        import heyoka
-    except ImportError as error:
-        raise ValueError("not installed: python -m pip install 'coldspray[bench]'") from error
-    y, u = heyoka.make_vars("y", "u")
-    crosses = math.log1p(b / c) / (2 * b) > 2 / 3
-    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses else {}
-    return [
-        heyoka.taylor_adaptive([(y, u), (u, -(b * u * u + c) * area)], tol=tolerance, **more)
-        for area, more in ((2 * y - y * y, events), (1.0, {}))
-    ]
-
-
-TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
-"""Relative and absolute; SciPy takes no relative one below 2.2e-14."""
-
-SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
-    **{
-        f"solve_ivp {name}": ("rtol {:g}", TOLERANCES, partial(_solve_ivp, name))
-        for name in ("RK45", "DOP853", "LSODA", "Radau")
-    },
-    "odeint, Numba": ("rtol {:g}", TOLERANCES, _odeint),
-    "dop853, Numba": ("rtol {:g}", TOLERANCES, _dop853),
-    "RK4, Numba": ("{} steps", (100, 200, 400, 800, 1600, 6400), _rk4),
-    "heyoka": ("tol {:g}", (1e-6, 1e-10, 2.2e-16), _heyoka),
-}
-"""How a setting is shown, the settings, and the solver."""
-
-
-# Bare loops over cases, on one core, without any check
-
-
-@njit
-def _depth_loop(V: Any, R: Any, rho_p: Any, rho_t: Any, R_t: Any) -> Any:
-    depths = np.empty(V.size)
-    for i in range(V.size):
-        c = 4 * rho_p[i] / (3 * rho_t[i]) * math.log1p(rho_t[i] * V[i] ** 2 / (2 * R_t[i]))
-        h = math.asin(math.sqrt(3 * min(c, 2 / 3)) / 2) / 3
-        y = 4 * math.sin(h) * math.sin(h + math.pi / 3) if c < 2 / 3 else c + 1 / 3
-        depths[i] = R[i] * y
-    return depths
-
-
-@njit
-def _sheet_loop(dt: float, stop: float, V: Any, R: Any, rho_p: Any, rho_t: Any, R_t: Any) -> Any:
-    depths = np.empty(V.size)
-    for i in range(V.size):
-        v, r, x, part = V[i], R[i], 0.0, dt / 2
-        mass = rho_p[i] * 4 / 3 * math.pi * r * r * r
-        while v >= stop:
-            x, part = x + v * part, dt
-            area = 2 * r * x - x * x if x < r else r * r
-            v -= (0.5 * rho_t[i] * v * v + R_t[i]) * math.pi * area / mass * dt
-        depths[i] = x
-    return depths
 
 
 # Every method on the cases asked for: measured, and the fastest for so many digits
@@ -623,7 +466,8 @@ def figure(case: dict[str, Any]) -> bytes:
             points = [point for point in case["points"] if point["measure"] == measure]
             for method in methods:
                 line = _line(point for point in points if point["method"] == method)
-                panel.plot(*line, marker="s" if method in OURS else "o", label=method)
+                is_peer = method in SOLVERS or "Numba" in method
+                panel.plot(*line, marker="o" if is_peer else "s", label=method)
             front = [point for point in ranked(points, measure, many=False) if point["front"]]
             edge: Any = {"label": "Pareto front, one case at a time", "color": "#D55E00"}
             panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)
