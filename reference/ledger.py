@@ -201,6 +201,11 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         """Whether it depends on the scheme of the sheet."""
         return any(computation.by_scheme for computation in self.computations.values())
 
+    @property
+    def by_whole_sheet(self) -> bool:
+        """Whether it is computed by all rows of the sheet, which takes long."""
+        return self.by_scheme and self.row is None
+
     @cached_property
     def uses(self) -> list[str]:
         """The printed equations that it is computed with, sorted."""

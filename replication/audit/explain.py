@@ -153,7 +153,8 @@ class Explainer:
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
         function = holding(self.ledger.function(claim, reading=reading), others)
         low, high, _ = self.ledger.search(name)
-        return solve(function, name, (low, high), claim.target(), _BUDGET)
+        budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
+        return solve(function, name, (low, high), claim.target(), budget)
 
     def shown(self, chosen: Claim) -> Shown | None:
         """The values around a chosen number for which what it shows comes out as printed.
@@ -298,7 +299,7 @@ class Explainer:
         claim = self.ledger.claims.get(name)
         if claim is None or claim.computation is None or claim.computation.restates:
             return 2 if equation_of(self.ledger, name) else 0, name
-        return 1 + 2 * claim.by_scheme + (claim.by_scheme and claim.row is None), name
+        return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
     def culprit(self, names: Collection[str]) -> RepairRecord | None:
         """The one repair that makes everything agree that fails, if there is one."""
@@ -330,7 +331,10 @@ _BISECTIONS = 40
 """Down to 1e-12 of the search, beyond what any page shows."""
 
 _BUDGET = 250
-"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
+"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them.
+
+A tenth of it for whole sheets, of which each takes 10 ms, and 100 ms where it hardly stops.
+"""
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""

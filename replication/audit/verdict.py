@@ -234,8 +234,7 @@ class Judge:
             inside, around = Interval(*target.ends, False, False), Interval(*target.ends)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
-        whole_sheet = claim.by_scheme and claim.row is None
-        budget = _BUDGET // 10 if whole_sheet else _BUDGET
+        budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
             search = explore(function, box, inside, budget)
