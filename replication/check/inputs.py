@@ -17,7 +17,7 @@ from reference.ledger import claims_of_case, load
 from reference.units import to_si
 from replication.check.examination import Examination, Input
 from replication.check.scheme import BRAKES, REPORT, Case, Rows, contact
-from replication.check.table import Table, address
+from replication.check.table import FEW, Table, address
 from replication.check.words import (
     INPUTS,
     input_roles,
@@ -122,7 +122,7 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
     distance = 0
     while edge:
         distance += 1
-        areas = (area for place in edge for area in calculation.areas(place) if area.cells <= 64)
+        areas = (area for place in edge for area in calculation.areas(place) if area.cells <= FEW)
         edge = list({p for area in areas for p in area.places() if p not in distances})
         distances.update(dict.fromkeys(edge, distance))
     return distances

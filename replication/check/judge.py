@@ -459,7 +459,7 @@ def _stop(f: Examination) -> None:
     cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
     prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
     place = f.table.place(role, steps)
-    named = (each for kind, each in f.table.results if kind == "depth")
+    named = (result.place for result in f.table.results if result.kind == "depth")
     shown = any(a.corner in f.table.places for each in named for a in f.calculation.areas(each))
     if changed or prepared or (2 * steps < whole and not shown):
         f.add("not calculated", [place], None, text)
@@ -516,15 +516,38 @@ def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
 
 
 def _misread(f: Examination) -> None:
-    """Results that do not read the last row of a table that ends as it should."""
-    steps = f.table.steps
-    for kind, place in f.table.results if f.ends and not _stops_elsewhere(f) else ():
-        areas = (area for area in f.calculation.areas(place) if area.cells == 1)
-        read = (f.table.places.get(area.corner) for area in areas)
-        for role, k in filter(None, read):
-            if role == "depth" and k != steps:
-                what = "the final depth" if kind == "depth" else "the depth over the radius"
-                text = f"{what} reads row {k} of the table, not {steps}, its last"
-                wanted = address(f.table.place("depth", steps))
-                formula = f.calculation.book[place].formula
-                f.add("odd formula", [place], wanted, text, formula)
+    """Results that are not those of the last row of a table that ends as it should."""
+    last, wrong = f.table.steps, set[Position]()
+    results = f.table.results if f.ends and not _stops_elsewhere(f) else ()
+    for kind, place, unit in sorted(results, key=lambda r: f.calculation.order.get(r.place, -1)):
+        areas = f.calculation.areas(place)
+        if not f.table.gives_depth(place) or any(area.corner in wrong for area in areas):
+            continue
+        what = "the final depth" if kind == "depth" else "the depth over the radius"
+        row, power = _row_shown(f, kind, place)
+        named = power_of_ten(float(1 / to_si(unit))) if unit else None
+        if row not in (None, last):
+            text = f"{what} reads row {row} of the table, not {last}, its last"
+            wanted = address(f.table.place("depth", last))
+            f.add("odd formula", [place], wanted, text, f.calculation.book[place].formula)
+        elif row is not None and kind == "ratio" and power != (named or 0):
+            f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
+        elif row is not None and kind == "depth" and named not in (None, power):
+            right = unit_text("depth", -power)
+            text = f"the label gives {what} in {unit}, but the number is in {right}"
+            f.add("unit", [place], right, text, unit)
+        else:
+            continue
+        wrong.add(place)
+
+
+def _row_shown(f: Examination, kind: str, place: Position) -> tuple[int | None, int]:
+    """The row whose depth, or its ratio to the radius, a cell shows, and times which power of ten.
+
+    No row where the cell is rounded, or computed otherwise.
+    """
+    value, over = f.calculation.number(place) or 0.0, f.case.radius if kind == "ratio" else 1.0
+    for k, depth in sorted(f.rows.columns["depth"].items(), reverse=True):
+        if depth > 0 and (power := power_of_ten(value * over / depth)) is not None:
+            return k, power
+    return None, 0

@@ -13,7 +13,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby, pairwise, product
 from statistics import median
+from typing import Literal, NamedTuple
 
+from reference.units import same_dimension
 from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
@@ -31,6 +33,8 @@ _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
 _CLOSE = 0.02
 """How nearly a ratio of neighbouring rows must repeat. The velocity falls by 1 % a row, mostly."""
+FEW = 64
+"""Cells of a range that are each looked at: more of them are no inputs of a formula."""
 _SURE = 0.75
 """What two lines must score to be depth and velocity: their values fit, or both heads say so."""
 
@@ -270,6 +274,14 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 # ---- tables
 
 
+class Result(NamedTuple):
+    """A cell that is called the final depth, or the `ratio` of it to the radius."""
+
+    kind: Literal["depth", "ratio"]
+    place: Position
+    unit: str | None
+
+
 @dataclass
 class Table:
     """One run of the scheme: its columns by role, and the row of the sheet that is its row 0.
@@ -303,10 +315,11 @@ class Table:
         return span(self.place(role, k)[1:] for k in (rows[0], rows[-1]))
 
     @cached_property
-    def results(self) -> tuple[tuple[str, Position], ...]:
-        """Cells beside or below a label that says final depth, or depth over radius: kind, place.
+    def results(self) -> tuple[Result, ...]:
+        """Cells beside or below a label that says final depth, or depth over radius.
 
-        A cell below it that numbers follow is the first of a list, not a result.
+        A cell below it that numbers follow is the first of a list, not a result. What is only
+        called a depth is a result if its formula reads the table's.
         """
         number, labelled = self.calculation.number, []
         for (sheet, row, column), text in self.calculation.values.items():
@@ -316,9 +329,33 @@ class Table:
                 inside = any(line.covers(place) for line in self.every_line)
                 is_listed = down and number((sheet, row + 2, column)) is not None
                 if number(place) is not None and not is_listed and not inside:
-                    labelled.append((str(kind), place))
+                    if kind != "any depth" or self.gives_depth(place):
+                        labelled.append(self._result(str(kind), place, str(text)))
                     break
         return tuple(labelled)
+
+    def _result(self, kind: str, place: Position, label: str) -> Result:
+        """A result, with the unit that its label or a cell beside it gives."""
+        sheet, row, column = place
+        near = (self.calculation.values.get((sheet, row, column + side)) for side in (1, -1))
+        texts = [text for text in near if isinstance(text, str)]
+        unit = unit_in(label) or next(filter(None, map(is_unit, texts)), None)
+        measure = "1" if kind == "ratio" else "m"
+        fits = unit is not None and same_dimension(unit, measure)
+        return Result("ratio" if kind == "ratio" else "depth", place, unit if fits else None)
+
+    def gives_depth(self, place: Position) -> bool:
+        """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
+        depths = [self.place("depth", k) for k in range(self.steps + 1)]
+        edge, seen = [place], {place}
+        while edge:
+            areas = [area for cell in edge for area in self.calculation.areas(cell)]
+            if any(any(map(area.covers, depths)) for area in areas):
+                return True
+            near = {p for area in areas if area.cells <= FEW for p in area.places()}
+            edge = [cell for cell in near - seen if cell not in self.places]
+            seen.update(edge)
+        return False
 
     @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:

@@ -146,10 +146,13 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
 def result_of(label: str) -> str | None:
     """Whether a label names the final depth ("depth") or that over the radius ("ratio").
 
-    >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("depth")
-    ('depth', 'ratio', None)
+    "any depth" does not say which one.
+
+    >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("Depth [m]"), result_of("radius")
+    ('depth', 'ratio', 'any depth', None)
     """
-    return next(iter(_words("results", _plain(label))), None)
+    named = _words("results", _plain(label)) or _symbols("result_symbols", label)
+    return next(iter(named), None)
 
 
 # What this program calls them, and numbers in their units.

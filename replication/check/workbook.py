@@ -8,11 +8,11 @@ from itertools import dropwhile
 from pathlib import Path
 
 from reference.ledger import Claim, load
-from reference.units import same_dimension
+from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.inputs import find, numbers_beside, report_inputs
 from replication.check.judge import judge
-from replication.check.table import LEAST, Line, address, lines, runs, tables
+from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
 from replication.check.words import COLUMNS, INPUTS, count
 from replication.reading import place as named
 from replication.text import with_unit
@@ -219,20 +219,21 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
             name = f"a1-{role.replace('_', '-')}-{k}"
             if name in load().claims and k in column:
                 yield _judged(name, f.table.place(role, k), Fraction(column[k]))
-    yield from _results(f, case, dict(f.table.results) if alone else {})
+    yield from _results(f, case, f.table.results if alone else ())
 
 
-def _results(f: Examination, case: str, cells: Mapping[str, Position]) -> Iterator[HeldNumber]:
+def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[HeldNumber]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
     last, depth = f.table.place("depth", f.table.steps), f.final_depth
-    if f.ends and depth is not None and "depth" not in cells:
+    if f.ends and depth is not None and all(result.kind != "depth" for result in results):
         yield _judged(f"depth-{case}", last, Fraction(depth))
-    for kind, place in cells.items():
+    for kind, place, unit in results:
         value = f.calculation.number(place) or 0.0
         if not f.ends and place in f.calculation.formulas:
             continue  # it is not the final depth that the formulas give so far
-        if kind == "ratio":
-            yield _judged(f"ratio-{case}", place, Fraction(value))
+        if kind == "ratio" or unit:
+            factor = to_si(unit or "1")
+            yield _judged(f"{kind}-{case}", place, Fraction(value) * factor)
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
