@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Set
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from itertools import islice, product
+from itertools import compress, islice, product
 from math import prod
 from typing import Any
 
@@ -12,14 +12,14 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Ratios, Reals, Residues
-from reference.enclosure import Box, enclose, explore
+from reference.enclosure import Box, Ends, enclose, explore
 from reference.entries import Equation
-from reference.equations import EquationError, Sides, dimension
+from reference.equations import EquationError, dimension
 from reference.formulas import Check, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
-from replication.audit.inference import Inference, infer
+from replication.audit.inference import Inference
 from replication.audit.record import ConstantRecord
 from replication.audit.replica import replica
 
@@ -126,8 +126,9 @@ class Judge:
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
-        self._inferences = cache(partial(infer, ledger))
-        self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
+        self._inferences = cache(partial(Inference, ledger))
+        self._searched = cache(self._search)
+        self._ranges: dict[Any, Ends] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
@@ -167,7 +168,7 @@ class Judge:
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
-        judgements = tuple(self._judgements(claim, name))
+        judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
         exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
@@ -182,15 +183,10 @@ class Judge:
             answer = replica(computation.name, inputs, **settings)
             computed = float(Fraction(answer) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
-        return Reading(name, computation.summary, computed, digits, judgements)
+        return Reading(name, computation.summary, computed, digits, tuple(judgements))
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        """Under every convention, or under the usual one only."""
-        every = self._under_every_convention(claim, name)
-        return every if self.every_convention else islice(every, 1)
-
-    def _under_every_convention(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        searched: dict[Convention, Judgement] = {}
+        """Under every convention that makes a difference to the claim, the usual one first."""
         for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
             convention = Convention(rounding, centered=centered)
             judgement = self._as_printed(claim, name, convention)
@@ -200,10 +196,8 @@ class Judge:
             for rounded in _input_conventions(self.ledger, claim, convention):
                 # A search does not ask how ties go.
                 even = rounding is Rounding.EVEN
-                key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
-                if key not in searched:
-                    searched[key] = self._search(claim, name, key)
-                yield replace(searched[key], convention=rounded)
+                asked = replace(rounded, rounding=Rounding.AWAY) if even else rounded
+                yield replace(self._searched(claim, name, asked), convention=rounded)
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -247,9 +241,7 @@ class Judge:
                 own.excludes(function, around, convention, whole, budget) for own in inferences
             )
         else:
-            never = search.never and (
-                around.excludes(*search.ends) or explore(function, whole, around, budget).never
-            )
+            never = search.never and explore(function, whole, around, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         judgement = _judgement(claim, convention, verdict, search.ends)
         return replace(judgement, against_evidence=never and witness is not None)
@@ -277,9 +269,7 @@ class Judge:
             whole[entry] = inference.admitted(convention)[1].ends
         return narrow, whole
 
-    def _range(
-        self, claim: Claim, name: str, convention: Convention, box: Box
-    ) -> tuple[Fraction, Fraction]:
+    def _range(self, claim: Claim, name: str, convention: Convention, box: Box) -> Ends:
         computation = claim.computations[name]
         what = computation.name, claim.row, str(claim.inputs)
         key = what, convention.centered, tuple(box.items())
@@ -301,7 +291,7 @@ def _judgement(
     claim: Claim,
     convention: Convention,
     verdict: Verdict,
-    ends: tuple[Fraction, Fraction],
+    ends: Ends,
     witness: Mapping[str, Fraction] | None = None,
 ) -> Judgement:
     lower, upper = (end / claim.si for end in ends)
@@ -375,7 +365,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     >>> assess_equation(load(), "eq16").factor
     Fraction(1, 2)
     """
-    equation, checks = ledger.equations[name], tuple(_checks(ledger, name, ledger.sides))
+    equation, checks = ledger.equations[name], tuple(_checks(ledger, name))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
@@ -386,19 +376,16 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def follows(ledger: Ledger, name: str, sides: Sides | None = None) -> bool:
-    """Whether an equation, or these sides in its place, pass every check.
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check.
 
     What fails in remainders, a small part of the work, fails; the rest is proven.
     """
-    sides = sides or ledger.sides
-    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, sides, field))
+    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, field))
     return all(check.holds for check in each)
 
 
-def _checks(
-    ledger: Ledger, name: str, sides: Sides, field: type[Ratios | Residues] = Ratios
-) -> Iterator[Check]:
+def _checks(ledger: Ledger, name: str, field: type[Ratios | Residues] = Ratios) -> Iterator[Check]:
     """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
@@ -407,7 +394,7 @@ def _checks(
         return
     try:
         symbols = field([symbol for symbol in ledger.symbols if symbol != "pi"])
-        yield from derive(ledger.equations[name], sides, ledger.written, symbols)
+        yield from derive(ledger.equations[name], ledger.sides, ledger.written, symbols)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
@@ -417,43 +404,39 @@ def _checks(
     }
     says = "both sides have the same dimensions"
     try:
-        own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+        own = [dimension(side, ledger.dimensions, exponents) for side in ledger.sides[name]]
         yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
         yield Check(f"{says}: {error}", holds=False)
 
 
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
-    claims = ledger.constants_of(name)
+    printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
 
-    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
-        """The values of a constant with which every check holds, another one given."""
-        printed = ledger.value(claim)
-        return tuple(
-            value
-            for value in sorted({*_USUAL, printed, 2 * printed, printed / 2})
-            if (holds if value == printed and not given else follows_with({**given, claim: value}))
-        )
+    def passing(claim: str, right: Mapping[str, Fraction]) -> list[Fraction]:
+        """The values of a constant with which every check holds, another one put right."""
+        own = printed[claim]
+        tried = sorted({*_USUAL, own, 2 * own, own / 2})
+        texts = (ledger.printed_text(name, {**right, claim: value}) for value in tried)
+        each = (follows(ledger.misprint(name, text), name) for text in texts)
+        return list(compress(tried, each))
 
-    def follows_with(constants: Mapping[str, Fraction]) -> bool:
-        read = ledger.read(ledger.printed_text(name, constants))
-        return follows(ledger, name, {**ledger.sides, name: read})
-
-    needed = {claim: passing(claim, {}) for claim in claims}
+    needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
         # The others are judged with the one number put right.
         (culprit,) = repairs
         right = {culprit: needed[culprit][0]}
-        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
+        needed |= {claim: passing(claim, right) for claim in printed if claim != culprit}
     constants = {}
     for claim, values in needed.items():
-        fits, alone = ledger.value(claim) in values, len(values) == 1
+        fits, alone = printed[claim] in values, len(values) == 1
         verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
         if fits:
             verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
-        texts = [str(value) for value in values]
-        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
+        constants[claim] = ConstantRecord(
+            claim=claim, verdict=verdict, needed=list(map(str, values))
+        )
     return constants
 
 

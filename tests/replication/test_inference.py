@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from reference.ledger import Convention, load
 from replication.audit import wording
-from replication.audit.inference import Inference, infer
+from replication.audit.inference import Inference
 from replication.audit.verdict import Judge, Verdict
 from replication.models import sheet
 from replication.models.impact import Impact
@@ -25,7 +25,7 @@ CELLS = {f"a1-{column}-{row}": (column.replace("-", "_"), row)
 
 @cache
 def inference(centered: bool = False) -> Inference:
-    return infer(LEDGER, DENSITY, centered=centered)
+    return Inference(LEDGER, DENSITY, centered=centered)
 
 
 def impact(**changed: Any) -> Impact:
