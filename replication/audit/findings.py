@@ -5,7 +5,7 @@ a model or a search: for each finding a function of the same name.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from statistics import NormalDist
@@ -16,7 +16,6 @@ from msgspec.structs import replace
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
-from reference.entries import Source
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.units import to_si
@@ -45,7 +44,7 @@ class Known:
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)
-        self.admitted = cache(self._admitted)
+        self.sources = cache(self._sources)
 
     def _assess(self, claim: Claim) -> Assessment:
         """The verdict on one claim, and why."""
@@ -54,42 +53,35 @@ class Known:
         if claim.within is None and claim.computation is not None:
             assessed = self.judge.assess(claim)
             return replace(assessed, reason=wording.explanation(self.judge, claim, assessed))
-        reason, constant = "", None
-        if claim.within is not None:
-            constant = self.equation(claim.within).constants.get(claim.id)
-        if constant is not None:
-            reason = wording.constant_explanation(self.ledger, claim, constant)
-            if constant.verdict != Verdict.NOT_CHECKABLE:
-                return Assessment(Verdict(constant.verdict), reason)
-        if sources := self.sources(claim):
+        constant = self.equation(claim.within).constants.get(claim.id) if claim.within else None
+        reason = wording.constant_explanation(self.ledger, claim, constant) if constant else ""
+        if constant and constant.verdict != Verdict.NOT_CHECKABLE:
+            return Assessment(Verdict(constant.verdict), reason)
+        if sources := self.sources(claim.id):
             agrees = any(source.agrees for source in sources)
             verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
             return Assessment(verdict, reason or wording.sources(sources))
         if claim.shown_by:
             shown = self.shown(claim)
-            verdict = Verdict.INCONSISTENT if shown is None else Verdict.CONSISTENT
+            verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
             return Assessment(verdict, reason or wording.chosen(shown))
         undecided = f"Nothing in the report decides it: {claim.given}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
-    def sources(self, claim: Claim) -> list[r.SourceRecord]:
-        """The public sources for a claim, and whether each agrees with it."""
-        outcomes = {True: "agrees", False: "differs"}
-        return self._sources(claim.id, lambda s: outcomes[claim.target().meets(s.interval)])
-
-    def _admitted(self, name: str) -> list[r.SourceRecord]:
-        """The public sources for an inferred input, and what its evidence says of each."""
-        admits = self.judge.inference(name).admits
-        return self._sources(name, lambda s: f"is {admits(s.value, s.interval)}")
-
-    def _sources(self, name: str, outcome: Callable[[Source], str]) -> list[r.SourceRecord]:
-        agreeing = ("agrees", "is admitted")
-        return [
-            r.filled(r.SourceRecord, source, agrees=said in agreeing, outcome=said)
-            for source in self.ledger.sources.values()
-            if name in source.claims
-            for said in [outcome(source)]
-        ]
+    def _sources(self, name: str) -> list[r.SourceRecord]:
+        """The public sources for a claim or an inferred input, and whether each agrees with it."""
+        records = []
+        for source in self.ledger.sources.values():
+            if name not in source.claims:
+                continue
+            if name.startswith(INFERRED):
+                outcome = f"is {self.judge.inference(name).admits(source.value, source.interval)}"
+            else:
+                meets = self.ledger.claims[name].target().meets(source.interval)
+                outcome = "agrees" if meets else "differs"
+            agrees = outcome in ("agrees", "is admitted")
+            records.append(r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome))
+        return records
 
     def exact(self, name: str) -> Fraction:
         """A claim as printed, an inferred input as assumed, or a source's number, in SI."""
@@ -131,9 +123,8 @@ class Evidence:
     @cached_property
     def proven(self) -> Mapping[str, Value]:
         """What the function of the finding's name computes."""
-        compute: Callable[[Evidence], Mapping[str, Value]]
-        compute = globals()[f"_{self.finding.id.replace('-', '_')}"]
-        return compute(self)
+        proven: Mapping[str, Value] = globals()[f"_{self.finding.id.replace('-', '_')}"](self)
+        return proven
 
     def __getitem__(self, name: str) -> float:
         """A value by its name in a formula, as a double."""
@@ -338,7 +329,7 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     ends = {f"{name}{which}": end
             for name, interval in ranges.items()
             for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
-    said = {source.id: source.outcome.removeprefix("is ") for source in known.admitted(_DENSITY)}
+    said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(_DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
     return ends | {
         "mass_greatest": inference.with_mass.ends[1],
