@@ -11,7 +11,7 @@ from reference.arithmetic import Floats
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
-from reference.units import Dimension, to_si
+from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
@@ -357,10 +357,10 @@ _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
-    text = ledger.printed_text(name)
     if name in ledger.equations:
-        return equation_edits(text, ledger.written, ledger.dimensions)
-    return edits(text) if ledger.claims[name].printed is not None else iter(())
+        return equation_edits(ledger, name)
+    claim = ledger.claims[name]
+    return iter(()) if claim.printed is None else edits(claim.text)
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:
@@ -448,43 +448,36 @@ NUMBER_EDITS = tuple(_EDITS)
 """Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
 
 
-def equation_edits(
-    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
-) -> Iterator[tuple[str, str]]:
+def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     r"""Every equation one edit away, with the kind of the edit.
 
-    `written` maps what the report writes to a symbol's name; a symbol is mistaken for another of
-    the same dimension.
+    A symbol is mistaken for another of the same dimension.
 
     >>> from reference.ledger import load
-    >>> ledger = load()
-    >>> [text for text, kind in equation_edits("D = 2R", ledger.written, ledger.dimensions)
-    ...  if kind == "number dropped"]
+    >>> [text for text, kind in equation_edits(load(), "diameter") if kind == "number dropped"]
     ['D = R']
     """
-    edits: dict[str, str] = {}
-    symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
+    text, written, dimensions = ledger.printed_text(name), ledger.written, ledger.dimensions
+    edits = {text: ""}
+    symbols = "|".join(re.escape(symbol) for symbol in sorted(written, key=len, reverse=True))
     tokens = re.compile(
-        rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
+        rf"(?P<function>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        token, mistaken = match[0], []
-        if match["number"]:
-            mistaken = [("", "number dropped")]
+        token, kind, mistaken = match[0], f"{match.lastgroup} changed", list[str]()
+        if token.isdecimal():
+            kind, mistaken = "number dropped", [""]
         elif token in _OPPOSITE:
-            kind = "sign changed" if match["sign"] else "function changed"
-            mistaken = [(_OPPOSITE[token], kind)]
-        elif match["symbol"]:
-            own = written[token]
-            mistaken = [(symbol, "symbol changed") for symbol, name in written.items()
-                        if name != own and dimensions[name] == dimensions[own]]  # fmt: skip
-        for instead, kind in mistaken:
+            mistaken = [_OPPOSITE[token]]
+        elif own := written.get(token):
+            mistaken = [symbol for symbol, meant in written.items()
+                        if meant != own and dimensions[meant] == dimensions[own]]  # fmt: skip
+        for instead in mistaken:
             edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
         turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
         edits.setdefault(turned, "fraction turned over")
-    edits.pop(text, None)
-    return iter(edits.items())
+    return ((edited, kind) for edited, kind in edits.items() if kind)
 
 
 _OPPOSITE = {"+": "-", "-": "+", r"\ln": r"\log", r"\log": r"\ln"}

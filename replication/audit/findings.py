@@ -29,9 +29,11 @@ from replication.models.impact import Impact
 Value = Fraction | float | bool
 """Of a piece of evidence: a number in SI units, or whether something was proven."""
 
-_DENSITY = INFERRED + "target-density"
-_READINGS = {"computed": "", "derived": "derived from Eqs. 14 and 15"}
-_DERIVED = _READINGS["derived"]
+DENSITY = INFERRED + "target-density"
+DERIVED = "derived from Eqs. 14 and 15"
+"""How Eq. 16 is read otherwise than printed."""
+
+_READINGS = {"computed": "", "derived": DERIVED}
 
 
 class Known:
@@ -239,7 +241,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     rounded = Convention(choices_exact=choices_exact)
     claims = known.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
+    box["density"] = known.judge.inference(DENSITY).admitted(rounded)[1].ends
     return enclose(ratio, box).ends[0]
 
 
@@ -262,7 +264,7 @@ def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
         for name in ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
     )
     exact, rounded = (
-        [j for j in known.reading(stainless.id, _DERIVED).judgements
+        [j for j in known.reading(stainless.id, DERIVED).judgements
          if j.convention.choices_exact is choices_exact]
         for choices_exact in (True, False)
     )  # fmt: skip
@@ -302,13 +304,13 @@ def _least_admitted(known: Known) -> Fraction:
     claim = known.ledger.claims["frank-zook-stainless"]
     box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
     box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
-    box[_DENSITY] = known.judge.inference(_DENSITY).outer.ends
-    return enclose(known.ledger.function(claim, reading=_DERIVED), box).ends[0]
+    box[DENSITY] = known.judge.inference(DENSITY).outer.ends
+    return enclose(known.ledger.function(claim, reading=DERIVED), box).ends[0]
 
 
 def _needed(known: Known, claim: Claim, entry: str) -> float:
     """The middle of the values of an entry with which the derived form gives the number."""
-    inner = known.explainer.solutions(claim, _DERIVED, entry).inner
+    inner = known.explainer.solutions(claim, DERIVED, entry).inner
     if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
     return float(sum(inner[0])) / 2
@@ -319,8 +321,8 @@ def _needed(known: Known, claim: Claim, entry: str) -> float:
 
 def _target_density(own: Evidence) -> Mapping[str, Value]:
     known = own.known
-    inference = known.judge.inference(_DENSITY)
-    centered = known.judge.inference(_DENSITY, centered=True)
+    inference = known.judge.inference(DENSITY)
+    centered = known.judge.inference(DENSITY, centered=True)
     ranges = {
         "": inference.inner,
         "possible_": inference.admitted(Convention())[1],
@@ -329,7 +331,7 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     ends = {f"{name}{which}": end
             for name, interval in ranges.items()
             for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
-    said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(_DENSITY)}
+    said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
     return ends | {
         "mass_greatest": inference.with_mass.ends[1],
@@ -375,8 +377,8 @@ def _middle_density(known: Known) -> Fraction:
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
     function = holding(ledger.function(claim, centered=True), printed)
-    admitted = known.judge.inference(_DENSITY, centered=True).outer.ends
-    outer = solve(function, _DENSITY, admitted, claim.target()).outer
+    admitted = known.judge.inference(DENSITY, centered=True).outer.ends
+    outer = solve(function, DENSITY, admitted, claim.target()).outer
     if not outer:
         raise ArithmeticError("no target density gives the depth")
     return outer[0][0]
@@ -422,7 +424,7 @@ def _table_columns(own: Evidence) -> Mapping[str, Value]:
 
 def _observed_beta(own: Evidence) -> Mapping[str, Value]:
     """p = rho_t V^2 / 2 R_t at which the exact X/R is y <= 1: y^2 - y^3/3 = c."""
-    density = own[_DENSITY] / own["a1-density"]
+    density = own[DENSITY] / own["a1-density"]
     depths = {"p": "observed-ratio", "p_least": "observed-ratio.least",
               "p_greatest": "observed-ratio.greatest"}  # fmt: skip
     return {p: math.expm1(crater.volume_ratio(own[y]) * density) for p, y in depths.items()}
