@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Set
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from itertools import compress, islice, product
+from itertools import islice, product
 from math import prod
 from typing import Any
 
@@ -17,7 +17,7 @@ from reference.entries import Equation
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Interval, Rounding
+from reference.printed import Rounding
 from reference.units import DimensionError
 from replication.audit.inference import Inference
 from replication.audit.record import ConstantRecord
@@ -127,7 +127,6 @@ class Judge:
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
         self._inferences = cache(partial(Inference, ledger))
-        self._searched = cache(self._search)
         self._ranges: dict[Any, Ends] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
@@ -194,10 +193,7 @@ class Judge:
                 yield judgement
                 continue
             for rounded in _input_conventions(self.ledger, claim, convention):
-                # A search does not ask how ties go.
-                even = rounding is Rounding.EVEN
-                asked = replace(rounded, rounding=Rounding.AWAY) if even else rounded
-                yield replace(self._searched(claim, name, asked), convention=rounded)
+                yield self._search(claim, name, rounded)
 
     def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
         """The verdict if the inputs as printed give the number or leave it open."""
@@ -222,26 +218,22 @@ class Judge:
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
         target = claim.target(convention.rounding)
-        inside = around = target
-        if convention.rounding is not Rounding.CUT and target != claim.target(Rounding.CUT):
-            # A search does not ask how ties go: without, and with, the ends on which they decide.
-            inside, around = Interval(*target.ends, False, False), Interval(*target.ends)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
-            search = explore(function, box, inside, budget)
+            search = explore(function, box, target, budget)
             witness = search.inside
             if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
                 ends = enclose(function, whole).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
         if witness is not None:
             never = any(
-                own.excludes(function, around, convention, whole, budget) for own in inferences
+                own.excludes(function, target, convention, whole, budget) for own in inferences
             )
         else:
-            never = search.never and explore(function, whole, around, budget).never
+            never = search.never and explore(function, whole, target, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
         judgement = _judgement(claim, convention, verdict, search.ends)
         return replace(judgement, against_evidence=never and witness is not None)
@@ -416,10 +408,14 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
     def passing(claim: str, right: Mapping[str, Fraction]) -> list[Fraction]:
         """The values of a constant with which every check holds, another one put right."""
         own = printed[claim]
-        tried = sorted({*_USUAL, own, 2 * own, own / 2})
-        texts = (ledger.printed_text(name, {**right, claim: value}) for value in tried)
-        each = (follows(ledger.misprint(name, text), name) for text in texts)
-        return list(compress(tried, each))
+
+        def passes(value: Fraction) -> bool:
+            if value == own and not right:
+                return holds
+            text = ledger.printed_text(name, {**right, claim: value})
+            return follows(ledger.misprint(name, text), name)
+
+        return list(filter(passes, sorted({*_USUAL, own, 2 * own, own / 2})))
 
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
