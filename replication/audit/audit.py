@@ -191,8 +191,7 @@ class Audit(Known):
         if claim.kind != "remark":
             return []
         figures = []
-        for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
-            where = "initial" if scheme == "published" else "middle"
+        for beta, (scheme, where) in product(comparison.BETAS, comparison.DRAG_AT.items()):
             what, depths = f"beta = {beta}, drag at the {where} velocity", []
             for name in ("a-step", "coarse-step"):
                 depths.append(sheet.run(case(self, beta, step=self[name]), scheme).final_depth)

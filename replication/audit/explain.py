@@ -124,24 +124,22 @@ class Explainer:
         ]
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
-        unit, solutions = self.ledger.unit(name), self.solutions(claim, reading, name)
-        proof = "proven inside, and none beyond"
+        solutions, unit = self.solutions(claim, reading, name), self.ledger.unit(name)
+        si, proof = to_si(unit), "proven inside, and none beyond"
         if not solutions.outer:
             proof = "proven: none in the range does"
         elif not solutions.inner:
             proof = "undecided"
         elif solutions.reaches_an_end:
             proof = "proven, up to an end of the range"
-        search, *intervals = (
-            (float(low / to_si(unit)), float(high / to_si(unit)))
-            for low, high in (solutions.search, *solutions.inner)
-        )
+        spans = (solutions.search, *solutions.inner)
+        search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
         return BackSolvedRecord(
             reading=reading,
             entry=name,
             title=self.ledger.title(name),
             unit=unit,
-            printed=float(self.judge.value(name) / to_si(unit)),
+            printed=float(self.judge.value(name) / si),
             intervals=intervals,
             search=search,
             search_reason=self.ledger.search(name)[2],
@@ -175,8 +173,8 @@ class Explainer:
 
     def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
         """Whether all that shows a number agrees with this value of it (SI)."""
-        shown, screen = map(self.ledger.claims.__getitem__, chosen.shown_by), self._as_printed[-1]
-        return all(screen.agrees(claim, "", {chosen.id: value}) for claim in shown)
+        shown = map(self.ledger.claims.__getitem__, chosen.shown_by)
+        return all(self._as_printed[-1].agrees(claim, "", {chosen.id: value}) for claim in shown)
 
     # Misprints
 
@@ -315,14 +313,14 @@ class Explainer:
             ledger = self.ledger
             if slip.text is not None:
                 ledger = ledger.misprint(slip.equation, slip.text)
-            replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-            changed = claim.resting_on(**replaced)
+            inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
+            changed = claim.resting_on(**inputs)
             function = ledger.function(changed)
             at_print = enclose(function, self.judge.printed(changed)).ends
-            fits = "as printed" if target.encloses(*at_print) else ""
             everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
-            if not fits and not target.excludes(*everywhere):
-                fits = "not excluded within rounding"
+            fits = "" if target.excludes(*everywhere) else "not excluded within rounding"
+            if target.encloses(*at_print):
+                fits = "as printed"
             value = float(at_print[0] / claim.si)
             yield SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
 

@@ -247,8 +247,8 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
 
 def _frank_zook_pair(own: Evidence) -> Mapping[str, Value]:
     return {
-        "least": _least_ratio(own.known, choices_exact=True) - 1,
-        "least_rounded": _least_ratio(own.known, choices_exact=False) - 1,
+        name: _least_ratio(own.known, choices_exact=exact) - 1
+        for name, exact in (("least", True), ("least_rounded", False))
     }
 
 
@@ -259,10 +259,8 @@ def _equation_16(own: Evidence) -> Mapping[str, Value]:
 
 def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
     known = own.known
-    rha, stainless, strength = (
-        known.ledger.claims[name]
-        for name in ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
-    )
+    names = ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
+    rha, stainless, strength = map(known.ledger.claims.__getitem__, names)
     exact, rounded = (
         [j for j in known.reading(stainless.id, DERIVED).judgements
          if j.convention.choices_exact is choices_exact]
@@ -322,18 +320,17 @@ def _needed(known: Known, claim: Claim, entry: str) -> float:
 def _target_density(own: Evidence) -> Mapping[str, Value]:
     known = own.known
     inference = known.judge.inference(DENSITY)
-    centered = known.judge.inference(DENSITY, centered=True)
     ranges = {
         "": inference.inner,
         "possible_": inference.admitted(Convention())[1],
-        "centered_": centered.inner,
+        "centered_": known.judge.inference(DENSITY, centered=True).inner,
     }
-    ends = {f"{name}{which}": end
-            for name, interval in ranges.items()
-            for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
+    evidence: dict[str, Value] = {}
+    for name, interval in ranges.items():
+        evidence[f"{name}least"], evidence[f"{name}greatest"] = interval.ends
     said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
-    return ends | {
+    return evidence | {
         "mass_greatest": inference.with_mass.ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
         "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",

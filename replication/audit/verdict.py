@@ -251,11 +251,11 @@ class Judge:
         claims, exact = self.ledger.claims, replace(convention, choices_exact=True)
         inferred = {e: self.inference(e, centered=convention.centered) for e in claim.inferred}
         evidence = {name for inference in inferred.values() for name in inference.inputs}
-        narrow = {
-            entry: claims[entry].as_input(exact if entry in evidence else convention).ends
-            for entry in claim.stated
-        }
-        whole = {entry: claims[entry].as_input(convention).ends for entry in claim.stated}
+        narrow, whole = dict[str, Ends](), dict[str, Ends]()
+        for entry in claim.stated:
+            usual = exact if entry in evidence else convention
+            narrow[entry] = claims[entry].as_input(usual).ends
+            whole[entry] = claims[entry].as_input(convention).ends
         for entry, inference in inferred.items():
             narrow[entry] = inference.admitted(exact)[0].ends
             whole[entry] = inference.admitted(convention)[1].ends

@@ -10,6 +10,7 @@ from html import escape
 from itertools import count
 from math import log10
 
+from replication.audit.comparison import DRAG_AT
 from replication.audit.record import Record
 from replication.report.words import shown_range
 
@@ -300,14 +301,14 @@ def _convergence(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 260), (0.04, 4), (0.01, 300), below=120, logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
-    looks = {"published": ("initial", VERMILION, "circle"), "centered": ("middle", BLUE, "square")}
+    looks = {"published": (VERMILION, "circle"), "centered": (BLUE, "square")}
     legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
     for (scheme, beta), points in ladders.items():
-        velocity, color, shape = looks[scheme]
+        color, shape = looks[scheme]
         kind = shape if beta == greatest else f"hollow {shape}"
         plot.line(points, color)
         plot.marks(kind, color, points)
-        name = f"drag at the {velocity} velocity, β = {beta:g}"
+        name = f"drag at the {DRAG_AT[scheme]} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")
