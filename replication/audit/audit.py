@@ -287,8 +287,10 @@ def _error(claim: Claim, reading: Reading | None) -> float | None:
 
 def _proven(judgement: Judgement) -> dict[str, Any]:
     """The range proven for a value: as doubles, never narrower, and exactly."""
-    ends = judgement.lower, judgement.upper
-    return {"enclosure": _doubles(*ends), "enclosure_exact": tuple(map(str, ends))}
+    return {
+        "enclosure": _doubles(*judgement.ends),
+        "enclosure_exact": tuple(map(str, judgement.ends)),
+    }
 
 
 def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:

@@ -275,7 +275,7 @@ def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
     grid = strength.number.quantum * strength.si
     exponent = round(own["derived"], 3) * known["fz-kt"] / own["inertia"]
     return {
-        "least_exact": min(j.lower for j in exact),
+        "least_exact": min(j.ends[0] for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
         "needed": _needed(known, stainless, strength.id),
         "grid": grid,

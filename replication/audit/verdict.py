@@ -53,17 +53,16 @@ OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict
 class Judgement(msgspec.Struct, frozen=True):
     """The verdict under one convention.
 
-    `lower`, `upper`: a proven range of the value, in the claim's unit: over all admitted values of
-    the inferred inputs where the printed inputs give the number, else over all inputs that print
-    like the report's. `witness` holds entries (SI) that give the number where the printed ones do
+    `ends`: of a proven range of the value, in the claim's unit: over all admitted values of the
+    inferred inputs where the printed inputs give the number, else over all inputs that print like
+    the report's. `witness` holds entries (SI) that give the number where the printed ones do
     not. `against_evidence`: values in the range print so, but only for inputs that are proven not
     to give the numbers from which an input is inferred.
     """
 
     convention: Convention
     verdict: Verdict
-    lower: Fraction
-    upper: Fraction
+    ends: Ends
     witness: Mapping[str, Fraction] | None = None
     against_evidence: bool = False
 
@@ -235,8 +234,8 @@ class Judge:
         else:
             never = search.never and explore(function, whole, target, budget).never
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        judgement = _judgement(claim, convention, verdict, search.ends)
-        return replace(judgement, against_evidence=never and witness is not None)
+        against_evidence = never and witness is not None
+        return _judgement(claim, convention, verdict, search.ends, None, against_evidence)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
@@ -280,14 +279,10 @@ class Judge:
 
 
 def _judgement(
-    claim: Claim,
-    convention: Convention,
-    verdict: Verdict,
-    ends: Ends,
-    witness: Mapping[str, Fraction] | None = None,
+    claim: Claim, convention: Convention, verdict: Verdict, ends: Ends, *more: Any
 ) -> Judgement:
-    lower, upper = (end / claim.si for end in ends)
-    return Judgement(convention, verdict, lower, upper, witness)
+    """As `Judgement`, the ends given in SI."""
+    return Judgement(convention, verdict, (ends[0] / claim.si, ends[1] / claim.si), *more)
 
 
 def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:

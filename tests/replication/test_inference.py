@@ -148,7 +148,7 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     judgement = assessed.readings[0].judgements[0]
     assert judgement.verdict is Verdict.NOT_REPRODUCED
     assert judgement.against_evidence
-    assert not claim.interval().excludes(judgement.lower, judgement.upper)
+    assert not claim.interval().excludes(*judgement.ends)
     said = wording.explanation(judge, claim, assessed)
     assert "no inputs that give this number also give the numbers" in said
     assert "all of it" not in said
