@@ -25,7 +25,7 @@ class Inference:
     ) -> None:
         self.ledger, self.name, self.centered = ledger, name, centered
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
-        self.rounded, self._admitted = cache(self._rounded), cache(self._extent)
+        self._narrowed, self._admitted = cache(self._narrow), cache(self._extent)
         self.each: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             own = claim.resting_on(mass=self.entry.mass) if by_mass else claim
@@ -70,14 +70,15 @@ class Inference:
         attained, bounds = extent(joint, self.name, box, start)
         return Interval(*attained), Interval(*bounds)
 
-    def _rounded(self, name: str, convention: Convention) -> Ends:
+    def rounded(self, name: str, convention: Convention) -> Ends:
         """The values of an input that print like it, and for which what shows it alone does so.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
         """
-        claim = self.ledger.claims[name]
-        low, high = claim.as_input(convention).ends
-        for shown in map(self.ledger.claims.__getitem__, claim.shown_by):
+        return self._narrowed(name, *self.ledger.claims[name].as_input(convention).ends)
+
+    def _narrow(self, name: str, low: Fraction, high: Fraction) -> Ends:
+        for shown in map(self.ledger.claims.__getitem__, self.ledger.claims[name].shown_by):
             if low != high and shown.entries == [name]:
                 function = self.ledger.function(shown)
                 allowed = solve(function, name, (low, high), shown.target()).outer

@@ -126,7 +126,6 @@ class Judge:
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
         self._inferences = cache(partial(Inference, ledger))
-        self._ranges: dict[Any, Ends] = {}
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
@@ -185,34 +184,25 @@ class Judge:
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
         """Under every convention that makes a difference to the claim, the usual one first."""
-        for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
-            convention = Convention(rounding, centered=centered)
-            judgement = self._as_printed(claim, name, convention)
-            if judgement is not None:
-                yield judgement
-                continue
-            for rounded in _input_conventions(self.ledger, claim, convention):
-                yield self._search(claim, name, rounded)
-
-    def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
-        """The verdict if the inputs as printed give the number or leave it open."""
-        target = claim.target(convention.rounding)
         printed = self.printed(claim)
-        at_print = self._range(claim, name, convention, printed)
-        if target.excludes(*at_print):
-            return None
-        inferred = {
-            entry: self.inference(entry, centered=convention.centered).inner.ends
-            for entry in claim.inferred
-        }
-        everywhere = self._range(claim, name, convention, {**printed, **inferred})
-        if target.encloses(*everywhere):
-            return _judgement(claim, convention, Verdict.REPRODUCED, everywhere)
-        if target.encloses(*at_print):
-            # Only some admitted values do: the printed evidence does not tell which is meant.
-            witness = {entry: value for entry, (value, _) in printed.items()}
-            return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
-        return _judgement(claim, convention, Verdict.UNDECIDED, everywhere)
+        for centered in (False, True) if claim.by_scheme else (False,):
+            own = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
+            at_print = self._range(claim, name, centered, printed)
+            everywhere = self._range(claim, name, centered, {**printed, **own}) if own else at_print
+            for rounding in Rounding:
+                convention, target = Convention(rounding, centered=centered), claim.target(rounding)
+                judged = partial(_judgement, claim, convention)
+                if target.excludes(*at_print):
+                    for rounded in _input_conventions(self.ledger, claim, convention):
+                        yield self._search(claim, name, rounded)
+                elif target.encloses(*everywhere):
+                    yield judged(Verdict.REPRODUCED, everywhere)
+                elif target.encloses(*at_print):
+                    # Only some admitted values do: the evidence does not tell which is meant.
+                    witness = {entry: self.value(entry) for entry in claim.entries}
+                    yield judged(Verdict.WITHIN_ROUNDING, everywhere, witness)
+                else:
+                    yield judged(Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
@@ -227,14 +217,11 @@ class Judge:
             if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
                 ends = enclose(function, whole).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
-        if witness is not None:
-            never = any(
-                own.excludes(function, target, convention, whole, budget) for own in inferences
-            )
-        else:
-            never = search.never and explore(function, whole, target, budget).never
+        against_evidence = witness is not None and any(
+            own.excludes(function, target, convention, whole, budget) for own in inferences
+        )
+        never = search.never or against_evidence
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        against_evidence = never and witness is not None
         return _judgement(claim, convention, verdict, search.ends, None, against_evidence)
 
     def printed(self, claim: Claim) -> Box:
@@ -260,22 +247,16 @@ class Judge:
             whole[entry] = inference.admitted(convention)[1].ends
         return narrow, whole
 
-    def _range(self, claim: Claim, name: str, convention: Convention, box: Box) -> Ends:
-        computation = claim.computations[name]
-        what = computation.name, claim.row, str(claim.inputs)
-        key = what, convention.centered, tuple(box.items())
-        if key not in self._ranges:
-            function = self.ledger.function(claim, reading=name, centered=convention.centered)
-            range_ = enclose(function, box)
-            targets = [claim.target(rounding) for rounding in Rounding]
-            decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
-            # Of a whole sheet, or where a row squares twice, the fractions grow very long.
-            long = computation.by_scheme and (
-                not computation.by_row or (convention.centered and decided)
-            )
-            exact = None if long else _exactly(function, box, range_.idle)
-            self._ranges[key] = range_.ends if exact is None else (exact, exact)
-        return self._ranges[key]
+    def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
+        """A proven range of a claim's values, in SI; one exact value where that can be told."""
+        function = self.ledger.function(claim, reading=name, centered=centered)
+        range_, computation = enclose(function, box), claim.computations[name]
+        targets = [claim.target(rounding) for rounding in Rounding]
+        decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
+        # Of a whole sheet, or where a row squares twice, the fractions grow very long.
+        long = computation.by_scheme and (not computation.by_row or (centered and decided))
+        exact = None if long else _exactly(function, box, range_.idle)
+        return range_.ends if exact is None else (exact, exact)
 
 
 def _judgement(
