@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterable
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
@@ -22,7 +22,7 @@ from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.findings import Evidence, Known, case
-from replication.audit.verdict import Judgement, Reading, Verdict
+from replication.audit.verdict import OPEN, Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, quantity
 
@@ -45,10 +45,8 @@ class Audit(Known):
         equations = [self._equation(name) for name in self.ledger.equations]
         findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
-        verdicts = {
-            part.id: Verdict(part.verdict) for parts in (claims, equations) for part in parts
-        }
-        wrong = [name for name, verdict in verdicts.items() if verdict.is_failure]
+        verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
+        failing = [name for name, verdict in verdicts.items() if Verdict(verdict).is_failure]
         counts = self._counts(claims, equations)
         return r.Record(
             schema=r.SCHEMA,
@@ -56,8 +54,8 @@ class Audit(Known):
             report=self.ledger.report,
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,
-            culprit=self.explainer.culprit(wrong),
-            failing=wrong,
+            culprit=self.explainer.culprit(failing),
+            failing=failing,
             claims=claims,
             equations=equations,
             findings=[finding for finding in findings if finding is not headline],
@@ -80,13 +78,14 @@ class Audit(Known):
     @staticmethod
     def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
-        calculations = {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
         return r.Counts(
             numbers=len(claims) - remarks,
             remarks=remarks,
             reproduced=len(reproduced),
-            calculations=len(calculations),
+            calculations=len(
+                {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
+            ),
             failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
@@ -98,13 +97,11 @@ class Audit(Known):
         """One claim, as data."""
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
-        fails = assessment.verdict.is_failure or any(
-            reading.verdict is not Verdict.REPRODUCED for reading in assessment.readings[:1]
-        )
-        own = self._reading(claim, first) if first else _UNREAD
+        own: Any = self._reading(claim, first) if first else _UNREAD
+        verdict = assessment.verdict
+        fails = verdict in OPEN if first else verdict.is_failure
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
-        formula, mathml, by_hand = self._formula(claim, first)
         restates = claim.computation is not None and claim.computation.restates
         return r.filled(
             r.ClaimRecord,
@@ -115,18 +112,16 @@ class Audit(Known):
             interval=ends and tuple(end if end is None else float(end) for end in ends),
             interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
             interval_text=str(interval) if interval else None,
-            verdict=assessment.verdict,
+            verdict=verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
             error_in_last_digit=_error(claim, first),
             readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(self.judge, claim, own.computed),
             explanation=assessment.reason,
-            formula=formula,
-            mathml=mathml,
-            by_hand=by_hand,
+            **self._worked(claim, own.computed),
             shown_by=self.shown(claim),
-            sources=self.sources(claim),
+            sources=self.sources(claim.id),
             figures=self._figures(claim),
             back_solved=self.explainer.back_solved(claim) if fails and first else [],
             repairs=self.explainer.repairs(claim.id) if fails else [],
@@ -146,45 +141,42 @@ class Audit(Known):
             otherwise=[_judged(j) for j in reading.otherwise],
         )
 
-    def _formula(self, claim: Claim, reading: Reading | None) -> tuple[str | None, ...]:
-        """Of a failing claim: its formula with the numbers in it, its equation, and by hand.
+    def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
+        """Its formula with the numbers in it, its equation, and how to reckon it by hand.
 
-        None where it takes more than one equation of the report.
+        Of a claim that is not reproduced and takes one equation of the report; else nothing.
         """
-        nothing, computation = (None, None, None), claim.computation
-        if reading is None or reading.verdict is not Verdict.NOT_REPRODUCED:
+        nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
+        premises = claim.computation.premises if claim.computation else {}
+        wrong = self.assessment(claim).verdict is Verdict.NOT_REPRODUCED
+        if computed is None or not wrong or not premises:
             return nothing
-        if computation is None or not computation.equations:
-            return nothing
-        *_, premise = computation.premises.values()
-        equation = premise.equation
-        (left, right) = self.ledger.sides[equation]
-        inputs = {key: names for key, names in claim.inputs.items() if len(names) == 1}
-        values = {
-            symbol: self.judge.value(*inputs[text])
-            for symbol, text in premise.put.items()
-            if text in inputs
-        } | {"D": Fraction(1)}  # L is given in diameters
+        *_, premise = premises.values()
+        left, right = self.ledger.sides[premise.equation]
+        values = {"D": Fraction(1)}  # L is given in diameters
+        for symbol, text in premise.put.items():
+            if len(names := claim.inputs.get(text, ())) == 1:
+                values[symbol] = self.judge.value(*names)
         at = {key: float(value) for key, value in values.items()}
+        worth = partial(evaluate, ar=Floats(), values=at)
         try:
-            value = evaluate(right, Floats(), at)
+            if not isclose(worth(right), computed, rel_tol=1e-9):
+                return nothing
         except EquationError:
             return nothing
-        if not isclose(value, reading.computed, rel_tol=1e-9):
-            return nothing
         put = self._shown | {key: _short(value) for key, value in values.items()}
-        result = f"{reading.computed:#.3g}"
-        symbols = (rendered(side, self._shown) for side in (left, right))
+        numbers = partial(rendered, shown=put, notation=_NUMBERS)
         factors = right.parts if right.kind == "product" else (right,)
-        texts = [f"{evaluate(factor, Floats(), at):#.5g}" for factor in factors]
-        steps = [
-            f"{rendered(factor, put, _NUMBERS)} = {text}"
-            for factor, text in zip(factors, texts, strict=True)
-        ]
+        texts, result = [f"{worth(factor):#.5g}" for factor in factors], f"{computed:#.3g}"
+        steps = [f"{numbers(factor)} = {text}" for factor, text in zip(factors, texts, strict=True)]
         if len(steps) > 1:
             steps.append(f"{' · '.join(texts)} = {result}")
-        formula = " = ".join((*symbols, rendered(right, put, _NUMBERS), result))
-        return formula, self._mathml(equation), f"{'; '.join(steps)}."
+        symbols = (rendered(side, self._shown) for side in (left, right))
+        return {
+            "formula": " = ".join((*symbols, numbers(right), result)),
+            "mathml": self._mathml(premise.equation),
+            "by_hand": f"{'; '.join(steps)}.",
+        }
 
     @cached_property
     def _shown(self) -> dict[str, str]:
@@ -199,16 +191,13 @@ class Audit(Known):
         if claim.kind != "remark":
             return []
         figures = []
-        for beta, scheme in product(comparison.BETAS, sheet.SCHEMES):
-            where = "initial" if scheme == "published" else "middle"
-            what = f"beta = {beta}, drag at the {where} velocity"
-            depths = {}
+        for beta, (scheme, where) in product(comparison.BETAS, comparison.DRAG_AT.items()):
+            what, depths = f"beta = {beta}, drag at the {where} velocity", []
             for name in ("a-step", "coarse-step"):
+                depths.append(sheet.run(case(self, beta, step=self[name]), scheme).final_depth)
                 means = f"final depth at {quantity(self.ledger.claims[name].shown, 'ns')}, {what}"
-                depths[means] = sheet.run(case(self, beta, step=self[name]), scheme).final_depth
-            fine, coarse = depths.values()
-            figures += [r.Figure(means=m, value=x * 1e6, unit="um") for m, x in depths.items()]
-            change = 100 * (coarse / fine - 1)
+                figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
+            change = 100 * (depths[1] / depths[0] - 1)
             figures.append(r.Figure(means=f"change, {what}", value=change, unit="percent"))
         return figures
 
@@ -247,7 +236,7 @@ class Audit(Known):
             possible_with_rounded_inputs=rounded and _doubles(*rounded[1].scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
-            sources=[] if centered else self.admitted(INFERRED + name),
+            sources=[] if centered else self.sources(INFERRED + name),
         )
 
 
@@ -298,8 +287,10 @@ def _error(claim: Claim, reading: Reading | None) -> float | None:
 
 def _proven(judgement: Judgement) -> dict[str, Any]:
     """The range proven for a value: as doubles, never narrower, and exactly."""
-    ends = judgement.lower, judgement.upper
-    return {"enclosure": _doubles(*ends), "enclosure_exact": tuple(map(str, ends))}
+    return {
+        "enclosure": _doubles(*judgement.ends),
+        "enclosure_exact": tuple(map(str, judgement.ends)),
+    }
 
 
 def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:

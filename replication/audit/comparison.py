@@ -2,16 +2,27 @@
 
 import math
 from dataclasses import replace
+from itertools import product
 from statistics import NormalDist
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import Known, case, constant_pressure_ratio, exact_ratio
+from replication.audit.findings import (
+    DENSITY,
+    DERIVED,
+    Known,
+    case,
+    constant_pressure_ratio,
+    exact_ratio,
+)  # fmt: skip
 from replication.models import depth, motion, sheet
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
 
 BETAS = (3, 5)
+
+DRAG_AT = {"published": "initial", "centered": "middle"}
+"""Which velocity of a row each scheme of the sheet takes the drag at."""
 
 
 def approaches(known: Known) -> list[r.Approach]:
@@ -26,7 +37,7 @@ def approaches(known: Known) -> list[r.Approach]:
 
     line = depth_from_volume_ratio(known["volume-ratio-line"])
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
-    forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", "derived from Eqs. 14 and 15"))
+    forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED))
     models = {f"beta = {beta}": case(known, beta) for beta in BETAS}
     rows = [
         ("observed", f"CV/PV = {drawn}, the line in Figure 1", line, ""),
@@ -63,7 +74,7 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     velocity, spread = impact.velocity, known["velocity-deviation"]
     radius, size = impact.radius, known["diameter-deviation"] / 2
     printed = known.ledger.claims["a1-density"].target().ends
-    possible = known.judge.inference("inferred:target-density").admitted(Convention())[1].ends
+    possible = known.judge.inference(DENSITY).admitted(Convention())[1].ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
@@ -74,13 +85,11 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     )
     stated = []
     for name, low, high, why in ranges:
-        ends = [replace(impact, **{name: float(end)}) for end in (low, high)]
-        depths = [depth.final_depth(**end.motion) for end in ends]
-        ratios = [x / end.radius for x, end in zip(depths, ends, strict=True)]
-        stated.append(
-            r.Effect(input=name, low=float(low), high=float(high), depths=depths, ratios=ratios,
-                     why=why)
-        )  # fmt: skip
+        cases = [replace(impact, **{name: float(end)}) for end in (low, high)]
+        depths = [depth.final_depth(**case.motion) for case in cases]
+        ratios = [x / case.radius for x, case in zip(depths, cases, strict=True)]
+        ends = {"low": float(low), "high": float(high)}
+        stated.append(r.Effect(input=name, **ends, depths=depths, ratios=ratios, why=why))
     return r.Sensitivity(
         beta=float(beta),
         depth=depth.final_depth(**impact.motion),
@@ -125,13 +134,11 @@ def scatter(known: Known) -> list[r.Scatter]:
     mean = NormalDist().pdf(0) * 2  # mean absolute deviation over the standard one
     stated = NormalDist(impact.velocity, known["velocity-deviation"] / mean)
 
-    relative = size.stdev / size.mean
     laws = []
     for name, power in (("Eq. 1: mass alone", 1.5), ("drag on a sphere: mass and area", 0.5)):
-        velocities = [
-            impact.velocity * (size.mean / size.inv_cdf(1 - share)) ** power for share in SHARES
-        ]
-        laws.append((name, power * relative * impact.velocity, velocities))
+        sizes = (size.inv_cdf(1 - share) for share in SHARES)
+        velocities = [impact.velocity * (size.mean / own) ** power for own in sizes]
+        laws.append((name, power * (size.stdev / size.mean) * impact.velocity, velocities))
     laws.append(("as stated: normal", stated.stdev, [stated.inv_cdf(share) for share in SHARES]))
     return [
         r.Scatter(law=name, standard_deviation=deviation, mean_deviation=deviation * mean,
@@ -155,15 +162,10 @@ def curves(known: Known) -> list[r.Curve]:
         depths, speeds = [0.0] * 101, [0.0] * 101
         motion.history(times, **impact.motion, depth=depths, speed=speeds)
         drawn.append(
-            r.Curve(
-                beta=float(beta),
-                sheet_time=[row.time for row in rows],
-                sheet_depth=[row.depth for row in rows],
-                exact_time=times,
-                exact_depth=depths,
-                printed=known.ledger.claims[f"depth-beta-{beta}"].shown,
-            )
-        )
+            r.Curve(beta=float(beta), sheet_time=[row.time for row in rows],
+                    sheet_depth=[row.depth for row in rows], exact_time=times, exact_depth=depths,
+                    printed=known.ledger.claims[f"depth-beta-{beta}"].shown)
+        )  # fmt: skip
     return drawn
 
 
@@ -182,14 +184,11 @@ def velocity_curve(known: Known) -> r.VelocityCurve:
 def ladders(known: Known) -> list[r.Level]:
     """The sheet's error against its time step, in both schemes, each step half of the last."""
     levels = []
-    for beta in BETAS:
-        exact = depth.final_depth(**case(known, beta).motion)
-        for scheme in sheet.SCHEMES:
-            for k in range(4, -3, -1):
-                impact = case(known, beta, step=known["a-step"] * 2.0**k)
-                run = sheet.run(impact, scheme)
-                levels.append(
-                    r.Level(beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,
-                          depth=run.final_depth, error=run.final_depth - exact)
-                )  # fmt: skip
+    for beta, scheme, k in product(BETAS, sheet.SCHEMES, range(4, -3, -1)):
+        impact = case(known, beta, step=known["a-step"] * 2.0**k)
+        run, exact = sheet.run(impact, scheme), depth.final_depth(**impact.motion)
+        levels.append(
+            r.Level(beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,
+                    depth=run.final_depth, error=run.final_depth - exact)
+        )  # fmt: skip
     return levels

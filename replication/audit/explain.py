@@ -11,7 +11,7 @@ from reference.arithmetic import Floats
 from reference.enclosure import Solutions, enclose, holding, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
-from reference.units import Dimension, to_si
+from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
@@ -124,24 +124,22 @@ class Explainer:
         ]
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
-        unit, solutions = self.ledger.unit(name), self.solutions(claim, reading, name)
-        proof = "proven inside, and none beyond"
+        solutions, unit = self.solutions(claim, reading, name), self.ledger.unit(name)
+        si, proof = to_si(unit), "proven inside, and none beyond"
         if not solutions.outer:
             proof = "proven: none in the range does"
         elif not solutions.inner:
             proof = "undecided"
         elif solutions.reaches_an_end:
             proof = "proven, up to an end of the range"
-        search, *intervals = (
-            (float(low / to_si(unit)), float(high / to_si(unit)))
-            for low, high in (solutions.search, *solutions.inner)
-        )
+        spans = (solutions.search, *solutions.inner)
+        search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
         return BackSolvedRecord(
             reading=reading,
             entry=name,
             title=self.ledger.title(name),
             unit=unit,
-            printed=float(self.judge.value(name) / to_si(unit)),
+            printed=float(self.judge.value(name) / si),
             intervals=intervals,
             search=search,
             search_reason=self.ledger.search(name)[2],
@@ -175,8 +173,8 @@ class Explainer:
 
     def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
         """Whether all that shows a number agrees with this value of it (SI)."""
-        shown, screen = map(self.ledger.claims.__getitem__, chosen.shown_by), self._as_printed[-1]
-        return all(screen.agrees(claim, "", {chosen.id: value}) for claim in shown)
+        shown = map(self.ledger.claims.__getitem__, chosen.shown_by)
+        return all(self._as_printed[-1].agrees(claim, "", {chosen.id: value}) for claim in shown)
 
     # Misprints
 
@@ -315,14 +313,14 @@ class Explainer:
             ledger = self.ledger
             if slip.text is not None:
                 ledger = ledger.misprint(slip.equation, slip.text)
-            replaced = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-            changed = claim.resting_on(**replaced)
+            inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
+            changed = claim.resting_on(**inputs)
             function = ledger.function(changed)
             at_print = enclose(function, self.judge.printed(changed)).ends
-            fits = "as printed" if target.encloses(*at_print) else ""
             everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
-            if not fits and not target.excludes(*everywhere):
-                fits = "not excluded within rounding"
+            fits = "" if target.excludes(*everywhere) else "not excluded within rounding"
+            if target.encloses(*at_print):
+                fits = "as printed"
             value = float(at_print[0] / claim.si)
             yield SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
 
@@ -357,10 +355,10 @@ _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
-    text = ledger.printed_text(name)
     if name in ledger.equations:
-        return equation_edits(text, ledger.written, ledger.dimensions)
-    return edits(text) if ledger.claims[name].printed is not None else iter(())
+        return equation_edits(ledger, name)
+    claim = ledger.claims[name]
+    return iter(()) if claim.printed is None else edits(claim.text)
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:
@@ -448,43 +446,36 @@ NUMBER_EDITS = tuple(_EDITS)
 """Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
 
 
-def equation_edits(
-    text: str, written: Mapping[str, str], dimensions: Mapping[str, Dimension]
-) -> Iterator[tuple[str, str]]:
+def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     r"""Every equation one edit away, with the kind of the edit.
 
-    `written` maps what the report writes to a symbol's name; a symbol is mistaken for another of
-    the same dimension.
+    A symbol is mistaken for another of the same dimension.
 
     >>> from reference.ledger import load
-    >>> ledger = load()
-    >>> [text for text, kind in equation_edits("D = 2R", ledger.written, ledger.dimensions)
-    ...  if kind == "number dropped"]
+    >>> [text for text, kind in equation_edits(load(), "diameter") if kind == "number dropped"]
     ['D = R']
     """
-    edits: dict[str, str] = {}
-    symbols = "|".join(re.escape(name) for name in sorted(written, key=len, reverse=True))
+    text, written, dimensions = ledger.printed_text(name), ledger.written, ledger.dimensions
+    edits = {text: ""}
+    symbols = "|".join(re.escape(symbol) for symbol in sorted(written, key=len, reverse=True))
     tokens = re.compile(
-        rf"(?P<command>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
+        rf"(?P<function>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        token, mistaken = match[0], []
-        if match["number"]:
-            mistaken = [("", "number dropped")]
+        token, kind, mistaken = match[0], f"{match.lastgroup} changed", list[str]()
+        if token.isdecimal():
+            kind, mistaken = "number dropped", [""]
         elif token in _OPPOSITE:
-            kind = "sign changed" if match["sign"] else "function changed"
-            mistaken = [(_OPPOSITE[token], kind)]
-        elif match["symbol"]:
-            own = written[token]
-            mistaken = [(symbol, "symbol changed") for symbol, name in written.items()
-                        if name != own and dimensions[name] == dimensions[own]]  # fmt: skip
-        for instead, kind in mistaken:
+            mistaken = [_OPPOSITE[token]]
+        elif own := written.get(token):
+            mistaken = [symbol for symbol, meant in written.items()
+                        if meant != own and dimensions[meant] == dimensions[own]]  # fmt: skip
+        for instead in mistaken:
             edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
         turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
         edits.setdefault(turned, "fraction turned over")
-    edits.pop(text, None)
-    return iter(edits.items())
+    return ((edited, kind) for edited, kind in edits.items() if kind)
 
 
 _OPPOSITE = {"+": "-", "-": "+", r"\ln": r"\log", r"\log": r"\ln"}

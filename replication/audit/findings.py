@@ -5,7 +5,7 @@ a model or a search: for each finding a function of the same name.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from statistics import NormalDist
@@ -16,7 +16,6 @@ from msgspec.structs import replace
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
-from reference.entries import Source
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
 from reference.units import to_si
@@ -30,9 +29,11 @@ from replication.models.impact import Impact
 Value = Fraction | float | bool
 """Of a piece of evidence: a number in SI units, or whether something was proven."""
 
-_DENSITY = INFERRED + "target-density"
-_READINGS = {"computed": "", "derived": "derived from Eqs. 14 and 15"}
-_DERIVED = _READINGS["derived"]
+DENSITY = INFERRED + "target-density"
+DERIVED = "derived from Eqs. 14 and 15"
+"""How Eq. 16 is read otherwise than printed."""
+
+_READINGS = {"computed": "", "derived": DERIVED}
 
 
 class Known:
@@ -45,7 +46,7 @@ class Known:
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)
-        self.admitted = cache(self._admitted)
+        self.sources = cache(self._sources)
 
     def _assess(self, claim: Claim) -> Assessment:
         """The verdict on one claim, and why."""
@@ -54,42 +55,35 @@ class Known:
         if claim.within is None and claim.computation is not None:
             assessed = self.judge.assess(claim)
             return replace(assessed, reason=wording.explanation(self.judge, claim, assessed))
-        reason, constant = "", None
-        if claim.within is not None:
-            constant = self.equation(claim.within).constants.get(claim.id)
-        if constant is not None:
-            reason = wording.constant_explanation(self.ledger, claim, constant)
-            if constant.verdict != Verdict.NOT_CHECKABLE:
-                return Assessment(Verdict(constant.verdict), reason)
-        if sources := self.sources(claim):
+        constant = self.equation(claim.within).constants.get(claim.id) if claim.within else None
+        reason = wording.constant_explanation(self.ledger, claim, constant) if constant else ""
+        if constant and constant.verdict != Verdict.NOT_CHECKABLE:
+            return Assessment(Verdict(constant.verdict), reason)
+        if sources := self.sources(claim.id):
             agrees = any(source.agrees for source in sources)
             verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
             return Assessment(verdict, reason or wording.sources(sources))
         if claim.shown_by:
             shown = self.shown(claim)
-            verdict = Verdict.INCONSISTENT if shown is None else Verdict.CONSISTENT
+            verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
             return Assessment(verdict, reason or wording.chosen(shown))
         undecided = f"Nothing in the report decides it: {claim.given}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
-    def sources(self, claim: Claim) -> list[r.SourceRecord]:
-        """The public sources for a claim, and whether each agrees with it."""
-        outcomes = {True: "agrees", False: "differs"}
-        return self._sources(claim.id, lambda s: outcomes[claim.target().meets(s.interval)])
-
-    def _admitted(self, name: str) -> list[r.SourceRecord]:
-        """The public sources for an inferred input, and what its evidence says of each."""
-        admits = self.judge.inference(name).admits
-        return self._sources(name, lambda s: f"is {admits(s.value, s.interval)}")
-
-    def _sources(self, name: str, outcome: Callable[[Source], str]) -> list[r.SourceRecord]:
-        agreeing = ("agrees", "is admitted")
-        return [
-            r.filled(r.SourceRecord, source, agrees=said in agreeing, outcome=said)
-            for source in self.ledger.sources.values()
-            if name in source.claims
-            for said in [outcome(source)]
-        ]
+    def _sources(self, name: str) -> list[r.SourceRecord]:
+        """The public sources for a claim or an inferred input, and whether each agrees with it."""
+        records = []
+        for source in self.ledger.sources.values():
+            if name not in source.claims:
+                continue
+            if name.startswith(INFERRED):
+                outcome = f"is {self.judge.inference(name).admits(source.value, source.interval)}"
+            else:
+                meets = self.ledger.claims[name].target().meets(source.interval)
+                outcome = "agrees" if meets else "differs"
+            agrees = outcome in ("agrees", "is admitted")
+            records.append(r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome))
+        return records
 
     def exact(self, name: str) -> Fraction:
         """A claim as printed, an inferred input as assumed, or a source's number, in SI."""
@@ -131,9 +125,8 @@ class Evidence:
     @cached_property
     def proven(self) -> Mapping[str, Value]:
         """What the function of the finding's name computes."""
-        compute: Callable[[Evidence], Mapping[str, Value]]
-        compute = globals()[f"_{self.finding.id.replace('-', '_')}"]
-        return compute(self)
+        proven: Mapping[str, Value] = globals()[f"_{self.finding.id.replace('-', '_')}"](self)
+        return proven
 
     def __getitem__(self, name: str) -> float:
         """A value by its name in a formula, as a double."""
@@ -248,14 +241,14 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     rounded = Convention(choices_exact=choices_exact)
     claims = known.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(_DENSITY).admitted(rounded)[1].ends
+    box["density"] = known.judge.inference(DENSITY).admitted(rounded)[1].ends
     return enclose(ratio, box).ends[0]
 
 
 def _frank_zook_pair(own: Evidence) -> Mapping[str, Value]:
     return {
-        "least": _least_ratio(own.known, choices_exact=True) - 1,
-        "least_rounded": _least_ratio(own.known, choices_exact=False) - 1,
+        name: _least_ratio(own.known, choices_exact=exact) - 1
+        for name, exact in (("least", True), ("least_rounded", False))
     }
 
 
@@ -266,12 +259,10 @@ def _equation_16(own: Evidence) -> Mapping[str, Value]:
 
 def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
     known = own.known
-    rha, stainless, strength = (
-        known.ledger.claims[name]
-        for name in ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
-    )
+    names = ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
+    rha, stainless, strength = map(known.ledger.claims.__getitem__, names)
     exact, rounded = (
-        [j for j in known.reading(stainless.id, _DERIVED).judgements
+        [j for j in known.reading(stainless.id, DERIVED).judgements
          if j.convention.choices_exact is choices_exact]
         for choices_exact in (True, False)
     )  # fmt: skip
@@ -284,7 +275,7 @@ def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
     grid = strength.number.quantum * strength.si
     exponent = round(own["derived"], 3) * known["fz-kt"] / own["inertia"]
     return {
-        "least_exact": min(j.lower for j in exact),
+        "least_exact": min(j.ends[0] for j in exact),
         "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
         "needed": _needed(known, stainless, strength.id),
         "grid": grid,
@@ -311,13 +302,13 @@ def _least_admitted(known: Known) -> Fraction:
     claim = known.ledger.claims["frank-zook-stainless"]
     box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
     box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
-    box[_DENSITY] = known.judge.inference(_DENSITY).outer.ends
-    return enclose(known.ledger.function(claim, reading=_DERIVED), box).ends[0]
+    box[DENSITY] = known.judge.inference(DENSITY).outer.ends
+    return enclose(known.ledger.function(claim, reading=DERIVED), box).ends[0]
 
 
 def _needed(known: Known, claim: Claim, entry: str) -> float:
     """The middle of the values of an entry with which the derived form gives the number."""
-    inner = known.explainer.solutions(claim, _DERIVED, entry).inner
+    inner = known.explainer.solutions(claim, DERIVED, entry).inner
     if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
     return float(sum(inner[0])) / 2
@@ -328,19 +319,18 @@ def _needed(known: Known, claim: Claim, entry: str) -> float:
 
 def _target_density(own: Evidence) -> Mapping[str, Value]:
     known = own.known
-    inference = known.judge.inference(_DENSITY)
-    centered = known.judge.inference(_DENSITY, centered=True)
+    inference = known.judge.inference(DENSITY)
     ranges = {
         "": inference.inner,
         "possible_": inference.admitted(Convention())[1],
-        "centered_": centered.inner,
+        "centered_": known.judge.inference(DENSITY, centered=True).inner,
     }
-    ends = {f"{name}{which}": end
-            for name, interval in ranges.items()
-            for which, end in zip(("least", "greatest"), interval.ends, strict=True)}  # fmt: skip
-    said = {source.id: source.outcome.removeprefix("is ") for source in known.admitted(_DENSITY)}
+    evidence: dict[str, Value] = {}
+    for name, interval in ranges.items():
+        evidence[f"{name}least"], evidence[f"{name}greatest"] = interval.ends
+    said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(DENSITY)}
     depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
-    return ends | {
+    return evidence | {
         "mass_greatest": inference.with_mass.ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
         "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",
@@ -384,8 +374,8 @@ def _middle_density(known: Known) -> Fraction:
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
     function = holding(ledger.function(claim, centered=True), printed)
-    admitted = known.judge.inference(_DENSITY, centered=True).outer.ends
-    outer = solve(function, _DENSITY, admitted, claim.target()).outer
+    admitted = known.judge.inference(DENSITY, centered=True).outer.ends
+    outer = solve(function, DENSITY, admitted, claim.target()).outer
     if not outer:
         raise ArithmeticError("no target density gives the depth")
     return outer[0][0]
@@ -431,7 +421,7 @@ def _table_columns(own: Evidence) -> Mapping[str, Value]:
 
 def _observed_beta(own: Evidence) -> Mapping[str, Value]:
     """p = rho_t V^2 / 2 R_t at which the exact X/R is y <= 1: y^2 - y^3/3 = c."""
-    density = own[_DENSITY] / own["a1-density"]
+    density = own[DENSITY] / own["a1-density"]
     depths = {"p": "observed-ratio", "p_least": "observed-ratio.least",
               "p_greatest": "observed-ratio.greatest"}  # fmt: skip
     return {p: math.expm1(crater.volume_ratio(own[y]) * density) for p, y in depths.items()}

@@ -2,56 +2,55 @@
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import cached_property
-
-import msgspec
+from functools import cache, cached_property
 
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
-from reference.entries import Inferred
 from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
 
 
-class Inference(msgspec.Struct, frozen=True, eq=False, dict=True):
-    """The values of an input for which its evidence comes out as printed (SI units).
+class Inference:
+    """The values of an input for which its evidence comes out as printed (SI units), by proof.
 
-    `each` gives them for every piece of evidence alone, with the other inputs exactly as printed.
-    `agreeing` is the largest set of evidence that one value can serve; `odd` the rest. Each value
-    of `inner` is proven to serve the agreeing evidence, none outside `outer` does. Where no value
-    serves any, all evidence is odd, and the value that the ledger takes is kept.
+    `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
+    sphere's. `each` gives the values for every piece of evidence alone, with the other inputs
+    exactly as printed. `agreeing` is the largest set of evidence that one value can serve; `odd`
+    the rest. Each value of `inner` is proven to serve the agreeing evidence, none outside `outer`
+    does. Where no value serves any, all evidence is odd, and the value that the ledger takes stays.
     """
 
-    ledger: Ledger
-    name: str
-    centered: bool
-    each: Mapping[str, Solutions]
-    agreeing: tuple[str, ...]
-    inner: Interval
-    outer: Interval
-    _admitted: dict[tuple[bool, bool], tuple[Interval, Interval]] = {}
-    _rounded: dict[tuple[str, Ends], Ends] = {}
-
-    @property
-    def entry(self) -> Inferred:
-        """The ledger's entry."""
-        return self.ledger.inferred[self.name.removeprefix(INFERRED)]
-
-    @property
-    def odd(self) -> tuple[str, ...]:
-        """The evidence that no value serves together with the agreeing one."""
-        return tuple(name for name in self.each if name not in self.agreeing)
+    def __init__(
+        self, ledger: Ledger, name: str, *, centered: bool = False, by_mass: bool = False
+    ) -> None:
+        self.ledger, self.name, self.centered = ledger, name, centered
+        self.entry = ledger.inferred[name.removeprefix(INFERRED)]
+        self._narrowed, self._admitted = cache(self._narrow), cache(self._extent)
+        self.each: dict[str, Solutions] = {}
+        for claim in map(ledger.claims.__getitem__, self.entry.evidence):
+            own = claim.resting_on(mass=self.entry.mass) if by_mass else claim
+            printed = {key: ledger.value(key) for key in own.entries if key != name}
+            function = holding(ledger.function(own, centered=centered), printed)
+            self.each[claim.id] = solve(function, name, self.entry.search, claim.target())
+        self.agreeing = _agreeing(self.each)
+        self.odd = tuple(claim for claim in self.each if claim not in self.agreeing)
+        serving = [self.each[claim] for claim in self.agreeing]
+        outer = _intersection([self.entry.search], *(own.outer for own in serving))
+        self.outer = Interval(outer[0][0], outer[-1][1])
+        self.inner = Interval.point(ledger.value(name))
+        if serving:
+            self.inner = Interval(*_intersection(*(own.inner for own in serving))[0])
+        self._joining = [ledger.claims[own] for own in (*self.entry.header, *self.agreeing)]
 
     @cached_property
     def inputs(self) -> set[str]:
         """What the evidence, and the header of Table A-1, rest on besides."""
-        claims = (self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing))
-        return {name for claim in claims for name in claim.entries} - {self.name}
+        return {name for claim in self._joining for name in claim.entries} - {self.name}
 
     @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
-        return infer(self.ledger, self.name, centered=self.centered, by_mass=True).inner
+        return Inference(self.ledger, self.name, centered=self.centered, by_mass=True).inner
 
     def admitted(self, convention: Convention) -> tuple[Interval, Interval]:
         """The values that serve the evidence where inputs are rounded as a convention says.
@@ -60,63 +59,46 @@ class Inference(msgspec.Struct, frozen=True, eq=False, dict=True):
         that were found, the second holds all that there are. How the evidence itself is rounded is
         no question: cut off, no value would serve it.
         """
-        key = convention.choices_exact, convention.header_exact
-        if key == (True, True) or not self.agreeing:
+        if (convention.choices_exact and convention.header_exact) or not self.agreeing:
             return self.inner, self.outer
-        if key not in self._admitted:
-            start = sum(self.inner.ends, Fraction(0)) / 2
-            by_mass = not convention.header_exact
-            box = self._box(convention, by_mass=by_mass)
-            joint = self._joint(convention, by_mass=by_mass)
-            attained, bounds = extent(joint, self.name, box, start)
-            self._admitted[key] = Interval(*attained), Interval(*bounds)
-        return self._admitted[key]
+        return self._admitted(convention.choices_exact, convention.header_exact)
 
-    def _box(self, convention: Convention, *, by_mass: bool) -> dict[str, Ends]:
-        """The inputs that the evidence rests on and that may be other than printed.
-
-        The printed mass and density tell the radius more closely than its own print does: with
-        `by_mass` the mass is free in its place.
-        """
-        names = self.inputs
-        radius, mass = self.entry.radius, self.entry.mass
-        if by_mass and radius in names:
-            names = names - {radius} | {mass}
-        ends = {name: self.rounded(name, convention) for name in sorted(names)}
-        rounded = {name: both for name, both in ends.items() if both[0] != both[1]}
-        return {**rounded, self.name: self.entry.search}
+    def _extent(self, choices_exact: bool, header_exact: bool) -> tuple[Interval, Interval]:
+        convention = Convention(choices_exact=choices_exact, header_exact=header_exact)
+        joint, box = self._joint(convention, by_mass=not header_exact)
+        start = sum(self.inner.ends, Fraction(0)) / 2
+        attained, bounds = extent(joint, self.name, box, start)
+        return Interval(*attained), Interval(*bounds)
 
     def rounded(self, name: str, convention: Convention) -> Ends:
         """The values of an input that print like it, and for which what shows it alone does so.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
         """
-        claim = self.ledger.claims[name]
-        ends = claim.as_input(convention).ends
-        if (name, ends) not in self._rounded:
-            low, high = ends
-            for shown in (self.ledger.claims[shown] for shown in claim.shown_by):
-                if low != high and shown.entries == [name]:
-                    function = self.ledger.function(shown)
-                    allowed = solve(function, name, (low, high), shown.target()).outer
-                    low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
-            self._rounded[name, ends] = low, high
-        return self._rounded[name, ends]
+        return self._narrowed(name, *self.ledger.claims[name].as_input(convention).ends)
+
+    def _narrow(self, name: str, low: Fraction, high: Fraction) -> Ends:
+        for shown in map(self.ledger.claims.__getitem__, self.ledger.claims[name].shown_by):
+            if low != high and shown.entries == [name]:
+                function = self.ledger.function(shown)
+                allowed = solve(function, name, (low, high), shown.target()).outer
+                low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
+        return low, high
 
     def _joint(
         self, convention: Convention, *, by_mass: bool, also: Sequence[Constraint] = ()
-    ) -> list[Constraint]:
-        free = self._box(convention, by_mass=False)
-        claims = [self.ledger.claims[name] for name in (*self.entry.header, *self.agreeing)]
-        constraints: list[Constraint] = []
-        for claim in claims:
-            function = self.ledger.function(claim, centered=self.centered)
-            printed = {name: self.ledger.value(name) for name in claim.entries if name not in free}
-            constraints.append((holding(function, printed), claim.target()))
-        constraints += also
-        if not by_mass:
-            return constraints
+    ) -> tuple[list[Constraint], dict[str, Ends]]:
+        """All evidence at once, and the box of those of its inputs that may be other than printed.
+
+        The printed mass and density tell the radius more closely than its own print does: with
+        `by_mass` the mass is free in its place.
+        """
         radius, mass, density = self.entry.radius, self.entry.mass, self.entry.density
+
+        def box(names: set[str]) -> dict[str, Ends]:
+            ends = {name: self.rounded(name, convention) for name in sorted(names)}
+            free = {name: (low, high) for name, (low, high) in ends.items() if low != high}
+            return {**free, self.name: self.entry.search}
 
         def of_mass(function: Function) -> Function:
             def by_radius(ar: Arithmetic, **entries: Number) -> Number | Fraction:
@@ -126,16 +108,24 @@ class Inference(msgspec.Struct, frozen=True, eq=False, dict=True):
 
             return by_radius
 
+        free, constraints = box(self.inputs), list[Constraint]()
+        for claim in self._joining:
+            function = self.ledger.function(claim, centered=self.centered)
+            printed = {name: self.ledger.value(name) for name in claim.entries if name not in free}
+            constraints.append((holding(function, printed), claim.target()))
+        constraints += also
+        if not by_mass:
+            return constraints, free
         own = self.ledger.claims[radius].as_input(convention)
         constraints.append((lambda _, **entries: entries[radius], own))
-        return [(of_mass(function), target) for function, target in constraints]
+        by_radius = [(of_mass(function), target) for function, target in constraints]
+        return by_radius, box(self.inputs - {radius} | {mass})
 
     def holds_at(self, point: Mapping[str, Fraction], convention: Convention) -> bool:
         """Whether the evidence can hold at a point; other inputs are within their rounding."""
         by_mass = not convention.header_exact and self.entry.radius not in point
-        box = self._box(convention, by_mass=by_mass)
+        joint, box = self._joint(convention, by_mass=by_mass)
         fixed = {name: (x, x) for name, x in point.items() if name in box}
-        joint = self._joint(convention, by_mass=by_mass)
         return satisfying(joint, {**box, **fixed})[0] is True
 
     def excludes(
@@ -143,52 +133,25 @@ class Inference(msgspec.Struct, frozen=True, eq=False, dict=True):
     ) -> bool:
         """Whether no inputs of the box give a number in the target and the evidence, too."""
         by_mass = not convention.header_exact
-        joint = self._joint(convention, by_mass=by_mass, also=[(function, target)])
-        whole = {**box, **self._box(convention, by_mass=by_mass)}
+        joint, own = self._joint(convention, by_mass=by_mass, also=[(function, target)])
+        whole = {**box, **own}
         if by_mass:
             whole.pop(self.entry.radius, None)
         return satisfying(joint, whole, budget)[0] is False
 
     def admits(self, value: Fraction, range_: Interval) -> str:
         """What the evidence says of a value that is printed, with its range, somewhere else."""
-        usual = Convention()
         if self.inner.contains(value):
             return "admitted"
         if not self.inner.excludes(*range_.ends):
             return "admitted only as a number that was rounded"
-        if self.admitted(usual)[1].excludes(*range_.ends):
+        if self.admitted(Convention())[1].excludes(*range_.ends):
             return "excluded"
-        words = {
-            True: "admitted only if the other inputs are rounded",
-            False: "excluded",
-            None: "undecided",
-        }
-        box = {**self._box(usual, by_mass=True), self.name: range_.ends}
-        return words[satisfying(self._joint(usual, by_mass=True), box)[0]]
-
-
-def infer(ledger: Ledger, name: str, *, centered: bool = False, by_mass: bool = False) -> Inference:
-    """Infer one input from its evidence, by proof (see `reference.enclosure`).
-
-    `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
-    sphere's. Evidence that no value serves together with the rest is left out; the Inference names
-    it. If none of it admits any value, the nominal one stays.
-    """
-    entry = ledger.inferred[name.removeprefix(INFERRED)]
-    search, each = entry.search, {}
-    for claim in (ledger.claims[evidence] for evidence in entry.evidence):
-        own = claim.resting_on(mass=entry.mass) if by_mass else claim
-        printed = {key: ledger.value(key) for key in own.entries if key != name}
-        function = holding(ledger.function(own, centered=centered), printed)
-        each[claim.id] = solve(function, name, search, claim.target())
-    agreeing = _agreeing(each)
-    if not agreeing:
-        nominal = Interval.point(ledger.value(name))
-        return Inference(ledger, name, centered, each, (), nominal, Interval(*search))
-    inner = _intersection([each[claim].inner for claim in agreeing])[0]
-    outer = _intersection([each[claim].outer for claim in agreeing])
-    whole = Interval(outer[0][0], outer[-1][1])
-    return Inference(ledger, name, centered, each, agreeing, Interval(*inner), whole)
+        joint, box = self._joint(Convention(), by_mass=True)
+        admitted = satisfying(joint, {**box, self.name: range_.ends})[0]
+        if admitted is None:
+            return "undecided"
+        return "admitted only if the other inputs are rounded" if admitted else "excluded"
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
@@ -203,10 +166,10 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
     return best
 
 
-def _intersection(unions: list[tuple[Ends, ...]]) -> list[Ends]:
+def _intersection(first: Sequence[Ends], *others: Sequence[Ends]) -> list[Ends]:
     """What unions of intervals have in common, in order."""
-    common = list(unions[0])
-    for union in unions[1:]:
+    common = list(first)
+    for union in others:
         pairs = ((max(a, c), min(b, d)) for a, b in common for c, d in union)
         common = [(low, high) for low, high in pairs if low <= high]
     return common

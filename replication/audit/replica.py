@@ -31,22 +31,14 @@ def _cell(column: str) -> Callable[..., float]:
     return cell
 
 
-def _final_depth(scheme: str, **inputs: float) -> float:
-    return sheet.run(Impact(**inputs), scheme).final_depth
-
-
-def _alpha_beta(elastic_modulus: float, flow_stress: float) -> float:
-    return resistance.walker_anderson_beta(
-        resistance.walker_anderson_alpha(elastic_modulus, flow_stress)
-    )
-
-
 def _deceleration_at_start(depth: float, velocity: float, **inputs: float) -> float:
     impact = Impact(velocity=velocity, **inputs)
     return sheet.deceleration(
         depth, velocity, impact.radius, impact.mass, impact.target_density, impact.target_resistance
     )
 
+
+_crater = crater.depth_from_volume_ratio
 
 REPLICA: Mapping[str, Callable[..., float]] = {
     "ratio": lambda numerator, denominator: numerator / denominator,
@@ -56,20 +48,18 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "diameter_of": lambda radius: 2 * radius,
     "sphere_length_ratio": lambda length_ratio: length_ratio * frank_zook.sphere_length_ratio(),
     "sphere_volume": lambda diameter: crater.volume(diameter / 2),
-    "crater_normalized_depth": lambda volume_ratio: crater.depth_from_volume_ratio(volume_ratio),
-    "crater_depth": lambda volume_ratio, diameter: (
-        crater.depth_from_volume_ratio(volume_ratio) * diameter / 2
-    ),
-    "crater_depth_over_diameter": lambda volume_ratio: (
-        crater.depth_from_volume_ratio(volume_ratio) / 2
-    ),
+    "crater_normalized_depth": lambda volume_ratio: _crater(volume_ratio),
+    "crater_depth": lambda volume_ratio, diameter: _crater(volume_ratio) * diameter / 2,
+    "crater_depth_over_diameter": lambda volume_ratio: _crater(volume_ratio) / 2,
     "contact_diameter": crater.contact_diameter,
     "target_resistance": resistance.target_resistance,
     # A stress times a length to this power is a force: log2 of what doubling the length does.
     "force_power": lambda: math.log2(crater.contact_diameter(1.0, 2.0) ** 2),
     "goodier_beta": lambda q, power: resistance.goodier_beta(q) * 2 ** (power - 2),
     "walker_anderson_alpha": resistance.walker_anderson_alpha,
-    "walker_anderson_beta": _alpha_beta,
+    "walker_anderson_beta": lambda **steel: resistance.walker_anderson_beta(
+        resistance.walker_anderson_alpha(**steel)
+    ),
     "least_beta": lambda **betas: min(betas.values()),
     "greatest_beta": lambda **betas: max(betas.values()),
     "strain_rate": stream.strain_rate,
@@ -80,7 +70,7 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "row_deceleration": _cell("deceleration"),
     "row_velocity_final": _cell("velocity_final"),
     "deceleration_at_start": _deceleration_at_start,
-    "final_sheet_depth": _final_depth,
+    "final_sheet_depth": lambda scheme, **case: sheet.run(Impact(**case), scheme).final_depth,
     "frank_zook_as_printed": frank_zook.depth_as_printed,
     "frank_zook_derived": frank_zook.depth_derived,
 }

@@ -12,14 +12,14 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Ratios, Reals, Residues
-from reference.enclosure import Box, enclose, explore
+from reference.enclosure import Box, Ends, enclose, explore
 from reference.entries import Equation
-from reference.equations import EquationError, Sides, dimension
+from reference.equations import EquationError, dimension
 from reference.formulas import Check, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Interval, Rounding
+from reference.printed import Rounding
 from reference.units import DimensionError
-from replication.audit.inference import Inference, infer
+from replication.audit.inference import Inference
 from replication.audit.record import ConstantRecord
 from replication.audit.replica import replica
 
@@ -53,17 +53,16 @@ OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict
 class Judgement(msgspec.Struct, frozen=True):
     """The verdict under one convention.
 
-    `lower`, `upper`: a proven range of the value, in the claim's unit: over all admitted values of
-    the inferred inputs where the printed inputs give the number, else over all inputs that print
-    like the report's. `witness` holds entries (SI) that give the number where the printed ones do
+    `ends`: of a proven range of the value, in the claim's unit: over all admitted values of the
+    inferred inputs where the printed inputs give the number, else over all inputs that print like
+    the report's. `witness` holds entries (SI) that give the number where the printed ones do
     not. `against_evidence`: values in the range print so, but only for inputs that are proven not
     to give the numbers from which an input is inferred.
     """
 
     convention: Convention
     verdict: Verdict
-    lower: Fraction
-    upper: Fraction
+    ends: Ends
     witness: Mapping[str, Fraction] | None = None
     against_evidence: bool = False
 
@@ -126,8 +125,7 @@ class Judge:
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
-        self._inferences = cache(partial(infer, ledger))
-        self._ranges: dict[Any, tuple[Fraction, Fraction]] = {}
+        self._inferences = cache(partial(Inference, ledger))
 
     def inference(self, name: str, *, centered: bool = False) -> Inference:
         """What the evidence says of an input that is not printed, under one of the schemes."""
@@ -167,7 +165,7 @@ class Judge:
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
-        judgements = tuple(self._judgements(claim, name))
+        judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
         exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
@@ -182,77 +180,49 @@ class Judge:
             answer = replica(computation.name, inputs, **settings)
             computed = float(Fraction(answer) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
-        return Reading(name, computation.summary, computed, digits, judgements)
+        return Reading(name, computation.summary, computed, digits, tuple(judgements))
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        """Under every convention, or under the usual one only."""
-        every = self._under_every_convention(claim, name)
-        return every if self.every_convention else islice(every, 1)
-
-    def _under_every_convention(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        searched: dict[Convention, Judgement] = {}
-        for centered, rounding in product((False, True) if claim.by_scheme else (False,), Rounding):
-            convention = Convention(rounding, centered=centered)
-            judgement = self._as_printed(claim, name, convention)
-            if judgement is not None:
-                yield judgement
-                continue
-            for rounded in _input_conventions(self.ledger, claim, convention):
-                # A search does not ask how ties go.
-                even = rounding is Rounding.EVEN
-                key = replace(rounded, rounding=Rounding.AWAY) if even else rounded
-                if key not in searched:
-                    searched[key] = self._search(claim, name, key)
-                yield replace(searched[key], convention=rounded)
-
-    def _as_printed(self, claim: Claim, name: str, convention: Convention) -> Judgement | None:
-        """The verdict if the inputs as printed give the number or leave it open."""
-        target = claim.target(convention.rounding)
+        """Under every convention that makes a difference to the claim, the usual one first."""
         printed = self.printed(claim)
-        at_print = self._range(claim, name, convention, printed)
-        if target.excludes(*at_print):
-            return None
-        inferred = {
-            entry: self.inference(entry, centered=convention.centered).inner.ends
-            for entry in claim.inferred
-        }
-        everywhere = self._range(claim, name, convention, {**printed, **inferred})
-        if target.encloses(*everywhere):
-            return _judgement(claim, convention, Verdict.REPRODUCED, everywhere)
-        if target.encloses(*at_print):
-            # Only some admitted values do: the printed evidence does not tell which is meant.
-            witness = {entry: value for entry, (value, _) in printed.items()}
-            return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
-        return _judgement(claim, convention, Verdict.UNDECIDED, everywhere)
+        for centered in (False, True) if claim.by_scheme else (False,):
+            own = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
+            at_print = self._range(claim, name, centered, printed)
+            everywhere = self._range(claim, name, centered, {**printed, **own}) if own else at_print
+            for rounding in Rounding:
+                convention, target = Convention(rounding, centered=centered), claim.target(rounding)
+                judged = partial(_judgement, claim, convention)
+                if target.excludes(*at_print):
+                    for rounded in _input_conventions(self.ledger, claim, convention):
+                        yield self._search(claim, name, rounded)
+                elif target.encloses(*everywhere):
+                    yield judged(Verdict.REPRODUCED, everywhere)
+                elif target.encloses(*at_print):
+                    # Only some admitted values do: the evidence does not tell which is meant.
+                    witness = {entry: self.value(entry) for entry in claim.entries}
+                    yield judged(Verdict.WITHIN_ROUNDING, everywhere, witness)
+                else:
+                    yield judged(Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do any that print like them?"""
         target = claim.target(convention.rounding)
-        inside = around = target
-        if convention.rounding is not Rounding.CUT and target != claim.target(Rounding.CUT):
-            # A search does not ask how ties go: without, and with, the ends on which they decide.
-            inside, around = Interval(*target.ends, False, False), Interval(*target.ends)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         narrow, whole = self.box(claim, convention)
         for box in (whole,) if narrow == whole else (narrow, whole):
-            search = explore(function, box, inside, budget)
+            search = explore(function, box, target, budget)
             witness = search.inside
             if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
                 ends = enclose(function, whole).ends
                 return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
-        if witness is not None:
-            never = any(
-                own.excludes(function, around, convention, whole, budget) for own in inferences
-            )
-        else:
-            never = search.never and (
-                around.excludes(*search.ends) or explore(function, whole, around, budget).never
-            )
+        against_evidence = witness is not None and any(
+            own.excludes(function, target, convention, whole, budget) for own in inferences
+        )
+        never = search.never or against_evidence
         verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        judgement = _judgement(claim, convention, verdict, search.ends)
-        return replace(judgement, against_evidence=never and witness is not None)
+        return _judgement(claim, convention, verdict, search.ends, None, against_evidence)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
@@ -267,45 +237,33 @@ class Judge:
         claims, exact = self.ledger.claims, replace(convention, choices_exact=True)
         inferred = {e: self.inference(e, centered=convention.centered) for e in claim.inferred}
         evidence = {name for inference in inferred.values() for name in inference.inputs}
-        narrow = {
-            entry: claims[entry].as_input(exact if entry in evidence else convention).ends
-            for entry in claim.stated
-        }
-        whole = {entry: claims[entry].as_input(convention).ends for entry in claim.stated}
+        narrow, whole = dict[str, Ends](), dict[str, Ends]()
+        for entry in claim.stated:
+            usual = exact if entry in evidence else convention
+            narrow[entry] = claims[entry].as_input(usual).ends
+            whole[entry] = claims[entry].as_input(convention).ends
         for entry, inference in inferred.items():
             narrow[entry] = inference.admitted(exact)[0].ends
             whole[entry] = inference.admitted(convention)[1].ends
         return narrow, whole
 
-    def _range(
-        self, claim: Claim, name: str, convention: Convention, box: Box
-    ) -> tuple[Fraction, Fraction]:
-        computation = claim.computations[name]
-        what = computation.name, claim.row, str(claim.inputs)
-        key = what, convention.centered, tuple(box.items())
-        if key not in self._ranges:
-            function = self.ledger.function(claim, reading=name, centered=convention.centered)
-            range_ = enclose(function, box)
-            targets = [claim.target(rounding) for rounding in Rounding]
-            decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
-            # Of a whole sheet, or where a row squares twice, the fractions grow very long.
-            long = computation.by_scheme and (
-                not computation.by_row or (convention.centered and decided)
-            )
-            exact = None if long else _exactly(function, box, range_.idle)
-            self._ranges[key] = range_.ends if exact is None else (exact, exact)
-        return self._ranges[key]
+    def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
+        """A proven range of a claim's values, in SI; one exact value where that can be told."""
+        function = self.ledger.function(claim, reading=name, centered=centered)
+        range_, computation = enclose(function, box), claim.computations[name]
+        targets = [claim.target(rounding) for rounding in Rounding]
+        decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
+        # Of a whole sheet, or where a row squares twice, the fractions grow very long.
+        long = computation.by_scheme and (not computation.by_row or (centered and decided))
+        exact = None if long else _exactly(function, box, range_.idle)
+        return range_.ends if exact is None else (exact, exact)
 
 
 def _judgement(
-    claim: Claim,
-    convention: Convention,
-    verdict: Verdict,
-    ends: tuple[Fraction, Fraction],
-    witness: Mapping[str, Fraction] | None = None,
+    claim: Claim, convention: Convention, verdict: Verdict, ends: Ends, *more: Any
 ) -> Judgement:
-    lower, upper = (end / claim.si for end in ends)
-    return Judgement(convention, verdict, lower, upper, witness)
+    """As `Judgement`, the ends given in SI."""
+    return Judgement(convention, verdict, (ends[0] / claim.si, ends[1] / claim.si), *more)
 
 
 def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
@@ -375,7 +333,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     >>> assess_equation(load(), "eq16").factor
     Fraction(1, 2)
     """
-    equation, checks = ledger.equations[name], tuple(_checks(ledger, name, ledger.sides))
+    equation, checks = ledger.equations[name], tuple(_checks(ledger, name))
     holds = all(check.holds for check in checks)
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
@@ -386,19 +344,16 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     return EquationAssessment(equation, passed if holds else failed, checks, judged)
 
 
-def follows(ledger: Ledger, name: str, sides: Sides | None = None) -> bool:
-    """Whether an equation, or these sides in its place, pass every check.
+def follows(ledger: Ledger, name: str) -> bool:
+    """Whether an equation passes every check.
 
     What fails in remainders, a small part of the work, fails; the rest is proven.
     """
-    sides = sides or ledger.sides
-    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, sides, field))
+    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, field))
     return all(check.holds for check in each)
 
 
-def _checks(
-    ledger: Ledger, name: str, sides: Sides, field: type[Ratios | Residues] = Ratios
-) -> Iterator[Check]:
+def _checks(ledger: Ledger, name: str, field: type[Ratios | Residues] = Ratios) -> Iterator[Check]:
     """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
@@ -407,7 +362,7 @@ def _checks(
         return
     try:
         symbols = field([symbol for symbol in ledger.symbols if symbol != "pi"])
-        yield from derive(ledger.equations[name], sides, ledger.written, symbols)
+        yield from derive(ledger.equations[name], ledger.sides, ledger.written, symbols)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
@@ -417,43 +372,43 @@ def _checks(
     }
     says = "both sides have the same dimensions"
     try:
-        own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+        own = [dimension(side, ledger.dimensions, exponents) for side in ledger.sides[name]]
         yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
         yield Check(f"{says}: {error}", holds=False)
 
 
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
-    claims = ledger.constants_of(name)
+    printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
 
-    def passing(claim: str, given: Mapping[str, Fraction]) -> tuple[Fraction, ...]:
-        """The values of a constant with which every check holds, another one given."""
-        printed = ledger.value(claim)
-        return tuple(
-            value
-            for value in sorted({*_USUAL, printed, 2 * printed, printed / 2})
-            if (holds if value == printed and not given else follows_with({**given, claim: value}))
-        )
+    def passing(claim: str, right: Mapping[str, Fraction]) -> list[Fraction]:
+        """The values of a constant with which every check holds, another one put right."""
+        own = printed[claim]
 
-    def follows_with(constants: Mapping[str, Fraction]) -> bool:
-        read = ledger.read(ledger.printed_text(name, constants))
-        return follows(ledger, name, {**ledger.sides, name: read})
+        def passes(value: Fraction) -> bool:
+            if value == own and not right:
+                return holds
+            text = ledger.printed_text(name, {**right, claim: value})
+            return follows(ledger.misprint(name, text), name)
 
-    needed = {claim: passing(claim, {}) for claim in claims}
+        return list(filter(passes, sorted({*_USUAL, own, 2 * own, own / 2})))
+
+    needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
         # The others are judged with the one number put right.
         (culprit,) = repairs
         right = {culprit: needed[culprit][0]}
-        needed |= {claim: passing(claim, right) for claim in claims if claim != culprit}
+        needed |= {claim: passing(claim, right) for claim in printed if claim != culprit}
     constants = {}
     for claim, values in needed.items():
-        fits, alone = ledger.value(claim) in values, len(values) == 1
+        fits, alone = printed[claim] in values, len(values) == 1
         verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
         if fits:
             verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
-        texts = [str(value) for value in values]
-        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=texts)
+        constants[claim] = ConstantRecord(
+            claim=claim, verdict=verdict, needed=list(map(str, values))
+        )
     return constants
 
 

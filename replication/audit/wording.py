@@ -32,7 +32,7 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     sentences = [f"{what}: {value}, {inside}{relation} {shown}.", _reason(judge, claim, first)]
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
-        proven = between((reading.judgements[0].lower, reading.judgements[0].upper), 6)
+        proven = between(reading.judgements[0].ends, 6)
         sentences.append(
             f"Read as {reading.name}: {value}, {reading.verdict}; proven range {proven}."
         )
@@ -49,7 +49,7 @@ def chosen(shown: Shown | None) -> str:
 
 def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
     judgement, ledger = reading.judgements[0], judge.ledger
-    proven = between((judgement.lower, judgement.upper), 6)
+    proven = between(judgement.ends, 6)
     match judgement.verdict:
         case Verdict.REPRODUCED if claim.inferred:
             return f"So for every target density that Table A-1 admits: {proven}."
@@ -61,7 +61,7 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
                 value = number(si / to_si(ledger.unit(name)), 8)
                 inputs.append(f"{ledger.title(name)} {quantity(value, ledger.unit(name))}")
             return f"Inputs that print like the report's give it, for instance {', '.join(inputs)}."
-        case Verdict.NOT_REPRODUCED if judgement.lower == judgement.upper:
+        case Verdict.NOT_REPRODUCED if judgement.ends[0] == judgement.ends[1]:
             return "No rounded input enters, so none could change it."
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:
             titles = " and ".join(ledger.title(name) for name in claim.inferred)

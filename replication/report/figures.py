@@ -5,10 +5,12 @@ and its style attributes are what the page's content policy forbids.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from html import escape
 from itertools import count
 from math import log10
 
+from replication.audit.comparison import DRAG_AT
 from replication.audit.record import Record
 from replication.report.words import shown_range
 
@@ -36,25 +38,24 @@ def draw(record: Record) -> dict[str, str]:
 # What a plot is made of
 
 
+@dataclass
 class _Plot:
     """A plot in a box of a figure, of given ranges (from left to right, from bottom to top).
 
     `words`: what it shows, for those who do not see it; `below`: how much stands under the box.
     """
 
-    def __init__(
-        self,
-        title: str,
-        box: tuple[float, float, float, float],
-        x: tuple[float, float],
-        y: tuple[float, float],
-        below: float = 42,
-        logarithmic: bool = False,
-    ) -> None:
-        self.title, self.words, self.below = title, "", below
-        self.left, self.top, self.width, self.height = box
-        self.x, self.y, self.logarithmic = x, y, logarithmic
-        self.parts: list[str] = []
+    title: str
+    box: tuple[float, float, float, float]
+    x: tuple[float, float]
+    y: tuple[float, float]
+    below: float = 42
+    logarithmic: bool = False
+    words: str = ""
+    parts: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.left, self.top, self.width, self.height = self.box
 
     def svg(self, name: str) -> str:
         """The figure."""
@@ -85,18 +86,17 @@ class _Plot:
         bottom, right = self.top + self.height, self.left + self.width
         for value in x:
             across, _ = self.at(value, self.y[0])
-            self.parts.append(_line([(across, self.top), (across, bottom)], INK, 0.15))
-            self.parts.append(_text(across, bottom + 16, f"{value:g}", "middle"))
+            self.path([(across, self.top), (across, bottom)], opacity=0.15)
+            self.text(across, bottom + 16, f"{value:g}", "middle")
         for value in y:
             _, down = self.at(self.x[0], value)
-            self.parts.append(_line([(self.left, down), (right, down)], INK, 0.15))
-            self.parts.append(_text(self.left - 6, down + 4, f"{value:g}", "end"))
-        self.parts.append(_line([(self.left, self.top), (self.left, bottom), (right, bottom)]))
-        self.parts.append(_text(self.left + self.width / 2, bottom + 33, x_label, "middle"))
+            self.path([(self.left, down), (right, down)], opacity=0.15)
+            self.text(self.left - 6, down + 4, f"{value:g}", "end")
+        self.path([(self.left, self.top), (self.left, bottom), (right, bottom)])
+        self.text(self.left + self.width / 2, bottom + 33, x_label, "middle")
         if y_label:
             middle = self.top + self.height / 2
-            turned = f' transform="rotate(-90 12 {_n(middle)})"'
-            self.parts.append(_text(12, middle, y_label, "middle", turned))
+            self.text(12, middle, y_label, "middle", f' transform="rotate(-90 12 {_n(middle)})"')
 
     def rows(self, labels: Sequence[str]) -> None:
         """Labels of rows 0, 1, ... at the left; a semicolon begins a second line."""
@@ -105,10 +105,10 @@ class _Plot:
             lines = label.split("; ")
             for k, line in enumerate(lines):
                 y = down + 4 + 13 * (k - (len(lines) - 1) / 2)
-                self.parts.append(_text(self.left - 8, y, line, "end"))
+                self.text(self.left - 8, y, line, "end")
 
     def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
-        self.parts.append(_line([self.at(*point) for point in points], color, 1.0, dashes))
+        self.path([self.at(*point) for point in points], color, dashes)
 
     def marks(self, kind: str, color: str, points: Points) -> None:
         self.parts += [_mark(kind, color, *self.at(*point)) for point in points]
@@ -123,30 +123,31 @@ class _Plot:
     def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
         """Words below each other, each with its mark (of a kind and a color) or line."""
         for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
-            sample = [(x - 9, down), (x + 9, down)]
-            self.parts.append(
-                _line(sample, color, 1.0, "5 3" * kind.startswith("dashed"))
-                if kind.endswith("line")
-                else _mark(kind, color, x, down)
-            )
-            self.parts.append(_text(x + 15, down + 4, words))
+            if kind.endswith("line"):
+                dashes = "5 3" if kind.startswith("dashed") else ""
+                self.path([(x - 9, down), (x + 9, down)], color, dashes)
+            else:
+                self.parts.append(_mark(kind, color, x, down))
+            self.text(x + 15, down + 4, words)
+
+    # In places of the figure, not of the plot
+
+    def path(
+        self, points: Points, color: str = INK, dashes: str = "", opacity: float = 1.0
+    ) -> None:
+        path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
+        faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
+        dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
+        line = f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
+        self.parts.append(line)
+
+    def text(self, x: float, y: float, words: str, anchor: str = "start", more: str = "") -> None:
+        where = f'x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}'
+        self.parts.append(f"<text {where}>{escape(words)}</text>")
 
 
 def _n(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
-
-
-def _line(
-    points: Sequence[tuple[float, float]], color: str = INK, opacity: float = 1.0, dashes: str = ""
-) -> str:
-    path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
-    faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
-    dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
-    return f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
-
-
-def _text(x: float, y: float, words: str, anchor: str = "start", more: str = "") -> str:
-    return f'<text x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
 
 
 def _mark(kind: str, color: str, x: float, y: float) -> str:
@@ -217,12 +218,12 @@ def _sensitivity(record: Record) -> _Plot:
         changes = [f"{end - at_rest:+.3f}" for end in ends]
         for k, change in enumerate(change for change in changes if float(change)):
             _, down = plot.at(5.4, y)
-            plot.parts.append(_text(434, down - 2 + 13 * k, change.replace("-", "−"), "end"))
+            plot.text(434, down - 2 + 13 * k, change.replace("-", "−"), "end")
         told.append(f"{name} {' to '.join(f'{end:.2f}' for end in ends)} µm")
     plot.line([(at_rest, y) for y in rows])
     looks = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
     plot.legend(150, height + 80, looks)
-    plot.parts.append(_text(434, 16, "change [µm]", "end"))
+    plot.text(434, 16, "change [µm]", "end")
     plot.words = f"{'; '.join(told)}."
     return plot
 
@@ -238,19 +239,17 @@ def _figure_3(record: Record) -> _Plot:
     legend, words, looks = {"exact": ("line", INK)}, [], (("circle", VERMILION), ("square", BLUE))
     for curve, look in zip(record.curves, looks, strict=True):
         exact, sheet = (
-            [(time * 1e9, depth * 1e6) for time, depth in zip(times, depths, strict=True)]
-            for times, depths in (
-                (curve.exact_time, curve.exact_depth),
-                (curve.sheet_time, curve.sheet_depth),
-            )
-        )
+            [(time * 1e9, depth * 1e6) for time, depth in zip(*columns, strict=True)]
+            for columns in ((curve.exact_time, curve.exact_depth),
+                            (curve.sheet_time, curve.sheet_depth))
+        )  # fmt: skip
         plot.line(exact)
         plot.marks(*look, sheet[::8])
         legend[f"the sheet, every eighth row, β = {curve.beta:g}"] = look
         x, y = plot.at(*exact[-1])
         time, depth = sheet[-1]
-        plot.parts.append(_text(x + 8, y, f"{depth:.4f} µm,"))
-        plot.parts.append(_text(x + 8, y + 14, f"printed {curve.printed}"))
+        plot.text(x + 8, y, f"{depth:.4f} µm,")
+        plot.text(x + 8, y + 14, f"printed {curve.printed}")
         words.append(
             f"for β = {curve.beta:g} the sheet stops at {depth:.4f} µm after {time:.1f} ns "
             f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
@@ -302,14 +301,14 @@ def _convergence(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 260), (0.04, 4), (0.01, 300), below=120, logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
-    looks = {"published": ("initial", VERMILION, "circle"), "centered": ("middle", BLUE, "square")}
+    looks = {"published": (VERMILION, "circle"), "centered": (BLUE, "square")}
     legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
     for (scheme, beta), points in ladders.items():
-        velocity, color, shape = looks[scheme]
+        color, shape = looks[scheme]
         kind = shape if beta == greatest else f"hollow {shape}"
         plot.line(points, color)
         plot.marks(kind, color, points)
-        name = f"drag at the {velocity} velocity, β = {beta:g}"
+        name = f"drag at the {DRAG_AT[scheme]} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")

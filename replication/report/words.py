@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
-from replication.audit.comparison import SHARES
+from replication.audit.comparison import DRAG_AT, SHARES
 from replication.audit.verdict import OPEN
 from replication.cases import INPUTS
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
@@ -245,13 +245,12 @@ def approaches(record: r.Record) -> Table:
 
 def ladders(record: r.Record) -> Table:
     """The sheet at other time steps: a row for each, a column for each case and scheme."""
-    schemes = {"published": "initial", "centered": "middle"}
     columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
     rows: dict[float, list[str]] = {}
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
         rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
-    heads = (f"beta = {beta:g}, {schemes[scheme]} velocity" for beta, scheme in columns)
+    heads = (f"beta = {beta:g}, {DRAG_AT[scheme]} velocity" for beta, scheme in columns)
     caption = "Final depth of the sheet [um], its error [nm], by the velocity that the drag takes"
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 

@@ -30,8 +30,7 @@ UNSEEN = {
 
 @pytest.mark.parametrize("name", LEDGER.equations)
 def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
-    text = LEDGER.printed_text(name)
-    edits = {edit for edit, _ in equation_edits(text, LEDGER.written, LEDGER.dimensions)}
+    edits = {edit for edit, _ in equation_edits(LEDGER, name)}
     assert len(edits) >= 11
     printed = state(LEDGER, name)
     unseen = set()

@@ -127,7 +127,7 @@ def test_edits_of_words_and_of_the_reports_powers() -> None:
 
 
 def test_edits_of_an_equation() -> None:
-    result = dict(equation_edits(LEDGER.printed_text("eq16"), LEDGER.written, LEDGER.dimensions))
+    result = dict(equation_edits(LEDGER, "eq16"))
     assert set(result.values()) == set(EQUATION_EDITS)
     sides = {text: LEDGER.misprint("eq16", text).sides["eq16"] for text in result}
     same = {text for text in result if sides[text] == LEDGER.sides["eq16"]}

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from reference.ledger import Convention, load
 from replication.audit import wording
-from replication.audit.inference import Inference, infer
+from replication.audit.inference import Inference
 from replication.audit.verdict import Judge, Verdict
 from replication.models import sheet
 from replication.models.impact import Impact
@@ -25,7 +25,7 @@ CELLS = {f"a1-{column}-{row}": (column.replace("-", "_"), row)
 
 @cache
 def inference(centered: bool = False) -> Inference:
-    return infer(LEDGER, DENSITY, centered=centered)
+    return Inference(LEDGER, DENSITY, centered=centered)
 
 
 def impact(**changed: Any) -> Impact:
@@ -148,7 +148,7 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     judgement = assessed.readings[0].judgements[0]
     assert judgement.verdict is Verdict.NOT_REPRODUCED
     assert judgement.against_evidence
-    assert not claim.interval().excludes(judgement.lower, judgement.upper)
+    assert not claim.interval().excludes(*judgement.ends)
     said = wording.explanation(judge, claim, assessed)
     assert "no inputs that give this number also give the numbers" in said
     assert "all of it" not in said

@@ -75,7 +75,7 @@ def test_no_inputs_drawn_at_random_give_what_is_called_impossible() -> None:
                     inputs = {key: at[entry] for key, (entry,) in claim.inputs.items()}
                     value = F(REPLICA[computation.name](**inputs))
                     slack = value * F(1, 10**14)
-                    assert judgement.lower - slack <= value <= judgement.upper + slack
+                    assert judgement.ends[0] - slack <= value <= judgement.ends[1] + slack
 
 
 def test_a_number_of_unclear_digits_says_which_were_taken(record: Record) -> None:
