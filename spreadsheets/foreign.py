@@ -50,6 +50,8 @@ MAX_FORMULA = 8_192
 CONVERT_LIMIT_S = 120
 _MEMORY = 4 * 2**30
 """Bytes that LibreOffice may address; it starts with less than two of the four gigabytes."""
+_OF_ODS = 1e-20
+"""LibreOffice writes numbers below 1e-4 with 20 decimals: some ten digits of a mass in kg."""
 _SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
 """How .xls files begin, and encrypted workbooks of any kind."""
 
@@ -76,12 +78,16 @@ class Cell(NamedTuple):
 
 @dataclass(frozen=True)
 class Book:
-    """The worksheets in their order, cell by (row, column); the names; what else there is."""
+    """The worksheets in their order, cell by (row, column); the names; what else there is.
+
+    A stored number is known to within its `resolution`.
+    """
 
     path: Path
     sheets: Mapping[str, Mapping[tuple[int, int], Cell]]
     names: Mapping[str, str]
     notes: tuple[str, ...] = ()
+    resolution: float = 0.0
 
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
@@ -140,7 +146,8 @@ def read(path: Path) -> Book:
     ):
         book = reader.book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
-    return Book(path, book.sheets, book.names, (note, *book.notes))
+    resolution = _OF_ODS if path.suffix.lower() == ".ods" else 0.0
+    return Book(path, book.sheets, book.names, (note, *book.notes), resolution)
 
 
 def _is_xlsx(path: Path) -> bool:

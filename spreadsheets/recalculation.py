@@ -351,7 +351,7 @@ def calculate(book: Book) -> Calculation:
     formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
     reasons = _refused(book, formulas)
     typed = _numbers_as_text(book, formulas)
-    computed = _computed(book, typed, {p: f for p, f in formulas.items() if p not in reasons})
+    computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
     texts = {place: str(values[place]) for place in typed}
     values |= typed
@@ -370,7 +370,10 @@ _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")
 
 
 def _numbers_as_text(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
-    """Typed texts that are numbers, and that formulas read: most programs calculate with them."""
+    """Typed texts that are numbers, and that formulas read: most programs calculate with them.
+
+    They compare and sum up as texts all the same.
+    """
     areas = (area for formula in formulas.values() for area in formula.areas if area.cells == 1)
     read = {area.corner for area in areas} - formulas.keys()
     texts = {place: book[place].value for place in read}
@@ -407,10 +410,8 @@ def _filled(area: Area, book: Book) -> Area:
     return area._replace(bottom=max(bottom, area.top), right=max(right, area.left))
 
 
-def _computed(
-    book: Book, typed: Mapping[Position, Value], formulas: Mapping[Position, Formula]
-) -> dict[Position, Value]:
-    """What each formula gives, with other values `typed` into some cells."""
+def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
+    """What each formula gives."""
     import ironcalc
 
     if not formulas:
@@ -424,15 +425,14 @@ def _computed(
         model.rename_sheet(index, name)
     for (sheet, row, column), cell in book.cells():
         formula, at = formulas.get((sheet, row, column)), (number[sheet], row, column)
-        value = typed.get((sheet, row, column), cell.value)
         if formula is not None:
             model.update_cell_with_formula(*at, formula.for_engine(called))
-        elif isinstance(value, bool):
-            model.update_cell_with_bool(*at, value)
-        elif isinstance(value, float):
-            model.update_cell_with_number(*at, value)
-        elif value is not None:
-            model.update_cell_with_text(*at, value)
+        elif isinstance(cell.value, bool):
+            model.update_cell_with_bool(*at, cell.value)
+        elif isinstance(cell.value, float):
+            model.update_cell_with_number(*at, cell.value)
+        elif cell.value is not None:
+            model.update_cell_with_text(*at, cell.value)
     model.evaluate()
     return {
         (sheet, row, column): value

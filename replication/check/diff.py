@@ -224,7 +224,8 @@ class Comparison:
     def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
-            if self.tolerance.equal(a, b):
+            resolution = max(self.before.book.resolution, self.after.book.resolution)
+            if self.tolerance.equal(a, b) or abs(a - b) <= resolution:
                 return None
             small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
             return a, b, LAST if small else "the values differ"
