@@ -19,7 +19,7 @@ from typing import Any
 
 import msgspec
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
 from reference.entries import Computation, Condition, Equation, Side
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
@@ -130,14 +130,14 @@ class Check(msgspec.Struct, frozen=True):
     factor: Fraction | None = None
 
 
-def derive(equation: Equation, sides: Sides, written: Names, field: Any) -> Iterator[Check]:
+def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
     """Every check of one equation, given the sides of all, one by one.
 
-    `written` maps what the report writes to a symbol's name; they are checked in the `field`, the
-    `Ratios` or `Residues` of the symbols. Raises ZeroDivisionError, ValueError or EquationError
-    where what is printed makes no sense there.
+    `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
+    or EquationError where what is printed makes no sense as a quotient of polynomials.
     """
-    own, symbols = sides[equation.id], field.symbols
+    own, field = sides[equation.id], Ratios(sorted({*written.values()} - {"pi"}))
+    symbols = field.symbols
     for check, premises, printed_side, derived_term in _derivation(
         equation, tuple(written.items())
     ):

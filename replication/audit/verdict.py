@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from reference.arithmetic import InexactError, Rationals, Ratios, Reals, Residues
+from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, enclose, explore
 from reference.entries import Equation
 from reference.equations import EquationError, Sides, dimension
@@ -387,18 +387,11 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
 
 
 def follows(ledger: Ledger, name: str, sides: Sides | None = None) -> bool:
-    """Whether an equation, or these sides in its place, pass every check.
-
-    What fails in remainders, a small part of the work, fails; the rest is proven.
-    """
-    sides = sides or ledger.sides
-    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, sides, field))
-    return all(check.holds for check in each)
+    """Whether an equation, or these sides in its place, pass every check."""
+    return all(check.holds for check in _checks(ledger, name, sides or ledger.sides))
 
 
-def _checks(
-    ledger: Ledger, name: str, sides: Sides, field: type[Ratios | Residues] = Ratios
-) -> Iterator[Check]:
+def _checks(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
     """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
@@ -406,8 +399,7 @@ def _checks(
         yield Check(str(error), holds=False)
         return
     try:
-        symbols = field([symbol for symbol in ledger.symbols if symbol != "pi"])
-        yield from derive(ledger.equations[name], sides, ledger.written, symbols)
+        yield from derive(ledger.equations[name], sides, ledger.written)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
