@@ -16,9 +16,8 @@ from msgspec.structs import replace
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
-from reference.entries import Source
 from reference.equations import evaluate
-from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
 from reference.units import to_si
 from replication.audit import record as r
 from replication.audit import wording

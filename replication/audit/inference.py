@@ -8,8 +8,7 @@ import msgspec
 
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
-from reference.entries import Inferred
-from reference.ledger import INFERRED, Convention, Function, Ledger
+from reference.ledger import INFERRED, Convention, Function, Inferred, Ledger
 from reference.printed import Interval
 
 

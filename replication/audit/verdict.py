@@ -13,9 +13,8 @@ from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, enclose, explore
-from reference.entries import Equation
 from reference.equations import EquationError, Sides, dimension
-from reference.formulas import Check, derive
+from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import DimensionError
