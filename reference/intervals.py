@@ -8,6 +8,7 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -30,13 +31,11 @@ class Span(Operators):
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        low, high = _balls(other)
         return Span(self.low + low, self.high + high)
 
-    __radd__ = __add__
-
     def __mul__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        low, high = _balls(other)
         if self.low >= _ZERO:
             if low >= _ZERO:
                 return Span(self.low * low, self.high * high)
@@ -49,8 +48,6 @@ class Span(Operators):
                 return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
@@ -65,7 +62,8 @@ class Span(Operators):
         low, high = self.low, self.high
         if power % 2 == 0 and not low >= _ZERO:
             low, high = _greatest(low, -high, _ZERO), _greatest(-low, high)
-        return Span(_power(low, power), _power(high, power))
+        # By products, as Arb's own real power knows nothing of a ball about 0.
+        return Span(prod([low] * power, start=_ONE), prod([high] * power, start=_ONE))
 
 
 _ZERO, _ONE = arb(0), arb(1)
@@ -74,21 +72,12 @@ _ZERO, _ONE = arb(0), arb(1)
 def _inverse(low: Any, high: Any) -> Number:
     if not (low > 0 or high < 0):
         raise ZeroDivisionError(f"division by [{low}, {high}], which may be zero")
-    least = _ONE / high
-    return least if low is high else Span(least, _ONE / low)
+    return _ONE / high if low is high else Span(_ONE / high, _ONE / low)
 
 
 def _balls(x: Number) -> tuple[Any, Any]:
     """The balls, or integers, at the least and the greatest end of a number."""
     return (x.low, x.high) if isinstance(x, Span) else (x, x)
-
-
-def _power(x: arb, power: int) -> arb:
-    """By products, as Arb's own real power knows nothing of a ball about 0."""
-    result = _ONE
-    for _ in range(power):
-        result = result * x
-    return result
 
 
 def _least(first: arb, *others: arb) -> arb:

@@ -408,7 +408,7 @@ def _checks(ledger: Ledger, name: str, sides: Sides) -> Iterator[Check]:
     }
     says = "both sides have the same dimensions"
     try:
-        own = [dimension(side, ledger.dimensions, exponents) for side in sides[name]]
+        own = [dimension(side, {**ledger.dimensions, **exponents}) for side in sides[name]]
         yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
         yield Check(f"{says}: {error}", holds=False)
