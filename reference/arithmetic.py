@@ -162,34 +162,35 @@ class Dual(Operators):
         """A function of this number, from its value and its derivative."""
         return Dual(value, {name: outer * slope for name, slope in self.slopes.items()})
 
-    def plus(self, value: Number, other: "Dual") -> "Dual":
-        """A number with this value, whose slopes are the sums of both."""
-        total = dict(self.slopes)
-        for name, slope in other.slopes.items():
-            total[name] = total[name] + slope if name in total else slope
-        return Dual(value, total)
-
     def __neg__(self) -> "Dual":
         return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
         other = other if isinstance(other, Dual) else Dual(other)
-        return self.plus(self.value + other.value, other)
+        return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        product = self.value * other.value
-        return self.scaled(product, other.value).plus(product, other.scaled(product, self.value))
+        mine = {name: slope * other.value for name, slope in self.slopes.items()}
+        others = {name: self.value * slope for name, slope in other.slopes.items()}
+        return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
         other = other if isinstance(other, Dual) else Dual(other)
         quotient = self.value / other.value
-        slopes = self.plus(quotient, (-other).scaled(quotient, quotient)).slopes
+        slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __pow__(self, exponent: int) -> "Dual":
         return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
+
+
+def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
+    total = dict(first)
+    for name, slope in second.items():
+        total[name] = total[name] + slope if name in total else slope
+    return total
 
 
 class Duals(Arithmetic):
@@ -296,18 +297,13 @@ class Ratios:
     """
 
     def __init__(self, names: Sequence[str]) -> None:
-        from flint import Ordering, fmpq_mpoly_ctx
-
-        more = ("pi", *(f"other_{k}" for k in range(8)))
-        context = fmpq_mpoly_ctx.get((*names, *more), Ordering.lex)
-        self._unity = context.constant(1)
-        ratios = [Ratio(generator, self._unity) for generator in context.gens()]
+        ratios = _generators((*names, "pi", *(f"other_{k}" for k in range(8))))
         self.symbols: Mapping[str, Ratio] = dict(zip(names, ratios, strict=False))
         self.pi, *self._free = ratios[len(names) :]
         self._others: list[tuple[Fraction | None, Ratio]] = []
 
     def number(self, value: Fraction | int) -> Ratio:
-        return Ratio(self._unity * value.numerator, self._unity * value.denominator)
+        return Ratio(self.pi.under * value.numerator, self.pi.under * value.denominator)
 
     def log(self, x: Ratio) -> Ratio:
         return self.number(0) if x == 1 else self._other(None, x)
@@ -330,3 +326,12 @@ class Ratios:
             return Fraction(0)
         value = x.over.leading_coefficient() / x.under.leading_coefficient()
         return Fraction(int(value.p), int(value.q)) if x.over == x.under * value else None
+
+
+@cache
+def _generators(names: tuple[str, ...]) -> list[Ratio]:
+    """The symbols among the polynomials in them."""
+    from flint import Ordering, fmpq_mpoly_ctx
+
+    context = fmpq_mpoly_ctx.get(names, Ordering.lex)
+    return [Ratio(generator, context.constant(1)) for generator in context.gens()]

@@ -31,11 +31,13 @@ class Span(Operators):
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = _balls(other)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
         return Span(self.low + low, self.high + high)
 
+    __radd__ = __add__
+
     def __mul__(self, other: Number) -> "Span":
-        low, high = _balls(other)
+        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
         if self.low >= _ZERO:
             if low >= _ZERO:
                 return Span(self.low * low, self.high * high)
@@ -48,6 +50,8 @@ class Span(Operators):
                 return Span(self.high * high, self.low * low)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
+
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
