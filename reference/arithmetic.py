@@ -6,6 +6,7 @@ rational coefficients, in which two forms of an equation are equal exactly or no
 """
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
@@ -19,7 +20,8 @@ class Arithmetic:
     """What the formulas need of numbers, beyond the operators; as it stands, of known points.
 
     `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. What was computed in an arithmetic is kept by its hash.
+    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, but not
+    certain. What was computed in an arithmetic is kept by its hash.
     """
 
     @property
@@ -29,9 +31,8 @@ class Arithmetic:
     log: Callable[[Any], Number]
     power: Callable[[Any, Fraction], Number]
     cap_root: Callable[[Any], Number]
-
-    def least(self, x: Number, bound: Number) -> Number:
-        return min(x, bound)
+    least: Callable[[Any, Any], Number] = staticmethod(min)
+    below: Callable[[Any, Any], bool | None] = staticmethod(operator.lt)
 
     def greatest(self, x: Number, bound: Number) -> Number:
         return -self.least(-x, -bound)
@@ -39,10 +40,6 @@ class Arithmetic:
     def contact_share(self, y: Number) -> Number:
         """y (2 - y), which increases on its domain, 0 <= y <= 1."""
         return y * (2 - y)
-
-    def below(self, x: Number, bound: Number) -> bool | None:
-        """Whether x < bound; None where that is possible, but not certain."""
-        return bool(x < bound)
 
     def hull(self, numbers: list[Number]) -> Number:
         """A number that stands for all of them."""
