@@ -120,14 +120,15 @@ def computing(
     if computation.formula is None:
         function = FUNCTIONS[computation.name]
         return lambda ar, inputs: function(ar, **inputs)
-    formula, premises = computation.formula, computation.premises
+    premises = computation.premises
     names = {r"\pi": "pi", **{key: key for key in (*inputs, *premises)}}
+    formula = read_expression(computation.formula, names)
 
     def value(ar: Arithmetic, inputs: Mapping[str, Any]) -> Number | Fraction:
         known = dict(inputs)
         for key, premise in premises.items():
             known[key] = _side(premise, sides, premise.equation, names, ar, known)
-        return _value(formula, names, ar, known)
+        return evaluate(formula, ar, known)
 
     return value
 
