@@ -380,8 +380,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        own = [claim.id for claim in self.claims.values() if claim.within == equation]
-        return [] if equation in self.misprinted else own
+        return [] if equation in self.misprinted else self._constants[equation]
+
+    @cached_property
+    def _constants(self) -> Mapping[str, list[str]]:
+        within = [(claim.within, claim.id) for claim in self.claims.values()]
+        return {name: [own for e, own in within if e == name] for name in self.equations}
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
