@@ -2,15 +2,14 @@
 
 `Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
 `Duals` carry the derivatives along in either of them. `Ratios` are quotients of polynomials with
-rational coefficients, in which two forms of an equation are equal exactly or not at all; `Residues`
-tell quickly most of those that are not.
+rational coefficients, in which two forms of an equation are equal exactly or not at all.
 """
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from functools import cache, lru_cache
-from hashlib import sha256
+from functools import cache
 from typing import Any
 
 Number = Any
@@ -21,7 +20,8 @@ class Arithmetic:
     """What the formulas need of numbers, beyond the operators; as it stands, of known points.
 
     `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. What was computed in an arithmetic is kept by its hash.
+    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, but not
+    certain. What was computed in an arithmetic is kept by its hash.
     """
 
     @property
@@ -31,9 +31,8 @@ class Arithmetic:
     log: Callable[[Any], Number]
     power: Callable[[Any, Fraction], Number]
     cap_root: Callable[[Any], Number]
-
-    def least(self, x: Number, bound: Number) -> Number:
-        return min(x, bound)
+    least: Callable[[Any, Any], Number] = staticmethod(min)
+    below: Callable[[Any, Any], bool | None] = staticmethod(operator.lt)
 
     def greatest(self, x: Number, bound: Number) -> Number:
         return -self.least(-x, -bound)
@@ -41,10 +40,6 @@ class Arithmetic:
     def contact_share(self, y: Number) -> Number:
         """y (2 - y), which increases on its domain, 0 <= y <= 1."""
         return y * (2 - y)
-
-    def below(self, x: Number, bound: Number) -> bool | None:
-        """Whether x < bound; None where that is possible, but not certain."""
-        return bool(x < bound)
 
     def hull(self, numbers: list[Number]) -> Number:
         """A number that stands for all of them."""
@@ -132,7 +127,7 @@ class DiscontinuityError(ArithmeticError):
 
 
 class Operators:
-    """The operators that follow from `+`, `*` and the change of sign."""
+    """The operators that follow from `+`, `*`, `/` and the change of sign."""
 
     __slots__ = ()
 
@@ -147,6 +142,9 @@ class Operators:
 
     def __rmul__(self, other: Any) -> Any:
         return self * other
+
+    def __rtruediv__(self: Any, other: Any) -> Any:
+        return type(self)(other) / self
 
 
 class Dual(Operators):
@@ -165,7 +163,7 @@ class Dual(Operators):
         return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
-        other = _dual(other)
+        other = other if isinstance(other, Dual) else Dual(other)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
@@ -176,20 +174,13 @@ class Dual(Operators):
         return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
-        other = _dual(other)
+        other = other if isinstance(other, Dual) else Dual(other)
         quotient = self.value / other.value
         slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
-    def __rtruediv__(self, other: Any) -> "Dual":
-        return Dual(other) / self
-
     def __pow__(self, exponent: int) -> "Dual":
         return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
-
-
-def _dual(number: Any) -> Dual:
-    return number if isinstance(number, Dual) else Dual(number)
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
@@ -261,66 +252,39 @@ class Ratio(Operators):
 
     __slots__ = ("over", "under")
 
-    def __init__(self, over: Any, under: Any) -> None:
+    def __init__(self, over: Any, under: Any = 1) -> None:
         self.over, self.under = over, under
 
     def __neg__(self) -> "Ratio":
         return Ratio(-self.over, self.under)
 
     def __add__(self, other: Any) -> "Ratio":
-        other = self._ratio(other)
+        other = other if isinstance(other, Ratio) else Ratio(other)
         over = self.over * other.under + other.over * self.under
         return Ratio(over, self.under * other.under)
 
     def __mul__(self, other: Any) -> "Ratio":
-        other = self._ratio(other)
+        other = other if isinstance(other, Ratio) else Ratio(other)
         return Ratio(self.over * other.over, self.under * other.under)
 
     def __truediv__(self, other: Any) -> "Ratio":
-        other = self._ratio(other)
+        other = other if isinstance(other, Ratio) else Ratio(other)
         if other.over == 0:
             raise ZeroDivisionError("division by a polynomial that is zero")
         return Ratio(self.over * other.under, self.under * other.over)
 
-    def __rtruediv__(self, other: Any) -> "Ratio":
-        return self._ratio(other) / self
-
     def __pow__(self, exponent: int) -> "Ratio":
-        if exponent < 0:
-            return (1 / self) ** -exponent
-        return Ratio(self.over**exponent, self.under**exponent)
+        base: Ratio = self if exponent >= 0 else 1 / self
+        return Ratio(base.over ** abs(exponent), base.under ** abs(exponent))
 
     def __eq__(self, other: object) -> bool:
-        other = self._ratio(other)
+        other = other if isinstance(other, Ratio) else Ratio(other)
         return bool(self.over * other.under == other.over * self.under)
 
     __hash__ = None  # type: ignore[assignment]  # equal quotients may be written in many ways
 
-    def _ratio(self, value: Any) -> "Ratio":
-        if isinstance(value, Ratio):
-            return value
-        return Ratio(self.under * 0 + value, self.under * 0 + 1)
 
-
-class _Field:
-    """Numbers in which what is no polynomial has a value of its own: the same for the same x."""
-
-    number: Callable[[Fraction | int], Any]
-
-    def log(self, x: Any) -> Any:
-        return self.number(0) if x == 1 else self._other(None, x)
-
-    def power(self, x: Any, exponent: Fraction) -> Any:
-        if exponent.denominator == 1:
-            return x ** int(exponent)
-        return x if x == 1 else self._other(exponent, x)
-
-    def _other(self, exponent: Fraction | None, x: Any) -> Any:
-        """The value of this power of x, or of its logarithm."""
-        raise NotImplementedError
-
-
-class Ratios(_Field):
+class Ratios:
     """Quotients of polynomials in some symbols; what is no polynomial gets a symbol of its own.
 
     >>> ar = Ratios(["x", "y"])
@@ -330,80 +294,41 @@ class Ratios(_Field):
     """
 
     def __init__(self, names: Sequence[str]) -> None:
-        self._context, self._named = _polynomials((*names, "pi", *(f"other_{k}" for k in range(8))))
-        self.symbols: Mapping[str, Ratio] = {name: self._named[name] for name in names}
+        ratios = _generators((*names, "pi", *(f"other_{k}" for k in range(8))))
+        self.symbols: Mapping[str, Ratio] = dict(zip(names, ratios, strict=False))
+        self.pi, *self._free = ratios[len(names) :]
         self._others: list[tuple[Fraction | None, Ratio]] = []
 
-    @property
-    def pi(self) -> Ratio:
-        return self._named["pi"]
-
     def number(self, value: Fraction | int) -> Ratio:
-        from flint import fmpq
+        return Ratio(self.pi.under * value.numerator, self.pi.under * value.denominator)
 
-        constant = self._context.constant
-        return Ratio(constant(fmpq(value.numerator, value.denominator)), constant(1))
+    def log(self, x: Ratio) -> Ratio:
+        return self.number(0) if x == 1 else self._other(None, x)
 
-    def constant(self, x: Ratio) -> Fraction | None:
+    def power(self, x: Ratio, exponent: Fraction) -> Ratio:
+        if exponent.denominator == 1:
+            return x ** int(exponent)
+        return x if x == 1 else self._other(exponent, x)
+
+    def _other(self, *known: Any) -> Ratio:
+        """A symbol for a power of x, or for its logarithm: the same for the same x."""
+        if known not in self._others:
+            self._others.append(known)
+        return self._free[self._others.index(known)]
+
+    @staticmethod
+    def constant(x: Ratio) -> Fraction | None:
         """The value of what is the same number whatever the symbols stand for, else None."""
         if x.over == 0:
             return Fraction(0)
         value = x.over.leading_coefficient() / x.under.leading_coefficient()
         return Fraction(int(value.p), int(value.q)) if x.over == x.under * value else None
 
-    def _other(self, *known: Any) -> Ratio:
-        """A symbol for it."""
-        if known not in self._others:
-            self._others.append(known)
-        return self._named[f"other_{self._others.index(known)}"]
-
 
 @cache
-def _polynomials(names: tuple[str, ...]) -> tuple[Any, dict[str, Ratio]]:
-    """The polynomials in some symbols, and the symbols among them."""
+def _generators(names: tuple[str, ...]) -> list[Ratio]:
+    """The symbols among the polynomials in them."""
     from flint import Ordering, fmpq_mpoly_ctx
 
     context = fmpq_mpoly_ctx.get(names, Ordering.lex)
-    unity = context.constant(1)
-    ratios = [Ratio(generator, unity) for generator in context.gens()]
-    return context, dict(zip(names, ratios, strict=True))
-
-
-class Residues(_Field):
-    """Remainders by a large prime, one drawn for each symbol: what differs here differs.
-
-    What agrees here is the same quotient of polynomials but for a chance of one in 10^15.
-
-    >>> ar = Residues(["x", "y"])
-    >>> x, y = ar.symbols["x"], ar.symbols["y"]
-    >>> (x * x - y * y) / (x - y) == x + y, x * y == x + y
-    (True, False)
-    """
-
-    def __init__(self, names: Sequence[str]) -> None:
-        self.symbols = {name: _drawn(name) for name in names}
-
-    @property
-    def pi(self) -> Number:
-        return _drawn("pi")
-
-    def number(self, value: Fraction | int) -> Number:
-        return _remainder(value.numerator) / value.denominator
-
-    def constant(self, _: Number) -> None:
-        """Not to be told from one value of the symbols."""
-
-    def _other(self, exponent: Fraction | None, x: Number) -> Number:
-        return _drawn(f"{x}^{exponent}")
-
-
-def _remainder(number: int) -> Any:
-    from flint import nmod
-
-    return nmod(number, 2**61 - 1)
-
-
-@lru_cache(4096)
-def _drawn(what: str) -> Any:
-    """A remainder drawn by lot, always the same one for the same thing."""
-    return _remainder(int.from_bytes(sha256(what.encode()).digest()))
+    return [Ratio(generator, context.constant(1)) for generator in context.gens()]

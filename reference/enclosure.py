@@ -56,7 +56,8 @@ def enclose(function: Function, box: Box) -> Range:
     """
     wide = [name for name, (low, high) in box.items() if low != high]
     value, slopes = _tangent(function, box, wide) if wide else (None, {})
-    signs = _signs(slopes, wide)
+    # No slope is known where the function may jump.
+    signs = {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign > 0 for name, sign in signs.items() if sign}
     if not fixed:
@@ -65,9 +66,7 @@ def enclose(function: Function, box: Box) -> Range:
         {**box, **_points({name: box[name][rises == top] for name, rises in fixed.items()})}
         for top in (False, True)
     )
-    if len(fixed) == len(wide):
-        return Range((_plain(function, lower)[0], _plain(function, upper)[1]), signs, idle)
-    # An input that is put at an end may free another's sign.
+    # An input that is put at an end may free another's sign; with all at ends the bound is sharp.
     return Range((enclose(function, lower).ends[0], enclose(function, upper).ends[1]), signs, idle)
 
 
@@ -112,11 +111,6 @@ def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dic
     if isinstance(value, Fraction):
         return None, dict.fromkeys(wide, zero)
     return value.value, {name: value.slopes.get(name, zero) for name in wide}
-
-
-def _signs(slopes: Mapping[str, Number], wide: Sequence[str]) -> dict[str, int]:
-    """Whether a function is proven to rise or fall; no slope is known where it may jump."""
-    return {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
 
 
 class Exploration(msgspec.Struct, frozen=True):
@@ -229,6 +223,10 @@ def solve(
     """
     queue = deque([search])
     inner, outer = list[Ends](), list[Ends]()
+
+    def value(x: Fraction) -> Ends:
+        return _plain(function, {name: (x, x)})
+
     while queue:
         part, budget = queue.popleft(), budget - 1
         try:
@@ -241,11 +239,11 @@ def solve(
             inner.append(part)
             outer.append(part)
         elif range_ is not None and range_.is_monotone:
-            first, last = _crossings(function, name, part, target, range_.signs[name] > 0)
+            first, last = _crossings(value, part, target, range_.signs[name] > 0)
             outer.append((first[0], last[1]))
-            ends = [_plain(function, {name: (x, x)}) for x in (first[1], last[0])]
-            if first[1] <= last[0] and all(target.encloses(*values) for values in ends):
-                inner.append((first[1], last[0]))
+            within = first[1], last[0]
+            if within[0] <= within[1] and all(target.encloses(*value(x)) for x in within):
+                inner.append(within)
         elif budget > 0:
             middle = (part[0] + part[1]) / 2
             queue += [(part[0], middle), (middle, part[1])]
@@ -255,12 +253,9 @@ def solve(
 
 
 def _crossings(
-    function: Function, name: str, part: Ends, target: Interval, rises: bool
+    value: Callable[[Fraction], Ends], part: Ends, target: Interval, rises: bool
 ) -> tuple[Ends, Ends]:
     """Brackets of the two places between which a rising or falling function is in the target."""
-
-    def value(x: Fraction) -> Ends:
-        return _plain(function, {name: (x, x)})
 
     def crossing(place: int) -> Ends:
         at_lower = rises == (place == 0)
@@ -337,11 +332,13 @@ def extent(
     # An open end does not belong to the box: what is attained is sought a little inside.
     margins = {key: (high - low) / 10**6 for key, (low, high) in box.items() if key != name}
     inside = {key: (box[key][0] + margin, box[key][1] - margin) for key, margin in margins.items()}
-    wide = [key for key, (low, high) in box.items() if low != high]
-    monotone = []
-    for function, target in constraints:
-        signs = _signs(_tangent(function, box, wide)[1], wide)
-        monotone += [(function, target, signs, top) for top in (0, 1) if all(signs.values())]
+    ranges = [(*constraint, enclose(constraint[0], box)) for constraint in constraints]
+    monotone = [
+        (function, target, range_.signs, top)
+        for function, target, range_ in ranges
+        if range_.is_monotone
+        for top in (0, 1)
+    ]
 
     def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:
         return target.encloses(*_plain(function, _points({name: outer[top]})))

@@ -58,39 +58,46 @@ def _token(written: tuple[str, ...]) -> re.Pattern[str]:
     )
 
 
-_BINDING = {"+": 1, "-": 1, "/": 2, " ": 2, "": 3, "^": 4}
-"""How tightly operators bind; " " and "" are products written with and without a space."""
-_KINDS = {"+": "sum", "-": "sum", "/": "quotient", " ": "product", "": "product", "^": "power"}
+_OPERATORS = {
+    "+": ("sum", 1), "-": ("sum", 1), "/": ("quotient", 2), " ": ("product", 2),
+    "": ("product", 3), "^": ("power", 4),
+}  # fmt: skip
+"""What operators make and how tightly they bind; products are written with a space or without."""
+_FACTORS = {"number", "symbol", "function", "fraction"}
 
 
 class _Reader:
     """Reads one expression by the binding of its operators."""
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
-        self.text, self.symbols = text, symbols
-        tokens = [(str(token.lastgroup), token) for token in _token(tuple(symbols)).finditer(text)]
-        self.tokens = [(kind, token[kind], bool(token["space"])) for kind, token in tokens]
-        self.starts = [token.start(kind) for kind, token in tokens]
-        self.at = 0
+        self.text, self.symbols, self.at = text, symbols, 0
+        self.tokens = list(_token(tuple(symbols)).finditer(text))
 
     @property
     def next(self) -> tuple[str, str, bool]:
         """The kind and the text of what comes next, and whether a space stands before it."""
-        return self.tokens[self.at]
+        token = self.tokens[self.at]
+        kind = str(token.lastgroup)
+        return kind, token[kind], bool(token["space"])
 
     def error(self) -> EquationError:
         """That what comes next has no place there."""
-        rest = self.text[self.starts[self.at] :]
-        what = (
-            f"cannot read {rest!r} at the end of" if rest else "something is missing at the end of"
-        )
-        return EquationError(f"{what} {self.text!r}")
+        rest = self.text[self.tokens[self.at].end("space") :]
+        what = f"cannot read {rest!r}" if rest else "something is missing"
+        return EquationError(f"{what} at the end of {self.text!r}")
 
     def take(self, sign: str) -> bool:
         """Whether this sign comes next; it is then taken."""
         taken = self.next[:2] == ("sign", sign)
         self.at += taken
         return taken
+
+    def within(self, opening: str, closing: str) -> Node:
+        """What stands between two brackets."""
+        self.expect(opening)
+        node = self.expression()
+        self.expect(closing)
+        return node
 
     def expect(self, sign: str) -> None:
         if not self.take(sign):
@@ -99,16 +106,15 @@ class _Reader:
     def expression(self, binding: int = 0) -> Node:
         """What follows, as far as its operators bind more tightly than `binding`."""
         if binding == 0 and self.take("-"):
-            left = Node("negative", (self.expression(_BINDING["-"]),))
+            left = Node("negative", (self.expression(1),))
         else:
-            left = self.operand()
-        while (operator := self.operator()) is not None and _BINDING[operator] > binding:
-            if operator not in ("", " "):
-                self.at += 1
-            right = self.exponent() if operator == "^" else self.expression(_BINDING[operator])
+            left = self.operand("(")
+        while (operator := self.operator()) is not None and _OPERATORS[operator][1] > binding:
+            kind, tightness = _OPERATORS[operator]
+            self.at += bool(operator.strip())
+            right = self.operand("{(") if operator == "^" else self.expression(tightness)
             if operator == "-":
                 right = Node("negative", (right,))
-            kind = _KINDS[operator]
             chained = kind in ("sum", "product") and left.kind == kind
             left = Node(kind, (*(left.parts if chained else (left,)), right))
         return left
@@ -116,15 +122,18 @@ class _Reader:
     def operator(self) -> str | None:
         """The operator that comes next, a product where a factor does; None at the end."""
         kind, text, spaced = self.next
-        if kind in ("number", "symbol", "function", "fraction") or text == "(":
+        if kind in _FACTORS or text == "(":
             return " " if spaced else ""
         return text if text in ("+", "-", "/") or (text == "^" and not spaced) else None
 
-    def operand(self) -> Node:
-        kind, text, _ = self.next
-        if text == "(":
-            return self.within("(", ")")
-        if kind not in ("number", "symbol", "function", "fraction"):
+    def operand(self, brackets: str) -> Node:
+        """What stands in one of these brackets, or a factor without any."""
+        kind, text, spaced = self.next
+        if spaced and "{" in brackets:  # no space stands before an exponent
+            raise self.error()
+        if text and text in brackets:
+            return self.within(text, {"(": ")", "{": "}"}[text])
+        if kind not in _FACTORS:
             raise self.error()
         self.at += 1
         if kind == "number":
@@ -132,20 +141,8 @@ class _Reader:
         if kind == "symbol":
             return Node("symbol", name=self.symbols[text])
         if kind == "function":
-            return Node(text[1:], (self.expression(_BINDING[""]),))
+            return Node(text[1:], (self.expression(_OPERATORS[""][1]),))
         return Node("quotient", (self.within("{", "}"), self.within("{", "}")))
-
-    def exponent(self) -> Node:
-        _, text, spaced = self.next
-        if spaced:
-            raise self.error()
-        return self.within("{", "}") if text == "{" else self.operand()
-
-    def within(self, opening: str, closing: str) -> Node:
-        self.expect(opening)
-        node = self.expression()
-        self.expect(closing)
-        return node
 
 
 def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
@@ -201,19 +198,15 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         if node.kind == "number":
             return ar.number(node.value)
         if node.kind == "power":
-            return _power(node, ar, values, value)
+            base, power = node.parts[0], _exponent(node.parts[1], values)
+            if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
+                base, power = base.parts[0], power * _exponent(base.parts[1], values)
+            if power.denominator == 1 and power > 0:
+                return value(base) ** int(power)
+            return ar.power(value(base), power)
         return _OPERATIONS[node.kind](ar, *map(value, node.parts))
 
     return value(node)
-
-
-def _power(node: Node, ar: Any, values: Mapping[str, Any], value: Callable[[Node], Any]) -> Any:
-    base, power = node.parts[0], _exponent(node.parts[1], values)
-    if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
-        base, power = base.parts[0], power * _exponent(base.parts[1], values)
-    if power.denominator == 1 and power > 0:
-        return value(base) ** int(power)
-    return ar.power(value(base), power)
 
 
 _OPERATIONS: Mapping[str, Callable[..., Any]] = {
@@ -241,12 +234,8 @@ class _Dimensions:
     """The arithmetic of dimensions: those of all numbers are the same."""
 
     pi = Dimension()
-
-    def number(self, _: Fraction | int) -> Dimension:
-        return Dimension()
-
-    def power(self, x: Dimension, exponent: Fraction) -> Dimension:
-        return x**exponent
+    number = staticmethod(lambda _: Dimension())
+    power = staticmethod(pow)
 
     def log(self, x: Dimension) -> Dimension:
         if x != Dimension():
@@ -254,25 +243,23 @@ class _Dimensions:
         return x
 
 
-def dimension(
-    node: Node, units: Mapping[str, Dimension], exponents: Mapping[str, Fraction] | None = None
-) -> Dimension:
-    """The dimension of an expression, given those of its symbols, and symbols that are exponents.
+def dimension(node: Node, units: Mapping[str, Dimension | Fraction]) -> Dimension:
+    """The dimension of an expression, given those of its symbols, and the values of exponents.
 
     Raises DimensionError where a sum or an argument makes no sense.
     """
-    own: Dimension = evaluate(node, _Dimensions(), {**units, **(exponents or {})})
+    own: Dimension = evaluate(node, _Dimensions(), units)
     return own
 
 
 class Notation(msgspec.Struct, frozen=True):
     """How the parts of an expression are put together, as they stand for plain text.
 
-    `stroke`: how tightly what is over and under a fraction bar must bind to go without brackets.
+    `symbol` is also for numbers. `stroke`: how tightly what is over and under a fraction bar must
+    bind to go without brackets.
     """
 
     symbol: Callable[[str], str] = str
-    number: Callable[[str], str] = str
     bracket: Callable[[str], str] = "({})".format
     fraction: Callable[[str, str], str] = "{}/{}".format
     power: Callable[[str, str], str] = "{}^{}".format
@@ -296,7 +283,6 @@ def _mathml_symbol(shown: str) -> str:
 PLAIN = Notation()
 MATHML = Notation(
     symbol=_mathml_symbol,
-    number="<mn>{}</mn>".format,
     bracket="<mrow><mo>(</mo>{}<mo>)</mo></mrow>".format,
     fraction="<mfrac>{}{}</mfrac>".format,
     power="<msup>{}{}</msup>".format,
@@ -325,16 +311,14 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         return notation.bracket(inner) if loose else inner
 
     def added(term: Node) -> str:
-        negative = term.kind == "negative"
-        sign = notation.less if negative else notation.plus
-        return sign + (part(term.parts[0], 2) if negative else part(term, 1))
+        if term.kind == "negative":
+            return notation.less + part(term.parts[0], 2)
+        return notation.plus + part(term, 1)
 
     parts = node.parts
     match node.kind:
-        case "number":
-            return notation.number(str(node.value))
-        case "symbol":
-            return notation.symbol(shown[node.name])
+        case "number" | "symbol":
+            return notation.symbol(shown[node.name] if node.name else str(node.value))
         case "negative":
             return notation.row(notation.minus + part(parts[0], 2))
         case "sum":
@@ -345,4 +329,4 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
             return notation.fraction(*map(part, parts, notation.stroke))
         case "power":
             return notation.power(part(parts[0], 5), part(parts[1], notation.stroke[1]))
-    return notation.call(node.kind, rendered(parts[0], shown, notation))
+    return notation.call(node.kind, part(parts[0], 0))

@@ -16,8 +16,8 @@ from typing import Literal
 import msgspec
 
 from reference.arithmetic import Reals
-from reference.entries import Entry
 from reference.equations import Node, evaluate, read_expression
+from reference.formulas import Entry
 from reference.ledger import load as load_ledger
 from reference.ledger import tables
 from reference.printed import decimal_text, parse

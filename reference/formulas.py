@@ -11,72 +11,124 @@ cuts a sphere), Newton's law, Bernoulli's, and earlier equations of the report w
 uses them.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cache, reduce
+from functools import reduce
 from itertools import islice
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number
-from reference.entries import Computation, Condition, Equation, Side
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
+from reference.printed import Place
 from reference.units import unit_dimension
 
 Names = Mapping[str, str]
 """How symbols and premises are written, and what they are called."""
 
-Term = Callable[[Any, Mapping[str, Any]], Any]
-"""What a text of the ledger says, in an arithmetic, of values by name."""
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A table of a file, which may hold no keys but its own."""
 
 
-def _term(text: str, names: Names) -> Term:
-    """A text, read once; a Fraction that is only named stays one, as exponents must."""
-    if text in names.values():
-        return lambda _, known: known[text]
-    node = read_expression(text, names)
-    return lambda ar, known: evaluate(node, ar, known)
+class Side(Entry, frozen=True, kw_only=True):
+    """A side of an equation, or its slope by a symbol, with something put in for its symbols."""
+
+    side: int = -1
+    put: dict[str, str] = {}
+    slope: str | None = None
 
 
-def _side(own: Side, names: Names) -> Callable[[Sequence[Node], Any, Mapping[str, Any]], Number]:
-    """A side of an equation, or its slope, with something put in for its symbols.
+class Premise(Side, frozen=True):
+    """What another equation is derived from."""
 
-    Those for which nothing is put in have their known values.
+    equation: str
+
+
+class Condition(Side, frozen=True):
+    """What must hold of an equation, so that it follows from its premises."""
+
+    says: str
+    equals: str
+
+
+class Equation(Entry, frozen=True, eq=False):
+    """An [[equation]], and where it stands."""
+
+    id: str
+    title: str
+    quote: str
+    kind: Literal["derived", "definition", "taken over"]
+    follows_from: str
+    checks: list[Condition] = []
+    premises: dict[str, Premise] = {}
+    place: Place = Place()
+
+
+class Computation(Entry, frozen=True, eq=False):
+    """A [[computation]]: what it computes, and its formula in the report's notation.
+
+    Without a formula it is the function of its name in reference/formulas.py. What `restates` only
+    repeats or counts what the report prints elsewhere. `by_row`: it takes the number of a row of
+    the sheet (1 is the first time step); `by_scheme`: it runs the sheet, in either of the two
+    schemes that fit the report's words.
     """
-    put = {symbol: _term(text, names) for symbol, text in own.put.items()}
 
-    def value(sides: Sequence[Node], ar: Any, known: Mapping[str, Any]) -> Number:
-        side, values = sides[own.side], {**known, **{s: term(ar, known) for s, term in put.items()}}
-        if own.slope is None:
-            return evaluate(side, ar, values)
-        duals = Duals(ar)
-        numbers = {name: Dual(value) for name, value in values.items()}
-        numbers[own.slope] = duals.variable(values[own.slope], own.slope)
-        return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
+    name: str
+    summary: str
+    formula: str | None = None
+    premises: dict[str, Premise] = {}
+    restates: bool = False
+    by_row: bool = False
+    by_scheme: bool = False
 
-    return value
+    @property
+    def equations(self) -> list[str]:
+        """The printed equations that it evaluates."""
+        return [premise.equation for premise in self.premises.values()]
+
+
+def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
+    """What a text of the ledger says; a Fraction that is only named stays one, for exponents."""
+    return known[text] if text in known else evaluate(read_expression(text, names), ar, known)
+
+
+def _side(
+    own: Side, sides: Sides, equation: str, names: Names, ar: Any, known: Mapping[str, Any]
+) -> Number:
+    """A side of an equation, or its slope, of the known values and those put in for its symbols."""
+    side = sides[equation][own.side]
+    put = {symbol: _value(text, names, ar, known) for symbol, text in own.put.items()}
+    values = {**known, **put}
+    if own.slope is None:
+        return evaluate(side, ar, values)
+    duals = Duals(ar)
+    numbers = {name: Dual(value) for name, value in values.items()}
+    numbers[own.slope] = duals.variable(values[own.slope], own.slope)
+    return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
 
 
 # Computations
 
 
-def computing(computation: Computation, sides: Sides, names: Iterable[str]) -> Term:
+def computing(
+    computation: Computation, sides: Sides, inputs: Iterable[str]
+) -> Callable[[Any, Mapping[str, Any]], Number | Fraction]:
     """A computation, given the sides of all equations, as a function of inputs with these names."""
     if computation.formula is None:
         function = FUNCTIONS[computation.name]
         return lambda ar, inputs: function(ar, **inputs)
-    own = {r"\pi": "pi", **{key: key for key in (*names, *computation.premises)}}
-    premises = [(key, _side(premise, own), sides[premise.equation])
-                for key, premise in computation.premises.items()]  # fmt: skip
-    formula = _term(computation.formula, own)
+    premises = computation.premises
+    names = {r"\pi": "pi", **{key: key for key in (*inputs, *premises)}}
+    formula = read_expression(computation.formula, names)
 
     def value(ar: Arithmetic, inputs: Mapping[str, Any]) -> Number | Fraction:
         known = dict(inputs)
-        for key, premise, equation in premises:
-            known[key] = premise(equation, ar, known)
-        return formula(ar, known)
+        for key, premise in premises.items():
+            known[key] = _side(premise, sides, premise.equation, names, ar, known)
+        return evaluate(formula, ar, known)
 
     return value
 
@@ -130,39 +182,28 @@ class Check(msgspec.Struct, frozen=True):
     factor: Fraction | None = None
 
 
-def derive(equation: Equation, sides: Sides, written: Names, field: Any) -> Iterator[Check]:
+def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
     """Every check of one equation, given the sides of all, one by one.
 
-    `written` maps what the report writes to a symbol's name; they are checked in the `field`, the
-    `Ratios` or `Residues` of the symbols. Raises ZeroDivisionError, ValueError or EquationError
-    where what is printed makes no sense there.
+    `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
+    or EquationError where what is printed makes no sense as a quotient of polynomials.
     """
-    own, symbols = sides[equation.id], field.symbols
-    for check, premises, printed_side, derived_term in _derivation(
-        equation, tuple(written.items())
-    ):
-        if derived_term is None:
-            yield Check(check.says, _is_so(check, own[check.side], symbols))
-            continue
-        known = {**symbols, **{key: premise(sides[name], field, symbols)
-                               for key, name, premise in premises}}  # fmt: skip
-        printed, derived = printed_side(own, field, symbols), derived_term(field, known)
-        holds = bool(printed == derived)
-        factor = None if holds or derived == 0 else field.constant(printed / derived)
-        yield Check(check.says, holds, factor)
-
-
-@cache
-def _derivation(equation: Equation, written: tuple[tuple[str, str], ...]) -> list[Any]:
-    """Of every check: itself, its premises, the printed side, and what this must be equal to."""
-    names = {**dict(written), **{key: key for key in equation.premises}}
-    read = []
+    ar = Ratios(sorted({*written.values()} - {"pi"}))
+    names = {**written, **{key: key for key in equation.premises}}
     for check in equation.checks:
-        named = {key: own for key, own in equation.premises.items() if key in check.equals}
-        premises = [(key, own.equation, _side(own, names)) for key, own in named.items()]
-        derived = None if check.equals[0] in "<>" else _term(check.equals, names)
-        read.append((check, premises, _side(check, names), derived))
-    return read
+        if check.equals[0] in "<>":
+            yield Check(check.says, _is_so(check, sides[equation.id][check.side], ar.symbols))
+            continue
+        premises = {
+            key: _side(own, sides, own.equation, names, ar, ar.symbols)
+            for key, own in equation.premises.items()
+            if key in check.equals
+        }
+        printed = _side(check, sides, equation.id, names, ar, ar.symbols)
+        derived = _value(check.equals, names, ar, {**ar.symbols, **premises})
+        holds = bool(printed == derived)
+        factor = None if holds or derived == 0 else ar.constant(printed / derived)
+        yield Check(check.says, holds, factor)
 
 
 def _is_so(check: Condition, side: Node, symbols: Iterable[str]) -> bool:

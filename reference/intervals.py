@@ -8,6 +8,7 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -65,7 +66,8 @@ class Span(Operators):
         low, high = self.low, self.high
         if power % 2 == 0 and not low >= _ZERO:
             low, high = _greatest(low, -high, _ZERO), _greatest(-low, high)
-        return Span(_power(low, power), _power(high, power))
+        # By products, as Arb's own real power knows nothing of a ball about 0.
+        return Span(prod([low] * power, start=_ONE), prod([high] * power, start=_ONE))
 
 
 _ZERO, _ONE = arb(0), arb(1)
@@ -74,21 +76,12 @@ _ZERO, _ONE = arb(0), arb(1)
 def _inverse(low: Any, high: Any) -> Number:
     if not (low > 0 or high < 0):
         raise ZeroDivisionError(f"division by [{low}, {high}], which may be zero")
-    least = _ONE / high
-    return least if low is high else Span(least, _ONE / low)
+    return _ONE / high if low is high else Span(_ONE / high, _ONE / low)
 
 
 def _balls(x: Number) -> tuple[Any, Any]:
     """The balls, or integers, at the least and the greatest end of a number."""
     return (x.low, x.high) if isinstance(x, Span) else (x, x)
-
-
-def _power(x: arb, power: int) -> arb:
-    """By products, as Arb's own real power knows nothing of a ball about 0."""
-    result = _ONE
-    for _ in range(power):
-        result = result * x
-    return result
 
 
 def _least(first: arb, *others: arb) -> arb:

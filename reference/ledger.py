@@ -18,24 +18,9 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Number
-from reference.entries import (
-    Computation,
-    Entry,
-    Equation,
-    Inferred,
-    Kind,
-    Place,
-    Quantity,
-    Relation,
-    Report,
-    Slip,
-    Source,
-    Symbol,
-    place_of,
-)
 from reference.equations import EquationError, Node, Sides, read_equation
-from reference.formulas import computing
-from reference.printed import Interval, Printed, Rounding, parse
+from reference.formulas import Computation, Entry, Equation, computing
+from reference.printed import Interval, Place, Printed, Rounding, parse, place_of
 from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
@@ -43,6 +28,12 @@ INFERRED = "inferred:"
 
 Function = Callable[..., Number | Fraction]
 """Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
+
+Kind = Literal[
+    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
+    "quoted", "constant", "remark",
+]  # fmt: skip
+Relation = Literal["<", "<=", ">", ">="]
 
 
 def shown(text: str) -> str:
@@ -55,6 +46,95 @@ def shown(text: str) -> str:
     text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
     text = re.sub(r"\^\{([^{}]*)\}", r"^(\1)", text)
     return re.sub(r"~\s+", "~", raised(text))
+
+
+class Inferred(Entry, frozen=True):
+    """An input that the report does not print, to be inferred from the numbers that it does."""
+
+    title: str
+    symbol: str
+    unit: str
+    quantity: str
+    search: tuple[Fraction, Fraction]
+    nominal: Fraction
+    nominal_source: str
+    mass: str
+    radius: str
+    density: str
+    header: list[str]
+    results: list[str]
+    evidence: list[str]
+
+
+class Symbol(Entry, frozen=True):
+    """What a symbol of the equations means, how the report writes it, and how a page shows it."""
+
+    written: list[str]
+    shown: str
+    unit: str
+    means: str
+    value: str | None = None
+
+
+class Quantity(Entry, frozen=True):
+    """A physical quantity: the range of it that is searched, in its unit, and why this one."""
+
+    unit: str
+    search: tuple[Fraction, Fraction]
+    reason: str
+
+
+class Slip(Entry, frozen=True):
+    """What the author may have computed instead: another text of an equation, or other inputs."""
+
+    name: str
+    reason: str
+    equation: str
+    text: str | None = None
+    inputs: Mapping[str, str] = {}
+
+
+class Source(Entry, frozen=True):
+    """A public source for a number that the report takes from nowhere; see sources.toml."""
+
+    id: str
+    title: str
+    address: str
+    quote: str
+    unit: str
+    applies: str
+    claims: list[str]
+
+    @property
+    def numbers(self) -> list[Printed]:
+        """The number that it prints, or the two ends of a range."""
+        return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
+
+    @property
+    def says(self) -> str:
+        """The number or the range as text, without its unit."""
+        return " to ".join(number.text for number in self.numbers)
+
+    @property
+    def value(self) -> Fraction:
+        """The number in SI; of a range, its lower end."""
+        return self.numbers[0].value * to_si(self.unit)
+
+    @property
+    def interval(self) -> Interval:
+        """What agrees with it, in SI."""
+        ends = [number.interval() for number in self.numbers]
+        whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
+        return whole.scaled(to_si(self.unit))
+
+
+class Report(Entry, frozen=True):
+    """What is audited."""
+
+    text: str
+    title: str
+    author: str
+    year: int
 
 
 class Convention(msgspec.Struct, frozen=True):

@@ -7,7 +7,6 @@ x = X (1 - s^2), which removes the square root singularity at rest. SI units thr
 
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import cached_property
 from typing import NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
@@ -87,7 +86,7 @@ class Trajectory:
     """The motion by the separated equation.
 
     With y = x/R and the time in units of R/V, the acceleration is -(drag u^2 + push) (2y - y^2) for
-    the velocity u = v/V; the area factor is 1 beyond y = 1.
+    the velocity u = v/V; the area factor is 1 beyond y = 1. `final_depth` [m] is that at rest.
 
     >>> motion = Trajectory(*map(Fraction, ("500", "11e-6", "8900", "7850", "35e8")), digits=20)
     >>> print(motion.context.nstr(motion.final_depth * 10**6, 12))
@@ -111,15 +110,8 @@ class Trajectory:
         self.velocity, self.radius = self.reals.number(velocity), self.reals.number(radius)
         self.drag = self.reals.number(3 * target_density / (8 * particle_density))
         self.push = self.reals.number(3 * resistance / (4 * particle_density * velocity**2))
-
-    @cached_property
-    def _c(self) -> Number:
-        """The work of the whole impact, y^2 - y^3/3 at rest (y - 1/3 beyond the radius)."""
-        return self.context.log1p(self.drag / self.push) / (2 * self.drag)
-
-    @cached_property
-    def _final(self) -> Number:
-        return self._depth_of(self._c)
+        self._final = self._depth_of(self.context.log1p(self.drag / self.push) / (2 * self.drag))
+        self.final_depth = self.radius * self._final
 
     def _depth_of(self, c: Number) -> Number:
         """y after a given work c: y^2 - y^3/3 = c up to y = 1, and one y for one c beyond."""
@@ -127,22 +119,14 @@ class Trajectory:
         beyond = self.reals.greatest(c - limit, self.context.zero)
         return self.reals.cap_root(self.reals.least(c, limit)) + beyond
 
-    @property
-    def final_depth(self) -> Number:
-        """Depth at rest [m]."""
-        return self.radius * self._final
-
-    def _work_left(self, short: Number) -> Number:
-        """The work from y = Y - short to rest at Y, without cancellation."""
-        deep = self.reals.greatest(self._final - 1, self.context.zero)
-        if short <= deep:
-            return short
-        y, short = min(self._final, self.context.one), short - deep
-        return deep + short * (2 * y - y * y - short * (1 - y) - short * short / 3)
-
     def _velocity(self, short: Number) -> Number:
         """u = v/V where the depth is short of the final one by `short` radii."""
-        gained = self.context.expm1(2 * self.drag * self._work_left(short))
+        deep = self.reals.greatest(self._final - 1, self.context.zero)
+        work = short  # from there to rest, without cancellation
+        if short > deep:
+            y, rest = min(self._final, self.context.one), short - deep
+            work = deep + rest * (2 * y - y * y - rest * (1 - y) - rest * rest / 3)
+        gained = self.context.expm1(2 * self.drag * work)
         return self.context.sqrt(self.push / self.drag * gained)
 
     def velocity_at_depth(self, depth: Number) -> Number:
@@ -166,31 +150,23 @@ class Trajectory:
 
     def time_to_depth(self, depth: Number) -> Number:
         """Time [s] to a depth [m], which must not exceed the final one."""
-        return self._time_from(self.context.sqrt(self._left(depth)))
-
-    def stop_time(self, stop_velocity: Number = 0) -> Number:
-        """Time [s] until the velocity has fallen to the stop velocity [m/s], 0 for rest."""
-        return self.time_to_depth(self.depth_at_velocity(stop_velocity))
-
-    def _time_from(self, s: Number) -> Number:
-        """The integral of dx/v from depth 0 to X (1 - s^2)."""
-        if s >= 1:
+        start, final = self.context.sqrt(self._left(depth)), self._final
+        if start >= 1:
             return self.context.zero
-        panels = [s, *(edge for edge in self._edges if s < edge < 1), self.context.one]
-        final = self._final
+        # The integrand is cut at the radius, and often enough for its steep growth.
+        cuts = int(self.context.log1p(self.drag / self.push) / 2) + 1
+        edges = [self.context.mpf(k) / cuts for k in range(1, cuts + 1)]
+        if final > 1:
+            edges.append(self.context.sqrt(1 - 1 / final))
+        panels = [start, *sorted(edge for edge in edges if edge > start)]
         slowness = self.context.quad(
             lambda s: 2 * final * s / self._velocity(final * s * s), panels
         )
         return self.radius / self.velocity * slowness
 
-    @cached_property
-    def _edges(self) -> list[Number]:
-        """Where the integrand is cut: at the radius, and often enough for its steep growth."""
-        cuts = int(self.drag * self._c) + 1
-        edges = [self.context.mpf(k) / cuts for k in range(1, cuts)]
-        if self._final > 1:
-            edges.append(self.context.sqrt(1 - 1 / self._final))
-        return sorted(edges)
+    def stop_time(self, stop_velocity: Number = 0) -> Number:
+        """Time [s] until the velocity has fallen to the stop velocity [m/s], 0 for rest."""
+        return self.time_to_depth(self.depth_at_velocity(stop_velocity))
 
 
 _GUARD = 20

@@ -1,4 +1,4 @@
-"""Printed text to the exact interval of the values that print like that.
+"""Printed text: the exact interval of the values that print like it, and where it stands.
 
 A printed number is text: "7.67" stands for every value from 7.665 up to 7.675, "700" for one to
 three significant digits. All arithmetic is rational; no binary float is involved. How a value
@@ -9,7 +9,7 @@ import re
 from decimal import Context, Decimal, Inexact
 from enum import Enum
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from math import inf
 
 import msgspec
@@ -237,3 +237,48 @@ def parse(text: str) -> Printed:
     digits = "" if part or floating else whole.lstrip("0")
     zeros = len(digits) - len(digits.rstrip("0"))
     return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)
+
+
+class Place(msgspec.Struct, frozen=True):
+    """Where something stands: characters and line of the text, section, equation, table cell."""
+
+    start: int = 0
+    end: int = 0
+    line: int = 0
+    section: str = ""
+    equation: str | None = None
+    cell: str | None = None
+
+    def __str__(self) -> str:
+        if self.cell:
+            return f"Table A-1, cell {self.cell}"
+        where = f"{self.section}, line {self.line}"
+        return f"{where}, Eq. {self.equation}" if self.equation else where
+
+
+def place_of(text: str, quote: str, cell: str | None = None) -> Place:
+    """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
+    before, own, after = re.split("[⟦⟧]", quote)
+    words = before + own + after
+    if (times := text.count(words)) != 1:
+        raise ValueError(f"the report has {words!r} {times} times, not once")
+    start = text.index(words) + len(before)
+    section = next(name for at, name in reversed(_sections(text)) if at <= start)
+    equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
+    line = text.count("\n", 0, start) + 1
+    return Place(start, start + len(own), line, section, equation, cell)
+
+
+@cache
+def _sections(text: str) -> list[tuple[int, str]]:
+    """Where the parts of the report begin, and what they are called."""
+    headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
+    named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
+    return [(0, "title"), *named]
+
+
+@cache
+def _displays(text: str) -> list[tuple[int, int, str]]:
+    """Where the numbered equations stand, and their numbers."""
+    numbered = r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)"
+    return [(*match.span(), match[1]) for match in re.finditer(numbered, text, re.DOTALL)]

@@ -167,35 +167,3 @@ def written(unit: str) -> str:
     text = {"percent": "%", "gram_force": "gf"}.get(unit, unit)
     text = re.sub(r"\bu(?=[a-z])", "µ", text)
     return raised(text)
-
-
-_QUANTITY = re.compile(
-    r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*"
-    r"(?P<unit>(?![\s.]|[eE]?[-+]?\d).*)"
-)
-_DIGITS = 400
-
-
-def quantity(text: str, unit: str) -> Fraction:
-    """A number with or without a unit, as SI; without, it is taken to be SI already.
-
-    `unit` is the unit whose dimension is expected. Raises UnitError or ValueError.
-
-    >>> quantity("11 um", "m"), quantity("1.1e-5", "m")
-    (Fraction(11, 1000000), Fraction(11, 1000000))
-    """
-    match = _QUANTITY.fullmatch(text.strip()) if len(text) < _DIGITS else None
-    if match is None:
-        shown = text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
-        raise ValueError(
-            f"{shown!r} is no finite number with or without a unit, such as '1 {unit}'"
-        )
-    value, own = Fraction(match["number"]), match["unit"]
-    if not own:
-        return value
-    if own[0] == ",":
-        raise ValueError(f"{text!r}: write the decimal comma as a point")
-    if not same_dimension(own, unit):
-        problem = f"{own} does not measure what {unit} does" if unit != "1" else "give no unit"
-        raise UnitError(f"{text!r}: {problem}")
-    return value * to_si(own)

@@ -5,10 +5,11 @@ import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from reference.units import quantity
+from reference.units import same_dimension, to_si
 
 _SIZE = 2**20
 _QUOTED = 60
@@ -128,16 +129,35 @@ def check_keys(
             raise ValueError(f"{quoted(key)} is missing")
 
 
+_NUMBER = re.compile(
+    r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*"
+    r"(?P<unit>(?![\s.]|[eE]?[-+]?\d).*)"
+)
+_DIGITS = 400
+
+
 def read_number(text: str, unit: str) -> float:
     """A number with or without a unit, as SI; `unit` tells what it must measure.
 
-    Raises ValueError for what is no number, is not finite, or has another unit.
+    Without a unit it is taken to be SI already. Raises ValueError for what is no number, is not
+    finite, or has another unit.
 
-    >>> read_number("0.5 ns", "s")
-    5e-10
+    >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
+    (5e-10, 1.1e-05)
     """
+    match = _NUMBER.fullmatch(text.strip()) if len(text) < _DIGITS else None
+    if match is None:
+        raise ValueError(
+            f"{quoted(text, 40)} is no finite number with or without a unit, such as '1 {unit}'"
+        )
+    own = match["unit"]
+    if own[:1] == ",":
+        raise ValueError(f"{text!r}: write the decimal comma as a point")
+    if own and not same_dimension(own, unit):
+        problem = f"{own} does not measure what {unit} does" if unit != "1" else "give no unit"
+        raise ValueError(f"{text!r}: {problem}")
     try:
-        return float(quantity(text, unit))
+        return float(Fraction(match["number"]) * to_si(own or "1"))
     except OverflowError as error:
         raise ValueError(f"{quoted(text)} is no finite number that a double can hold") from error
 

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from reference.entries import Report
+from reference.ledger import Report
 
 SCHEMA = "coldspray-audit-2"
 """Name and version of the record's keys."""

@@ -11,11 +11,10 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from reference.arithmetic import InexactError, Rationals, Ratios, Reals, Residues
+from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, Ends, enclose, explore
-from reference.entries import Equation
 from reference.equations import EquationError, dimension
-from reference.formulas import Check, derive
+from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Rounding
 from reference.units import DimensionError
@@ -345,15 +344,11 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
 
 
 def follows(ledger: Ledger, name: str) -> bool:
-    """Whether an equation passes every check.
-
-    What fails in remainders, a small part of the work, fails; the rest is proven.
-    """
-    each = (check for field in (Residues, Ratios) for check in _checks(ledger, name, field))
-    return all(check.holds for check in each)
+    """Whether an equation passes every check."""
+    return all(check.holds for check in _checks(ledger, name))
 
 
-def _checks(ledger: Ledger, name: str, field: type[Ratios | Residues] = Ratios) -> Iterator[Check]:
+def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
     """Its derivation first: seldom is nothing but the dimensions wrong."""
     try:
         ledger.read(ledger.printed_text(name))
@@ -361,8 +356,7 @@ def _checks(ledger: Ledger, name: str, field: type[Ratios | Residues] = Ratios) 
         yield Check(str(error), holds=False)
         return
     try:
-        symbols = field([symbol for symbol in ledger.symbols if symbol != "pi"])
-        yield from derive(ledger.equations[name], ledger.sides, ledger.written, symbols)
+        yield from derive(ledger.equations[name], ledger.sides, ledger.written)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     exponents = {
@@ -372,7 +366,8 @@ def _checks(ledger: Ledger, name: str, field: type[Ratios | Residues] = Ratios) 
     }
     says = "both sides have the same dimensions"
     try:
-        own = [dimension(side, ledger.dimensions, exponents) for side in ledger.sides[name]]
+        known = {**ledger.dimensions, **exponents}
+        own = [dimension(side, known) for side in ledger.sides[name]]
         yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
         yield Check(f"{says}: {error}", holds=False)

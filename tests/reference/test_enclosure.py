@@ -121,7 +121,8 @@ def test_exploring_finds_a_point_or_proves_that_there_is_none(
     deep = [x for x in values if target.encloses(x - F(1, 10**4), x + F(1, 10**4))]
     far = all(target.excludes(x - F(1, 10), x + F(1, 10)) for x in values)
     assert result.inside is not None or not deep
-    assert result.never or not far
+    # A narrow target may lie between two samples: then a point of it has been found.
+    assert result.never or result.inside is not None or not far
 
 
 @settings(max_examples=150)

@@ -12,9 +12,9 @@ import pytest
 from msgspec.structs import replace
 
 from reference.arithmetic import Reals
-from reference.entries import Condition, Kind, place_of
-from reference.ledger import Claim, Convention, load, shown
-from reference.printed import Rounding
+from reference.formulas import Condition
+from reference.ledger import Claim, Convention, Kind, load, shown
+from reference.printed import Rounding, place_of
 from reference.units import same_dimension
 
 LEDGER = load()

@@ -46,7 +46,7 @@ def history(times: list[float], *case: float) -> tuple[list[float], list[float]]
 
 def roundings(truth: Trajectory) -> float:
     """64 ulp, and those of the exponent k W of v^2, each of which is relative to all of it."""
-    return (64 + 16 * float(2 * truth.drag * truth._c)) * ULP
+    return (64 + 16 * float(truth.context.log1p(truth.drag / truth.push))) * ULP
 
 
 @given(case=CASES, share=st.floats(1e-6, 0.999))
