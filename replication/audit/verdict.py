@@ -17,7 +17,7 @@ from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Rounding
-from reference.units import DimensionError
+from reference.units import Dimension, DimensionError
 from replication.audit.inference import Inference
 from replication.audit.record import ConstantRecord
 from replication.audit.replica import replica
@@ -359,14 +359,14 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
         yield from derive(ledger.equations[name], ledger.sides, ledger.written)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
-    exponents = {
+    known: dict[str, Dimension | Fraction] = {
         key: ledger.value(symbol.value)
         for key, symbol in ledger.symbols.items()
         if symbol.value is not None
     }
+    known = {**ledger.dimensions, **known}
     says = "both sides have the same dimensions"
     try:
-        known = {**ledger.dimensions, **exponents}
         own = [dimension(side, known) for side in ledger.sides[name]]
         yield Check(says, all(unit == own[0] for unit in own))
     except (DimensionError, EquationError) as error:
