@@ -263,17 +263,18 @@ def order(f: Examination) -> None:
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas
                 and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
-        others = [
-            [k for k in rows if column[k] not in (_ordered(f, role, k, case) or {column[k]})]
-            for case in cases
-        ]
-        if differ := min(others, key=len):
-            value = column[differ[0]]
-            wanted = min(_ordered(f, role, differ[0], f.case), key=lambda v: abs(v - value))
+        by_mass = []
+        for case in cases:
+            ways = {k: _ordered(f, role, k, case) for k in rows}
+            by_mass.append({k: way for k, way in ways.items() if way and column[k] not in way})
+        if differ := min(by_mass, key=len):
+            k, ways_there = next(iter(differ.items()))
+            value = column[k]
+            wanted = min(ways_there, key=lambda way: abs(way - value))
             ulps = round(abs(wanted - value) / math.ulp(wanted))
             text = f"the last digits of {len(differ)} of {len(rows)} cells of {title(role)}, here "
             text += f"{ulps} ulp, are those of another order, on which no printed digit depends"
-            cells = [f.table.place(role, k) for k in differ]
+            cells = [f.table.place(role, row) for row in differ]
             f.add("operation order", cells, f.shown(role, wanted), text)
 
 

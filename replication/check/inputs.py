@@ -372,14 +372,14 @@ def _speed(table: Table) -> str:
 
 
 def _usual(table: Table, role: str, over: str | None = None, later: int = 0) -> float:
-    """By how much a column changes from row to row, in units of another's number; 0 if never."""
+    """By how much a column changes from row to row, in units of another's number; 0 if seldom."""
     line, base = table.lines.get(role), table.lines.get(over or role)
     if line is None or base is None:
         return 0.0
     rows = range(table.zero + 2, table.zero + table.steps + 1)
     pairs = ((line.change(at + later), base.at(at) if over else 1.0) for at in rows)
     ratios = [abs(a / b) for a, b in pairs if a and b and math.isfinite(a / b)]
-    return median(ratios) if ratios else 0.0
+    return median(ratios) if ratios and len(ratios) >= 0.3 * len(rows) else 0.0
 
 
 def _round(ratio: float) -> int:

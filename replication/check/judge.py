@@ -48,11 +48,11 @@ def judge(f: Examination) -> None:
     """Find every difference between a table and the report's sheet, but for printed numbers."""
     _units(f)
     if f.table.digits is None:
+        drifting(f)
         _calibrate(f)
         _derived(f)
     _other_inputs(f)
     if f.table.digits is None:
-        drifting(f)
         _scheme(f)
         each_cell(f)
         _typed_inputs(f)
@@ -87,8 +87,8 @@ def _changed(role: str, value: float, by: float) -> Change:
 
 def _calibrate(f: Examination) -> None:
     """An input that the rows take in another unit than its label says."""
-    if f.agreement(BRAKES) >= 0.5:
-        return
+    if f.accused or f.agreement(BRAKES) >= 0.5:
+        return  # if their references drift, they do not tell
     powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
     for (role, own), power in product(f.inputs.items(), powers):
         if own.place is None or role in ("beta", "stop_velocity", "mass"):
@@ -162,14 +162,24 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
     factor = cell.factor if power is None else Fraction(10) ** power
     in_si = scaled(number, factor)
     exact = math.isclose(in_si, wanted, rel_tol=NEAR)
-    # Whoever converts ksi types its factor with some ten digits.
-    typed = any(power_of_ten(float(source.factor)) is None for source in sources)
-    right = exact or (typed and math.isclose(in_si, wanted, rel_tol=1e-8))
+    # What the formula has for pi, or for the factor of a unit such as ksi.
+    constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
+    typed = [
+        (name, constant, number)
+        for name, constant in constants.items()
+        for number in _as_typed(f, place, constant)
+        if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR)
+    ]
+    # Tables print such factors with seven digits.
+    right = exact or any(n != "pi" and math.isclose(c, t, rel_tol=1e-7) for n, c, t in typed)
     rests, kind = titles(source.role for source in sources), ""
     if place in f.calculation.formulas:
         if power := power_of_ten(in_si / wanted):
             kind = "unit"
             text = f"is {times_too(power)} for {rests}: a unit is not converted"
+        elif typed and not right:
+            name, constant, number = typed[0]
+            kind, text = "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
         elif not right:
             kind, text = "odd formula", f"does not follow from {rests}"
             if not in_si:
@@ -184,6 +194,24 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
     if not exact or (role == "mass" and factor == 1):
         f.rows = replace(f.rows, case=f.case.holding(role, in_si))
         f.intended = f.intended.holding(role, wanted if kind and not exact else in_si)
+
+
+def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[float]:
+    """Numbers of a cell's formula that are a constant rounded to three digits or more.
+
+    A power of ten that converts another unit may be in them.
+    """
+    formula = f.calculation.formulas.get(place)
+    cells = [area.corner for area in f.calculation.areas(place) if area.cells == 1]
+    numbers = [*(formula.literals if formula else ()), *map(f.calculation.number, cells)]
+    for number in numbers if power_of_ten(constant) is None else ():
+        if number is None or number <= 0:
+            continue
+        power = round(math.log10(number / constant))
+        value = scaled(number, Fraction(10) ** -power)
+        digits = len(repr(value).partition("e")[0].replace(".", "").strip("0"))
+        if digits >= 3 and value == float(f"{constant:.{digits - 1}e}"):
+            yield value
 
 
 def _other_inputs(f: Examination) -> None:
@@ -232,17 +260,23 @@ def _typed_inputs(f: Examination) -> None:
             f.add("typed constant", [own.place], None, text, change=change)
             f.intended = f.intended.with_input(own.role, own.si, own.si / used.si)
     accused = f.accused
-    for own, role in product((*f.unread, *f.inputs.values()), f.table.lines):
+    columns = {title(role): (role, f.cells(role, 0)) for role in f.table.lines}
+    columns |= {
+        f"the column of {address(line.place(line.first))}": (
+            "", [line.place(at) for at in range(line.first, line.last + 1)]
+        )
+        for line in f.table.helpers
+    }  # fmt: skip
+    for own, (column, (role, places)) in product((*f.unread, *f.inputs.values()), columns.items()):
         if own.place is None:
             continue
-        places = f.cells(role, 0)
         cells = [place for k, place in enumerate(places)
                  if place not in accused and _typed_in(f, own, role, k, place)]  # fmt: skip
         # A number in a few formulas of many is one of their own, such as the row's.
         if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
             formula = f.calculation.book[cells[0]].formula
             where = address(own.place, with_sheet=own.place[0] != cells[0][0])
-            text = f"{title(own.role)} is typed into {title(role)}: a change of {where} is lost"
+            text = f"{title(own.role)} is typed into {column}: a change of {where} is lost"
             f.add("typed constant", cells, where, text, formula)
 
 
@@ -261,8 +295,8 @@ def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) ->
     if formula is None:
         # The impact velocity typed into the first row, while its own cell is read by nothing.
         first = own.role == "velocity" and role.startswith("velocity") and k <= 1
-        number = f.rows.columns[role].get(k)
-        return first and own in f.unread and number is not None and near(number, own.si)
+        number = f.rows.columns[role].get(k) if first else None
+        return own in f.unread and number is not None and near(number, own.si)
     if not formula.literals or value is None or own.role == "beta":
         return False
     if own.role == "stop_velocity":
@@ -325,6 +359,8 @@ def _scheme(f: Examination) -> None:
     f.rows = replace(f.rows, rules=replace(REPORT, **chosen))
     for part in unknown:
         first = PARTS[part][1]
+        judged = range(first, f.table.steps + 1)
+        first = next((k for k in judged if not f.follows(part, getattr(REPORT, part), k)), first)
         role, at = f.rows.shows(part, first)
         wanted = f.rows.wanted(role, at) if role == PARTS[part][0] else None
         kind, text, line = _cause(f, part, role)

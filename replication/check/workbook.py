@@ -261,7 +261,7 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
         if place in calculation.uncomputed or stored is None or stored == value:
             return False
         if not (isinstance(stored, float) and isinstance(value, float)):
-            return True
+            return not (calculation.book[place].error and calculation.error(place))
         off = abs(stored - value)
         return (
             off > calculation.book.resolution
