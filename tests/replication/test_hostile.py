@@ -92,6 +92,7 @@ FILES = {
     "control.toml": '[impact]\n"\\u001b[31m" = 1',
     "key.toml": f'[impact]\n{5000 * "k"} = 1',
     "empty.toml": "",
+    "plan.csv": "[inputs]",
     "zero.toml": "\0",
     "surrogate.toml": '[impact]\nradius = "\\ud800"',
     "sweep-whole.toml": "[inputs]\nradius = {from=1e-6, to=2e-6, points=0x" + 5000 * "f" + "}",

@@ -1,0 +1,36 @@
+"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
+
+They stand beside the tests in sections, headed `# What`. `⟨5000 x⟩` is an x five thousand times.
+Whoever changes an answer of the program changes it there.
+"""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+
+def kept(text: str, section: str) -> pytest.MarkDecorator:
+    """Give a test each question of a section, such as of `reference/kept.txt`, and its answer."""
+    content = (Path(__file__).parent / text).read_text("utf-8")
+    _, _, after = content.partition(f"\n# {section}\n")
+    lines = after.partition("\n# ")[0].splitlines()
+    pairs = [line.split(" -> ") for line in lines if " -> " in line]
+    assert pairs, f"{text} has no section {section!r}"
+    cases = [pytest.param(spelled(ask.strip()), said, id=ask[:40]) for ask, said in pairs]
+    return pytest.mark.parametrize(("question", "answer"), cases)
+
+
+def spelled(text: str) -> str:
+    """A text with what stands in it many times, and no quotes around what begins with a blank."""
+    text = re.sub(r"⟨(\d+) (.*?)⟩", lambda many: int(many[1]) * many[2], text)
+    return text[1:-1] if re.fullmatch('".*"', text) else text
+
+
+def said(answer: Callable[[], object]) -> str:
+    """An answer as text; or the one line that refuses to give it."""
+    try:
+        return str(answer())
+    except ValueError as error:
+        return f"refused: {error}"
