@@ -32,5 +32,5 @@ def said(answer: Callable[[], object]) -> str:
     """An answer as text; or the one line that refuses to give it."""
     try:
         return str(answer())
-    except ValueError as error:
+    except (ValueError, TypeError) as error:
         return f"refused: {error}"

@@ -1,7 +1,6 @@
 """The sheet: rows, arrays and frame, what stops it, what to doubt; many at once the same."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
@@ -67,33 +66,6 @@ def test_the_fewest_steps_are_no_more_than_are_taken(
     target = (impact.target_density, impact.target_resistance)
     fewest = _fewest_steps(impact.velocity, impact.stop_velocity, *inputs, *target)
     assert fewest <= run(impact, scheme).steps
-
-
-@pytest.mark.parametrize(
-    "impact",
-    [
-        replace(BETA_5, step=1e-15, radius=1e-3),  # by the bound
-        replace(BETA_5, beta=None, flow_stress=None, resistance=1.0, stop_velocity=0.01),  # counted
-    ],
-    ids=["bound", "counted"],
-)
-def test_too_many_rows_are_refused(impact: Impact) -> None:
-    message = f"takes more than 1,000,000 steps of {impact.step} s down to .*: take a larger step"
-    with pytest.raises(ValueError, match=f"^the sheet {message}"):
-        run(impact)
-    inputs = impact.motion | {"step": [1e-7, impact.step], "stop_velocity": impact.stop_velocity}
-    with pytest.raises(ValueError, match=rf"^the sheet\[1\] {message}"):
-        run_many(**inputs)
-
-
-def test_a_scheme_that_is_none_is_refused() -> None:
-    calls: list[Callable[[], object]] = [
-        lambda: run(BETA_5, "upwind"),
-        lambda: run_many(**BETA_5.motion, scheme="upwind"),
-    ]
-    for call in calls:
-        with pytest.raises(ValueError, match="no scheme 'upwind': choose one of published, cente"):
-            call()
 
 
 def test_a_frame_holds_the_rows() -> None:
