@@ -1,6 +1,7 @@
-"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
+r"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
 
-They stand beside the tests in sections, headed `# What`. `⟨5000 x⟩` is an x five thousand times.
+They stand beside the tests in sections, headed `# What`. `⟨5000 x⟩` is an x five thousand times,
+and `⟨\x1b⟩` a character that no text shows.
 Whoever changes an answer of the program changes it there.
 """
 
@@ -24,7 +25,7 @@ def kept(text: str, section: str) -> pytest.MarkDecorator:
 
 def spelled(text: str) -> str:
     """A text with what stands in it many times, and no quotes around what begins with a blank."""
-    text = re.sub(r"⟨(\d+) (.*?)⟩", lambda many: int(many[1]) * many[2], text)
+    text = re.sub(r"⟨(?:(\d+) )?(.*?)⟩", lambda many: int(many[1] or 1) * unescaped(many[2]), text)
     return text[1:-1] if re.fullmatch('".*"', text) else text
 
 
@@ -34,3 +35,7 @@ def said(answer: Callable[[], object]) -> str:
         return str(answer())
     except (ValueError, TypeError) as error:
         return f"refused: {error}"
+
+
+def unescaped(text: str) -> str:
+    return text.encode("ascii", "backslashreplace").decode("unicode_escape")
