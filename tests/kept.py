@@ -12,14 +12,18 @@ from pathlib import Path
 import pytest
 
 
-def kept(text: str, section: str) -> pytest.MarkDecorator:
-    """Give a test each question of a section, such as of `reference/kept.txt`, and its answer."""
+def pairs(text: str, section: str) -> list[tuple[str, str]]:
+    """The questions of a section, such as of `reference/kept.txt`, each with its answer."""
     content = (Path(__file__).parent / text).read_text("utf-8")
-    _, _, after = content.partition(f"\n# {section}\n")
-    lines = after.partition("\n# ")[0].splitlines()
-    pairs = [line.split(" -> ") for line in lines if " -> " in line]
-    assert pairs, f"{text} has no section {section!r}"
-    cases = [pytest.param(spelled(ask.strip()), said, id=ask[:40]) for ask, said in pairs]
+    lines = content.partition(f"\n# {section}\n")[2].partition("\n# ")[0].splitlines()
+    asked = [line.partition(" -> ") for line in lines if " -> " in line]
+    assert asked, f"{text} has no section {section!r}"
+    return [(spelled(question.strip()), answer) for question, _, answer in asked]
+
+
+def kept(text: str, section: str) -> pytest.MarkDecorator:
+    """Give a test each question of a section, and its answer."""
+    cases = [pytest.param(*pair, id=pair[0][:40]) for pair in pairs(text, section)]
     return pytest.mark.parametrize(("question", "answer"), cases)
 
 
