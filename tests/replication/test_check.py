@@ -198,28 +198,6 @@ def test_the_page_draws_the_sheet_and_runs_nothing(
     assert links <= set(re.findall(r'id="([^"]+)"', text))
 
 
-def test_files_are_written_whole_or_not_at_all(
-    coldspray: Run, spoiled: Path, tmp_path: Path
-) -> None:
-    before = spoiled.read_bytes()
-    link = tmp_path / "link.xml"
-    link.symlink_to(spoiled)
-    for arguments in (
-        ["--html", tmp_path / "no" / "page.html", "--junit", tmp_path / "a.xml"],
-        ["--html", tmp_path / "same", "--junit", tmp_path / "same"],
-        ["--html", tmp_path, "--junit", tmp_path / "a.xml"],
-        ["--html", spoiled],
-        ["--junit", link],
-    ):
-        status, out, err = coldspray("check", spoiled, *arguments)
-        assert (status, out, err.count("\n")) == (2, "", 1)
-    link.unlink()
-    assert spoiled.read_bytes() == before
-    (tmp_path / "junk.xlsx").write_bytes(b"junk")
-    assert coldspray("check", tmp_path / "junk.xlsx", "--html", tmp_path / "b.html")[0] == 2
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["french.xlsx", "junk.xlsx"]
-
-
 CONTENTS = st.one_of(
     st.none(),
     st.sampled_from([0, -1, 1e308, 5e-324, 1e15, True]),

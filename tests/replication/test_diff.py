@@ -50,7 +50,6 @@ def test_text_page_and_junit_are_those_of_check(coldspray: Run, tmp_path: Path) 
     a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
     f.put("Données", "C8", 450)
     b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
-    assert coldspray("diff", a, b, "--html", b)[0] == 2
     page, junit = tmp_path / "d.html", tmp_path / "d.xml"
     status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
     assert status == 1

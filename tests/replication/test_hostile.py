@@ -111,6 +111,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (own / "loop.xlsx").symlink_to("loop.xlsx")
     (own / "loop.toml").symlink_to("loop.toml")
     (own / "loop").symlink_to("loop")
+    (own / "link.xml").symlink_to("own.xlsx")
     os.mkfifo(own / "pipe.csv")
     with chdir(own):
         assert coldspray("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
