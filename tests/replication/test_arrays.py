@@ -147,13 +147,6 @@ def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
     assert [row.tolist() for row in rows[0]] == [short[0].tolist()] * 2
 
 
-def test_nothing_in_nothing_out() -> None:
-    assert arrays.final_depth([], *CASE[1:]).shape == (0,)
-    assert arrays.stop_time(np.zeros((0, 3)), *CASE[1:]).shape == (0, 3)
-    assert history([], *CASE)[0].shape == history(np.zeros((0, 1)), [1.0], *CASE[1:])[0].shape[:1]
-    assert run_many([], *CASE[1:])[1].shape == (0,)
-
-
 # What is refused
 
 
@@ -176,7 +169,7 @@ NAMES |= {"np": np, "pd": pd, "pint": pint, "xarray": xarray, "dask": dask, "rep
 
 
 @kept("replication/kept.txt", "Calls from Python")
-def test_what_is_refused_and_why(question: str, answer: str) -> None:
+def test_what_calls_give_or_why_they_are_refused(question: str, answer: str) -> None:
     assert said(lambda: eval(question, NAMES, {"case": CASE, "rest": CASE[1:]})) == answer
 
 

@@ -2,19 +2,18 @@
 
 import copy
 import json
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-import html5lib
 import pytest
 from foreign import writers
 from foreign.drawn import drawn
 from foreign.layouts import DEPTH, Foreign, made
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
+from pages import HTML, sound
 from workbooks import usable
 
 from replication.cases import BETA_5
@@ -186,16 +185,10 @@ def test_the_page_draws_the_sheet_and_runs_nothing(
     coldspray("check", evil, "--html", page, "--junit", junit, "--quiet")
     assert [case.get("name") for case in ET.parse(junit).getroot()] == list(KINDS)
     text = page.read_text("utf-8")
-    assert "default-src 'none'; style-src 'sha256-" in text
-    assert "<script" not in text
     assert "\u202e" not in text
-    assert "style=" not in text
-    tree = html5lib.HTMLParser(strict=True).parse(text)
-    cells = tree.iter("{http://www.w3.org/1999/xhtml}td")
+    cells = sound(text).iter(f"{HTML}td")
     classes = [td.get("class", "") for td in cells if td.get("id")]
     assert any("origin" in names and "typed-constant" not in names for names in classes)
-    links = set(re.findall(r'href="#([^"]+)"', text))
-    assert links <= set(re.findall(r'id="([^"]+)"', text))
 
 
 CONTENTS = st.one_of(
