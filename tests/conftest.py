@@ -1,10 +1,7 @@
 """What all tests share."""
 
-from collections.abc import Callable
-
 import pytest
 from hypothesis import settings
-from running import coldspray
 
 from replication.audit.audit import audit
 from replication.audit.record import Record
@@ -20,8 +17,3 @@ settings.load_profile("unhurried")
 def record() -> Record:
     """The audit of the report."""
     return audit()
-
-
-@pytest.fixture(name="coldspray")
-def command() -> Callable[..., tuple[int, str, str]]:
-    return coldspray

@@ -3,6 +3,7 @@
 import random
 import re
 from dataclasses import asdict
+from pathlib import Path
 
 from foreign.layouts import (
     BRAKE,
@@ -20,48 +21,18 @@ from openpyxl.utils.cell import absolute_coordinate
 
 from replication.models.impact import Impact
 
-HEADS = {
-    TIME: ["t", "Time", "time (UNIT)", "Zeit [UNIT]", "temps (UNIT)", "t [UNIT]", "t/UNIT", "Zeit"],
-    START: [
-        "v_i", "dx/dt initial", "initial velocity (UNIT)", "Anfangsgeschwindigkeit [UNIT]",
-        "vitesse initiale (UNIT)", "v alt", "speed at start, UNIT", "v_start [UNIT]",
-    ],
-    DEPTH: [
-        "x", "depth (UNIT)", "Eindringtiefe [UNIT]", "profondeur de pénétration (UNIT)",
-        "penetration", "x in UNIT", "Tiefe", "enfoncement [UNIT]",
-    ],
-    BRAKE: [
-        "a", "d²x/dt²", "deceleration (UNIT)", "Verzögerung [UNIT]", "décélération (UNIT)",
-        "Bremsung", "acceleration", "a [UNIT]",
-    ],
-    END: [
-        "v_f", "dx/dt final", "final velocity (UNIT)", "Endgeschwindigkeit [UNIT]",
-        "vitesse finale (UNIT)", "v neu", "speed at end, UNIT", "v_end [UNIT]",
-    ],
-}  # fmt: skip
 HELPERS = {"area": "A(x)", "energy": "E_kin", "n": "n"}
-UNITS = {
-    TIME: [("s", ""), ("ns", "1000000000"), ("µs", "1000000")],
-    DEPTH: [("m", ""), ("µm", "1000000"), ("mm", "1000"), ("nm", "1000000000")],
-    BRAKE: [("m/s²", ""), ("m/s^2", ""), ("km/s2", "0.001")],
+DRAWN_FROM = {
+    block.partition("\n")[0]: {
+        line.split(" | ")[0]: line.split(" | ")[1:] for line in block.splitlines()[1:] if line
+    }
+    for block in Path(__file__).with_name("drawn.txt").read_text("utf-8").split("\n## ")[1:]
 }
-LABELS = {
-    "radius": ["R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"],
-    "particle_density": [
-        "density of particle", "rho_p", "Dichte Kupfer", "masse volumique Cu", "ρp"],
-    "target_density": ["density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"],
-    "velocity": ["V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"],
-    "resistance": ["R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"],
-    "step": ["dt", "time step", "Zeitschritt", "pas de temps", "Δt"],
-}  # fmt: skip
-INPUT_UNITS = {
-    "radius": [("m", ""), ("µm", "*0.000001"), ("mm", "/1000")],
-    "particle_density": [("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")],
-    "target_density": [("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")],
-    "velocity": [("m/s", ""), ("km/s", "*1000")],
-    "resistance": [("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")],
-    "step": [("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")],
-}
+HEADS, LABELS = DRAWN_FROM["HEADS"], DRAWN_FROM["LABELS"]
+UNITS, INPUT_UNITS = (
+    {role: [text.partition(" ")[::2] for text in own] for role, own in DRAWN_FROM[table].items()}
+    for table in ("UNITS", "INPUT_UNITS")
+)
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:

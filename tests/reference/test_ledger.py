@@ -9,7 +9,7 @@ from typing import Any, get_args
 
 import msgspec
 import pytest
-from msgspec.structs import replace
+from kept import kept
 
 from reference.arithmetic import Reals
 from reference.formulas import Condition
@@ -106,36 +106,21 @@ def test_the_table_cell_by_cell() -> None:
     assert len(LEDGER.blank) == 24 + 6 + 1
 
 
-USUAL, ROUNDED = Convention(), Convention(choices_exact=False)
-
-
-@pytest.mark.parametrize(
-    ("name", "convention", "expected"),
-    [
-        ("flow-stress", USUAL, "7E+8"),
-        ("flow-stress", ROUNDED, "[6.995E+8, 7.005E+8)"),
-        ("flow-stress", replace(ROUNDED, rounding=Rounding.CUT), "[7E+8, 7.01E+8)"),
-        ("a-step", USUAL, "2E-10"),
-        ("a-step", ROUNDED, "[1.5E-10, 2.5E-10)"),
-        ("time-step", USUAL, "2E-10"),  # repeats a choice
-        ("strain-rate-length", USUAL, "[0.000015, 0.000025)"),
-        ("volume-ratio", USUAL, "[0.055, 0.065)"),
-        ("a1-radius", USUAL, "[0.00001095, 0.00001105)"),
-        ("a1-radius", replace(USUAL, rounding=Rounding.EVEN), "[0.00001095, 0.00001105]"),
-        ("a1-radius", replace(USUAL, header_exact=True), "0.000011"),
-        ("a1-initial-velocity", USUAL, "500"),  # a choice and in the header
-        ("a1-initial-velocity", ROUNDED, "[499.5, 500.5)"),
-        ("a1-initial-velocity", replace(ROUNDED, header_exact=True), "500"),
-        ("observed-third", ROUNDED, "1/3"),
-        ("eq5-power-target", ROUNDED, "2"),
-        ("sphere-length-ratio", ROUNDED, "2/3"),
-        ("copper-yield-bound", ROUNDED, "1E+8"),
-    ],
+CONVENTIONS = (
+    Convention(),
+    Convention(rounding=Rounding.EVEN),
+    Convention(header_exact=True),
+    Convention(choices_exact=False),
+    Convention(choices_exact=False, header_exact=True),
+    Convention(choices_exact=False, rounding=Rounding.CUT),
 )
-def test_what_a_number_stands_for_as_an_input(
-    name: str, convention: Convention, expected: str
-) -> None:
-    assert str(LEDGER.claims[name].as_input(convention)) == expected
+
+
+@kept("reference/kept.txt", "Inputs: what they stand for; with ties to even; with the header exact;"
+      " with choices rounded; these with the header exact, or cut off")  # fmt: skip
+def test_what_a_number_stands_for_as_an_input(question: str, answer: str) -> None:
+    claim = LEDGER.claims[question]
+    assert "; ".join(str(claim.as_input(convention)) for convention in CONVENTIONS) == answer
 
 
 def test_values_in_units_ranges_to_search_and_texts_to_show() -> None:

@@ -6,58 +6,24 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kept import kept, said
 
 from reference.printed import Interval, Rounding, decimal_text, parse
 
 TENS = F(10)
 
 
-@pytest.mark.parametrize(
-    ("text", "value", "quanta"),
-    [
-        ("7.67", F(767, 100), [F(1, 100)]),
-        ("10.0", 10, [F(1, 10)]),
-        ("8·9", F(89, 10), [F(1, 10)]),
-        ("3.11E+08", 311 * TENS**6, [TENS**6]),
-        ("6E-10", 6 * TENS**-10, [TENS**-10]),
-        ("1e3", 1000, [1000]),
-        ("9.13 × 10^9", 913 * TENS**7, [TENS**7]),
-        (r"9.13 \times 10^{-9}", 913 * TENS**-11, [TENS**-11]),
-        ("700", 700, [1, 10, 100]),
-        ("-700", -700, [1, 10, 100]),
-        ("403", 403, [1]),
-        ("5,575", 5575, [1]),
-        ("0", 0, [1]),
-        ("~ 0.3", F(3, 10), [F(1, 10)]),
-        ("10^7", TENS**7, [0]),
-        ("10^{-3}", TENS**-3, [0]),
-        (r"\frac{1}{2}", F(1, 2), [0]),
-        ("7/3", F(7, 3), [0]),
-        ("Four", 4, [0]),
-        ("several times", 2, [0]),
-        ("third", F(1, 3), [0]),
-        ("one-sixth", F(1, 6), [0]),
-    ],
-)
+@kept("reference/kept.txt", "Printed numbers: value, place of the last digit, what is about it")
 def test_text_is_a_value_and_the_places_that_its_last_digit_may_have(
-    text: str, value: F, quanta: list[F]
+    question: str, answer: str
 ) -> None:
-    printed = parse(text)
-    assert (printed.text, printed.value, list(printed.quanta)) == (text, value, quanta)
+    def shown() -> str:
+        printed = parse(question)
+        assert printed.text == question
+        places = " or ".join(map(decimal_text, printed.quanta)) if any(printed.quanta) else "exact"
+        return f"{decimal_text(printed.value)}, {places}, {printed.about()}"
 
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        *("", "~", "~~3", "abc", "1.2.3", "nan", "inf", "1e", "1E5.5", "1E99999", "7/0", "1/2/3"),
-        *("1,00", ",575", "700.", ".5", "--3", "1 2", "10^", "10^{7", "10^7}", "3 × 10", "six"),
-        *("9 × 10^{9", "1}{2", r"\frac{1}{2", "a third", "3 μm", "0x10", "1_000"),
-    ],
-)
-def test_other_text_is_refused_by_name(text: str) -> None:
-    with pytest.raises(ValueError, match="as a printed number") as caught:
-        parse(text)
-    assert repr(text) in str(caught.value)
+    assert said(shown) == answer
 
 
 # A value prints as the text if and only if it lies in the text's interval. The rounding is written
@@ -123,18 +89,6 @@ def test_a_value_prints_as_the_text_if_and_only_if_it_lies_in_its_interval(
     assert printed.interval(rounding, quantum).contains(value) == (own == printed.value)
     for strict, loose in pairwise(printed.interval(quantum=q) for q in printed.quanta):
         assert loose.encloses(*strict.ends) or loose.ends[1] == strict.ends[1]
-
-
-ABOUT = {
-    "700": "[650, 750)", "403": "[402.5, 403.5)", "~0.3": "[0.25, 0.35)", "0": "(-0.5, 0.5)",
-    "one": "[0.5, 1.5)", "twice": "[1.5, 2.5)", "7/3": "[11/6, 17/6)", "third": "[7/24, 5/12]",
-    "one-sixth": "[13/84, 11/60]", "1/2": "[5/12, 0.75]",
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("text", "expected"), ABOUT.items())
-def test_about_takes_the_fewest_digits(text: str, expected: str) -> None:
-    assert str(parse(text).about()) == expected
 
 
 # Intervals

@@ -1,5 +1,6 @@
 """What would explain a failing number: back-solved inputs, misprints, slips, a common culprit."""
 
+import re
 from fractions import Fraction as F
 from functools import cache
 from itertools import takewhile
@@ -7,6 +8,7 @@ from itertools import takewhile
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kept import kept
 
 from reference.enclosure import Solutions
 from reference.equations import EquationError
@@ -114,16 +116,9 @@ def test_every_edit_of_a_number_is_one_slip_away_and_stands_once(text: str) -> N
             assert kind in NUMBER_EDITS
 
 
-def test_edits_of_words_and_of_the_reports_powers() -> None:
-    result = dict(edits(r"9.13 \times 10^9"))
-    assert result[r"9.13 \times 10^8"] == "exponent changed"
-    assert result[r"9.31 \times 10^9"] == "digits swapped"
-    assert not any(text.endswith("11^9") for text in result)
-    assert dict(edits("Four"))["Five"] == "other word"
-    shifted = {text for text, kind in edits("1E1") if kind == "exponent changed"}
-    assert shifted == {"1E0", "1E2", "1E-1"}
-    assert dict(edits("third")) == {"half": "other word"}
-    assert dict(edits("7.67"))["76.7"] == "decimal point moved"
+@kept("replication/kept.txt", "Edits of a number's text, one slip each")
+def test_edits_of_words_and_of_the_reports_powers(question: str, answer: str) -> None:
+    assert ", ".join(f"{text} ({kind})" for text, kind in edits(question)) == answer
 
 
 def test_edits_of_an_equation() -> None:
@@ -141,33 +136,17 @@ def test_edits_of_an_equation() -> None:
 # Misprints
 
 
-MENDED = {
-    # A planted misprint, and the original among the repairs of what fails by it.
-    ("a1-radius", "1.01E-05"): "a1-mass",
-    ("observed-depth-ratio", "0.289"): "observed-depth-ratio",
-    ("goodier-q", "7.27"): "goodier-beta",
-}
-
-
-@pytest.mark.parametrize(("name", "text"), MENDED)
-def test_the_original_mends_what_a_misprint_spoils(name: str, text: str) -> None:
+@kept("replication/kept.txt", "Misprints, and what mends the number that fails by them")
+def test_the_original_mends_what_a_misprint_spoils(question: str, answer: str) -> None:
+    name, text, failing = re.split(": | spoils ", question)
     ledger = LEDGER.misprint(name, text)
-    result = Explainer(Judge(ledger)).repairs(MENDED[name, text])
-    printed = LEDGER.claims[name].text
-    mending = [r for r in result if r.entry == name and r.text == printed]
-    (repair,) = mending
+    result = Explainer(Judge(ledger)).repairs(failing)
+    (repair,) = [r for r in result if (r.entry, r.text) == (name, LEDGER.claims[name].text)]
     assert set(repair.failing) <= {"eq16", *PAIR, "eq16-denominator"}
-    assert [len(r.failing) for r in result if not r.reading] == sorted(
-        len(r.failing) for r in result if not r.reading
-    )
-
-
-@pytest.mark.parametrize(
-    ("name", "text"), [("elastic-modulus", "20"), ("yield-strength", "251"), ("flow-stress", "710")]
-)
-def test_a_number_that_nothing_computes_is_mended_in_its_own_place(name: str, text: str) -> None:
-    result = Explainer(Judge(LEDGER.misprint(name, text))).repairs(name)
-    assert [(r.entry, r.text) for r in result] == [(name, LEDGER.claims[name].text)]
+    left = [len(r.failing) for r in result if not r.reading]
+    assert left == sorted(left)
+    told = [f"{r.entry}: {r.text}" + f" if {r.reading}" * bool(r.reading) for r in result]
+    assert "; ".join(told) == answer
 
 
 def repaired() -> Ledger:

@@ -3,6 +3,7 @@
 from functools import cache
 
 import pytest
+from kept import pairs
 
 from reference.findings import load as load_findings
 from reference.ledger import Ledger, load
@@ -22,38 +23,25 @@ def test_every_finding_has_evidence_and_all_of_it_is_asserted(record: Record) ->
         assert finding.holds
 
 
-PLANTED = {
-    # A misprint of the report, and the findings whose evidence rests on it.
-    "frank-zook-rha": ("0.255", {"frank-zook-pair", "equation-16", "frank-zook-values"}),
-    "volume-ratio-line": ("0.085", {"observed-digits"}),
-    "fz-resistance-rha": ("9.31E9", {"two-resistances"}),
-    "autodyne-steel-yield": ("430", {"unlike-strengths"}),
-    "diameter-deviation": ("6.5", {"equation-1-scatter"}),
-    "yield-strength": ("251", {"beta-and-flow-stress"}),
-    "copper-yield": ("19", {"rigid-strength"}),
-    "coarse-step": ("0.6", {"two-schemes"}),
-    "cth-velocity": ("800", {"cth-pressure"}),
-    "sphere-length-ratio": ("1/3", {"sphere-equivalent"}),
-    "a1-mass": ("4.69E-11", {"target-density"}),
-}
+MISPRINTS = pairs("replication/kept.txt", "Misprints, and the findings that rest on them")
 
 
 @cache
 def with_misprints() -> dict[str, FindingRecord]:
     """The findings on a report with all of these misprints, in one audit."""
     ledger: Ledger = load()
-    for name, (text, _) in PLANTED.items():
-        ledger = ledger.misprint(name, text)
+    for misprint, _ in MISPRINTS:
+        ledger = ledger.misprint(*misprint.split(": "))
     spoiled = audit(ledger)
     assert spoiled.headline != FINDINGS["headline"].statement
     return {finding.id: finding for finding in spoiled.findings}
 
 
-@pytest.mark.parametrize("name", sorted(set().union(*(names for _, names in PLANTED.values()))))
-def test_a_finding_whose_evidence_is_misprinted_no_longer_holds(name: str) -> None:
-    finding = with_misprints()[name]
-    assert not finding.holds
-    assert not all(part.holds for part in finding.evidence)
+@pytest.mark.parametrize(("misprint", "names"), MISPRINTS)
+def test_a_finding_whose_evidence_is_misprinted_no_longer_holds(misprint: str, names: str) -> None:
+    for finding in map(with_misprints().__getitem__, names.split(", ")):
+        assert not finding.holds
+        assert not all(part.holds for part in finding.evidence)
 
 
 def test_a_formula_that_a_misprint_leaves_without_a_value_ends_no_audit() -> None:

@@ -116,13 +116,6 @@ def test_motions_that_barely_cross_the_radius(crossing: float) -> None:
         check_history(case, share)
 
 
-def test_the_ends_of_the_motion_are_its_ends() -> None:
-    assert stop_time(*CASE, stop_velocity=CASE[0]) == time_to_depth(0.0, *CASE) == 0.0
-    assert depth_at_velocity(CASE[0], *CASE) == 0.0
-    assert time_to_depth(final_depth(*CASE), *CASE) == stop_time(*CASE)
-    assert velocity_at_depth(0.0, *CASE) == pytest.approx(CASE[0], rel=4 * ULP)
-
-
 def test_a_history_begins_before_a_tail_many_times_as_long() -> None:
     # From 1e30 m/s, rest takes 1e28 times as long as the first tenth of the radius.
     case = (1e30, *CASE[1:])

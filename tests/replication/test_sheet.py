@@ -1,20 +1,18 @@
 """The sheet: rows, arrays and frame, what stops it, what to doubt; many at once the same."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kept import kept
 
 from reference.arithmetic import Reals
 from reference.motion import sheet_rows
 from replication.cases import BETA_5
 from replication.error import warnings
-from replication.models.arrays import run_many
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.sheet import SCHEMES, Row, _fewest_steps, run
@@ -51,13 +49,6 @@ def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impa
         before = row.velocity_final
 
 
-def test_below_the_stop_velocity_there_is_no_step_and_at_it_one() -> None:
-    slow = run(replace(BETA_5, velocity=0.5))
-    assert (slow.steps, slow.final_depth) == (0, 0.0)
-    at_stop = replace(BETA_5, velocity=1.0, stop_velocity=1.0)
-    assert run(at_stop).steps == run_many(**at_stop.motion, stop_velocity=1.0)[1] == 1
-
-
 @given(IMPACTS, st.floats(0, 1), st.sampled_from(SCHEMES))
 def test_the_fewest_steps_are_no_more_than_are_taken(
     impact: Impact, stop: float, scheme: str
@@ -69,33 +60,6 @@ def test_the_fewest_steps_are_no_more_than_are_taken(
     assert fewest <= run(impact, scheme).steps
 
 
-@pytest.mark.parametrize(
-    "impact",
-    [
-        replace(BETA_5, step=1e-15, radius=1e-3),  # by the bound
-        replace(BETA_5, beta=None, flow_stress=None, resistance=1.0, stop_velocity=0.01),  # counted
-    ],
-    ids=["bound", "counted"],
-)
-def test_too_many_rows_are_refused(impact: Impact) -> None:
-    message = f"takes more than 1,000,000 steps of {impact.step} s down to .*: take a larger step"
-    with pytest.raises(ValueError, match=f"^the sheet {message}"):
-        run(impact)
-    inputs = impact.motion | {"step": [1e-7, impact.step], "stop_velocity": impact.stop_velocity}
-    with pytest.raises(ValueError, match=rf"^the sheet\[1\] {message}"):
-        run_many(**inputs)
-
-
-def test_a_scheme_that_is_none_is_refused() -> None:
-    calls: list[Callable[[], object]] = [
-        lambda: run(BETA_5, "upwind"),
-        lambda: run_many(**BETA_5.motion, scheme="upwind"),
-    ]
-    for call in calls:
-        with pytest.raises(ValueError, match="no scheme 'upwind': choose one of published, cente"):
-            call()
-
-
 def test_a_frame_holds_the_rows() -> None:
     sheet = run(BETA_5)
     frame = sheet.frame()
@@ -105,19 +69,10 @@ def test_a_frame_holds_the_rows() -> None:
     assert math.isnan(frame.velocity_final.iloc[0])
 
 
-@pytest.mark.parametrize(
-    ("changes", "kinds"),
-    [
-        ({}, ["reversed"]),
-        ({"step": 2e-12}, []),
-        ({"step": 4e-9}, ["reversed", "coarse"]),
-        ({"step": 1e-7}, ["reversed", "coarse", "deep"]),
-        ({"step": 2.21e-9, "stop_velocity": 499.0}, ["coarse"]),
-        ({"step": 2.19e-9, "stop_velocity": 480.0}, []),
-    ],
-)
-def test_what_speaks_for_too_long_a_step(changes: dict[str, float], kinds: list[str]) -> None:
-    impact = replace(BETA_5, **changes)
+@kept("replication/kept.txt", "Runs of beta-5 otherwise, and what speaks for too long a step")
+def test_what_speaks_for_too_long_a_step(question: str, answer: str) -> None:
+    changes = dict(item.split(" = ") for item in question.split(", ") if item != "nothing")
+    impact = replace(BETA_5, **{name: float(value) for name, value in changes.items()})
     sheet = run(impact)
-    assert list(warnings(sheet)) == kinds
-    assert ("deep" in kinds) == (sheet.final_depth > final_depth(**impact.motion) * 1.0005)
+    assert (", ".join(warnings(sheet)) or "nothing") == answer
+    assert ("deep" in answer) == (sheet.final_depth > final_depth(**impact.motion) * 1.0005)

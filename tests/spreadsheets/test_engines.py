@@ -5,6 +5,7 @@ And what is said of an engine that does, or does not, give the values that a wor
 
 from __future__ import annotations
 
+import json
 import math
 import shutil
 import tempfile
@@ -14,6 +15,7 @@ from typing import Any
 
 import pytest
 import xlsxwriter
+from kept import pairs
 from workbooks import BY_NAME, Fake, usable
 
 from spreadsheets import emit, engines
@@ -31,39 +33,22 @@ from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
 WRONG = 12345
 """Stored beside every formula: to come back, a right value must have been computed."""
 
-INPUTS = {"A1": 0.1, "A2": 0.2, "A3": 6e-10, "A4": 1.25e-05, "A5": 7670.0, "A6": 3.0}
 
-a1, a2, a3, a4, a5, a6 = INPUTS.values()
-NUMBERS = {
-    "B1": ("=A1+A2", a1 + a2),
-    "B2": ("=1/A6", 1 / a6),
-    "B3": ("=A3*A6", a3 * a6),
-    "B4": ("=A5*4/3*PI()*A4*A4", a5 * 4 / 3 * math.pi * a4 * a4),
-    "B5": ("=B4*A1", a5 * 4 / 3 * math.pi * a4 * a4 * a1),
-    "B6": ("=SQRT(A6)", math.sqrt(a6)),
-    "B7": ("=A1*1E300*1E-300", a1 * 1e300 * 1e-300),
-}
-"""Formulas, and Python's doubles for the same operations in the same order."""
+def told(section: str) -> dict[str, tuple[str, Any]]:
+    """The formulas of a section of `kept.txt`, each in its cell, and their values."""
+    cells = [(*ask.split(" ", 1), value) for ask, value in pairs("spreadsheets/kept.txt", section)]
+    return {at: (formula, json.loads(value)) for at, formula, value in cells}
+
+
+INPUTS = {"A1": 0.1, "A2": 0.2, "A3": 6e-10, "A4": 1.25e-05, "A5": 7670.0, "A6": 3.0}
+NUMBERS = told(
+    "Formulas of numbers, and Python's doubles for the same operations in the same order"
+)
+OTHERS = told("Formulas, and the values documented for them; null for no value at all")
 
 LONG_DOUBLE_ERROR = 1e-15
 """Debian's Gnumeric rounds once, on reading its result; Python rounds each input and each step.
 No chain above has more than nine roundings in all, and each is at most 2**-53 = 1.11e-16."""
-
-OTHERS = {
-    "C1": ('="cold "&"spray"', "cold spray"),
-    "C2": ('="1"&"2"', "12"),
-    "C3": ("=A6=3", True),
-    "C4": ("=A6=4", False),
-    "C5": ("=1/0", "#DIV/0!"),
-    "C6": ("=NA()", "#N/A"),
-    "C7": ('=""+1', "#VALUE!"),
-    "C8": ("=nobody", "#NAME?"),
-    "C9": ("=1E300*1E10*A6", "#NUM!"),
-    "C10": ('=IF(ISNUMBER(A6),"","no")', None),
-    "C11": ("=COUNT(A1:A99)", 6.0),
-    "C12": ("=steps*2", 6.0),
-}
-"""Formulas, and the values documented for them; None for no value at all."""
 
 
 @pytest.fixture(scope="module")

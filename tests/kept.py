@@ -1,0 +1,45 @@
+r"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
+
+They stand beside the tests in sections, headed `# What`. `⟨5000 x⟩` is an x five thousand times,
+and `⟨\x1b⟩` a character that no text shows.
+Whoever changes an answer of the program changes it there.
+"""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+
+def pairs(text: str, section: str) -> list[tuple[str, str]]:
+    """The questions of a section, such as of `reference/kept.txt`, each with its answer."""
+    content = (Path(__file__).parent / text).read_text("utf-8")
+    lines = content.partition(f"\n# {section}\n")[2].partition("\n# ")[0].splitlines()
+    asked = [line.partition(" -> ") for line in lines if " -> " in line]
+    assert asked, f"{text} has no section {section!r}"
+    return [(spelled(question.strip()), answer) for question, _, answer in asked]
+
+
+def kept(text: str, section: str) -> pytest.MarkDecorator:
+    """Give a test each question of a section, and its answer."""
+    cases = [pytest.param(*pair, id=pair[0][:40]) for pair in pairs(text, section)]
+    return pytest.mark.parametrize(("question", "answer"), cases)
+
+
+def spelled(text: str) -> str:
+    """A text with what stands in it many times, and no quotes around what begins with a blank."""
+    text = re.sub(r"⟨(?:(\d+) )?(.*?)⟩", lambda many: int(many[1] or 1) * unescaped(many[2]), text)
+    return text[1:-1] if re.fullmatch('".*"', text) else text
+
+
+def said(answer: Callable[[], object]) -> str:
+    """An answer as text; or the one line that refuses to give it."""
+    try:
+        return str(answer())
+    except (ValueError, TypeError) as error:
+        return f"refused: {error}"
+
+
+def unescaped(text: str) -> str:
+    return text.encode("ascii", "backslashreplace").decode("unicode_escape")
