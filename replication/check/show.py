@@ -54,7 +54,8 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     """The document of `coldspray diff --json`; `expected` is the first workbook's."""
     differences, calculations = comparison.differences, (comparison.before, comparison.after)
     cells = sum(len(d.cells) for d in differences if d.kind in ("formula", "value"))
-    verdict = f"{count(len(differences), 'difference')}, in the contents of {count(cells, 'cell')}"
+    verdict = count(len(differences), "difference")
+    verdict += f", in the contents of {count(cells, 'cell')}" if cells else ""
     if last := sum(d.explanation.startswith(LAST) for d in differences):
         verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
     verdict = f"{verdict}." if differences else "Equal: every cell holds the same."

@@ -170,7 +170,7 @@ def _nothing(calculation: Calculation) -> str:
     nothing, values = "no table of depth and velocity is found", calculation.values
     texts = (value for value in values.values() if isinstance(value, str))
     typed = sum(any(map(str.isdigit, text)) and not any(map(str.isalpha, text)) for text in texts)
-    if typed > 100:
+    if typed > max(100, len(calculation.formulas)):
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
     if wrong := [place for place in calculation.formulas if calculation.error(place)]:
         first = min(wrong, key=calculation.order.__getitem__)

@@ -36,7 +36,10 @@ COMMANDS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work."""
+    """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work.
+
+    Above 128 as of a program that a signal ended.
+    """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
@@ -51,8 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        _discard_output()  # the reader of a pipe has seen enough
-        return 0
+        _discard_output()  # the reader of a pipe has seen enough; what it leaves out may be 1
+        return 128 + 13  # as shells tell of a program that ended by SIGPIPE
     except KeyboardInterrupt as interrupt:
         print(f"{program}: interrupted, nothing written", file=sys.stderr)
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
