@@ -18,6 +18,7 @@ from replication.audit.findings import (
 from replication.models import depth, motion, sheet
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact
+from replication.text import with_unit
 
 BETAS = (3, 5)
 
@@ -74,12 +75,14 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     velocity, spread = impact.velocity, known["velocity-deviation"]
     radius, size = impact.radius, known["diameter-deviation"] / 2
     printed = known.ledger.claims["a1-density"].target().ends
+    chosen = known.ledger.claims["a1-initial-velocity"]
+    speed = with_unit(chosen.shown, chosen.unit)
     possible = known.judge.inference(DENSITY).admitted(Convention())[1].ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
         ("particle_density", *printed, "rounding of the print"),
-        ("target_density", *possible, "all that Table A-1 allows"),
+        ("target_density", *possible, f"all that Table A-1 allows at {speed}"),
         ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
         ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
     )

@@ -66,7 +66,7 @@ class Known:
         if claim.shown_by:
             shown = self.shown(claim)
             verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
-            return Assessment(verdict, reason or wording.chosen(shown))
+            return Assessment(verdict, reason or wording.chosen(self.ledger, shown))
         undecided = f"Nothing in the report decides it: {claim.given}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
@@ -323,6 +323,7 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     ranges = {
         "": inference.inner,
         "possible_": inference.admitted(Convention())[1],
+        "rounded_": inference.admitted(Convention(choices_exact=False))[1],
         "centered_": known.judge.inference(DENSITY, centered=True).inner,
     }
     evidence: dict[str, Value] = {}
@@ -333,8 +334,9 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     return evidence | {
         "mass_greatest": inference.with_mass.ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
-        "excluded": said["304-density-793"] == said["304-density-mill"] == "excluded",
-        "kinslow": said["304-density-kinslow"] == "admitted only if the other inputs are rounded",
+        "excluded": said["304-density-mill"] == "excluded",
+        "chosen": "what the author chose" in said["304-density-793"],
+        "kinslow": "the header of Table A-1" in said["304-density-kinslow"],
         "depths": all(reading.verdict is Verdict.REPRODUCED for reading in depths),
         "all": not inference.odd,
     }

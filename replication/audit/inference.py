@@ -145,13 +145,18 @@ class Inference:
             return "admitted"
         if not self.inner.excludes(*range_.ends):
             return "admitted only as a number that was rounded"
-        if self.admitted(Convention())[1].excludes(*range_.ends):
-            return "excluded"
-        joint, box = self._joint(Convention(), by_mass=True)
-        admitted = satisfying(joint, {**box, self.name: range_.ends})[0]
-        if admitted is None:
-            return "undecided"
-        return "admitted only if the other inputs are rounded" if admitted else "excluded"
+        rounded = {
+            "admitted only if the header of Table A-1 is rounded": Convention(),
+            "admitted only if what the author chose is rounded, too": Convention(
+                choices_exact=False
+            ),
+        }
+        for words, convention in rounded.items():
+            joint, box = self._joint(convention, by_mass=True)
+            admitted = satisfying(joint, {**box, self.name: range_.ends})[0]
+            if admitted is not False:
+                return words if admitted else "undecided"
+        return "excluded"
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:

@@ -39,12 +39,14 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     return " ".join(filter(None, sentences))
 
 
-def chosen(shown: Shown | None) -> str:
+def chosen(ledger: Ledger, shown: Shown | None) -> str:
     """What is known of a number that the author chose."""
     if shown is None:
         return "The author's choice; what is computed from it does not come out as printed."
     text = quantity(between(shown.interval, 4, inward=True), shown.unit)
-    return f"The author's choice; what is computed from it comes out as printed for {text}."
+    titles = "; ".join(map(ledger.title, shown.claims))
+    come = "this comes" if len(shown.claims) == 1 else "these come"
+    return f"The author's choice. For {text} {come} out as printed: {titles}."
 
 
 def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:

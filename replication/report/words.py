@@ -276,7 +276,7 @@ def scatter(record: r.Record) -> Table:
         quantiles = (f"{v:.0f} m/s, {ratio:.3f}" for v, ratio in pairs)
         deviations = (f"{x:.1f} m/s" for x in (law.standard_deviation, law.mean_deviation))
         rows.append((law.law, *deviations, *quantiles))
-    caption = "Velocity and X/R over the particles of the stream"
+    caption = "Velocity and X/R over the particles of the stream; deviations by size to first order"
     return Table(caption, ("law", "standard deviation", "mean deviation", *shares), rows)
 
 
