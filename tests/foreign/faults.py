@@ -217,12 +217,12 @@ def _replaced(f: Foreign, pattern: str, to: str) -> Mapping[Place, Any]:
     return dict(next(([entry] for entry in changed if entry[1] != f.cells[entry[0]]), []))
 
 
-for _name, _pattern, _to in (
-    ("wrong mass formula, pi", r"(4/3\*)PI\(\)|PI\(\)(/6)", r"\g<1>3.14\2"),
-    ("wrong mass formula", r"4/3\*PI\(\)|PI\(\)/6", "4*PI()"),
-    ("wrong diameter formula", r"^=2\*(\$?[A-Z]+\$?\d+)$", r"=\1"),
+for _name, _kind, _pattern, _to in (
+    ("mass formula, pi typed", "typed constant", r"(4/3\*)PI\(\)|PI\(\)(/6)", r"\g<1>3.14\2"),
+    ("wrong mass formula", "odd formula", r"4/3\*PI\(\)|PI\(\)/6", "4*PI()"),
+    ("wrong diameter formula", "odd formula", r"^=2\*(\$?[A-Z]+\$?\d+)$", r"=\1"),
 ):
-    fault(_name, "odd formula")(lambda f, _, p=_pattern, to=_to: _replaced(f, p, to))
+    fault(_name, _kind)(lambda f, _, p=_pattern, to=_to: _replaced(f, p, to))
 
 
 @fault("wrong resistance formula", "odd formula")
