@@ -139,19 +139,27 @@ def _expand(
     stress[0] = b * w[0] * w[0] + c
     y[1], w[1] = w[0], -stress[0] * area[0]
     for k in range(1, ORDER):
-        yy, ww, product = 2 * y[0] * y[k], 2 * w[0] * w[k], 0.0
-        for j in range(1, k):
+        # From both ends to the middle: sums that do not wait for each other.
+        yy, ww, first, last = y[0] * y[k], w[0] * w[k], 0.0, 0.0
+        for j in range(1, (k + 1) // 2):
             yy += y[j] * y[k - j]
             ww += w[j] * w[k - j]
-            product += stress[j] * area[k - j]
+            first += stress[j] * area[k - j]
+            last += stress[k - j] * area[j]
+        yy, ww = 2 * yy, 2 * ww
+        if k % 2 == 0:
+            middle = k // 2
+            yy += y[middle] * y[middle]
+            ww += w[middle] * w[middle]
+            first += stress[middle] * area[middle]
         area[k] = 0.0 if beyond else 2 * y[k] - yy
         stress[k] = b * ww
-        product += stress[0] * area[k] + stress[k] * area[0]
+        product = first + last + stress[0] * area[k] + stress[k] * area[0]
         y[k + 1] = w[k] / (k + 1)
         w[k + 1] = -product / (k + 1)
     size = max(abs(w[0]), abs(w[1]))
-    last, before = abs(w[ORDER]) / size, abs(w[ORDER - 1]) / size
-    inverse_radius: float = max(last ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)
+    highest, before = abs(w[ORDER]) / size, abs(w[ORDER - 1]) / size
+    inverse_radius: float = max(highest ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)
     return E_2 / inverse_radius
 
 
