@@ -79,6 +79,12 @@ class Area(NamedTuple):
         inside = self.top <= row <= self.bottom and self.left <= column <= self.right
         return sheet == self.sheet and inside
 
+    def overlaps(self, another: "Area") -> bool:
+        """Whether a cell is in both."""
+        rows = self.top <= another.bottom and another.top <= self.bottom
+        columns = self.left <= another.right and another.left <= self.right
+        return self.sheet == another.sheet and rows and columns
+
 
 class Piece(NamedTuple):
     """One token: its kind, its text, and the area that it refers to.

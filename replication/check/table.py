@@ -18,7 +18,7 @@ from typing import Literal, NamedTuple
 from reference.units import same_dimension
 from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation, Formula
+from spreadsheets.recalculation import Area, Calculation, Formula
 
 LEAST = 4
 """Fewer numbers are no line; the report itself prints five rows."""
@@ -346,11 +346,12 @@ class Table:
 
     def gives_depth(self, place: Position) -> bool:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
-        depths = [self.place("depth", k) for k in range(self.steps + 1)]
+        (sheet, *first), (_, *last) = (self.place("depth", k) for k in (0, self.steps))
+        depths = Area(sheet, *first, *last)
         edge, seen = [place], {place}
         while edge:
             areas = [area for cell in edge for area in self.calculation.areas(cell)]
-            if any(any(map(area.covers, depths)) for area in areas):
+            if any(map(depths.overlaps, areas)):
                 return True
             near = {p for area in areas if area.cells <= FEW for p in area.places()}
             edge = [cell for cell in near - seen if cell not in self.places]
