@@ -21,7 +21,8 @@ def quoted(text: object, longest: int = _QUOTED) -> str:
     >>> quoted("\x1b[31m5 m\n")
     "'\\x1b[31m5 m\\n'"
     """
-    shown = str(text)
+    # Python writes no whole number of thousands of digits in the decimal system.
+    shown = hex(text) if isinstance(text, int) and abs(text) >= 10**longest else str(text)
     part = shown[:longest]
     end = "" if part == shown else "..."
     return f"{repr(part) if type(text) is str else one_line(part)}{end}"
