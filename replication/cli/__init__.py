@@ -29,7 +29,7 @@ COMMANDS = {
     "sweep": ("runs", "many cases by a TOML plan, to CSV or Parquet"),
     "bench": ("runs", "speed against error: every method and its peers"),
     "check": ("check", "check somebody's own workbook of the scheme"),
-    "diff": ("diff", "compare two workbooks: layout, formulas and values"),
+    "diff": ("check", "compare two workbooks: layout, formulas and values"),
     "power": ("audit", "plant misprints in memory and measure what the audit notices"),
 }
 """The module of each, and what it does, in the order in which `coldspray --help` lists them."""
