@@ -75,14 +75,14 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     velocity, spread = impact.velocity, known["velocity-deviation"]
     radius, size = impact.radius, known["diameter-deviation"] / 2
     printed = known.ledger.claims["a1-density"].target().ends
-    chosen = known.ledger.claims["a1-initial-velocity"]
-    speed = with_unit(chosen.shown, chosen.unit)
+    chosen = (known.ledger.claims[name] for name in ("a1-initial-velocity", "a-step"))
+    exact = ", ".join(with_unit(claim.shown, claim.unit) for claim in chosen)
     possible = known.judge.inference(DENSITY).admitted(Convention())[1].ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
         ("particle_density", *printed, "rounding of the print"),
-        ("target_density", *possible, f"all that Table A-1 allows at {speed}"),
+        ("target_density", *possible, f"all that Table A-1 allows at {exact}"),
         ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
         ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
     )

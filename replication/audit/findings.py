@@ -334,7 +334,7 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     return evidence | {
         "mass_greatest": inference.with_mass.ends[1],
         "carbon": said["carbon-steel-density"] == "admitted",
-        "excluded": said["304-density-mill"] == "excluded",
+        "excluded": said["304-density-mill"].startswith("excluded"),
         "chosen": "what the author chose" in said["304-density-793"],
         "kinslow": "the header of Table A-1" in said["304-density-kinslow"],
         "depths": all(reading.verdict is Verdict.REPRODUCED for reading in depths),
@@ -489,8 +489,12 @@ def _mean_deviation(power: float, relative: float) -> float:
 
 def _faster_particles(own: Evidence) -> Mapping[str, Value]:
     """If the deviation that the report states is the standard one, and if it is the mean one."""
-    mean = own["ratio"] * math.sqrt(2 / math.pi)
-    return {"standard": NormalDist().cdf(-own["ratio"]), "mean": NormalDist().cdf(-mean)}
+    kinds = {"standard": 1.0, "mean": math.sqrt(2 / math.pi)}
+    return {
+        f"{kind}{of}": NormalDist().cdf(-own[f"ratio{of}"] * factor)
+        for kind, factor in kinds.items()
+        for of in ("", "_400")
+    }
 
 
 def _wrong_reference(own: Evidence) -> Mapping[str, Value]:

@@ -156,7 +156,7 @@ class Inference:
             admitted = satisfying(joint, {**box, self.name: range_.ends})[0]
             if admitted is not False:
                 return words if admitted else "undecided"
-        return "excluded"
+        return "excluded as long as the mass is the sphere's"
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:

@@ -182,7 +182,7 @@ def _needed(solved: r.BackSolvedRecord) -> str:
 
 
 def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
-    """The misprints that would explain a failure, of the claim with the id `own` if it is one.
+    """The misprints that would give a number as printed; `own` is the id of its claim.
 
     Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
     """
@@ -192,7 +192,7 @@ def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
         texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    return Table("Misprints, one edit of the text, that would explain it", heads, rows)
+    return Table("Misprints, one edit of the text, that would give it", heads, rows)
 
 
 def evidence(finding: r.FindingRecord) -> Table:
