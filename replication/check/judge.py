@@ -359,9 +359,7 @@ def _scheme(f: Examination) -> None:
             chosen["brake"] = replace(BEYOND, says="")
     f.rows = replace(f.rows, rules=replace(REPORT, **chosen))
     for part in unknown:
-        first = PARTS[part][1]
-        judged = range(first, f.table.steps + 1)
-        first = next((k for k in judged if not f.follows(part, getattr(REPORT, part), k)), first)
+        first = _first_unlike(f, part)
         role, at = f.rows.shows(part, first)
         wanted = f.rows.wanted(role, at) if role == PARTS[part][0] else None
         kind, text, line = _cause(f, part, role)
@@ -373,15 +371,19 @@ def _scheme(f: Examination) -> None:
     _named(f)
 
 
+def _first_unlike(f: Examination, part: str) -> int:
+    """The first row that does not follow the report's rule for a part of the scheme."""
+    first = PARTS[part][1]
+    judged = range(first, f.table.steps)
+    return next((k for k in judged if not f.follows(part, getattr(REPORT, part), k)), first)
+
+
 def _named(f: Examination) -> None:
     """A difference for each rule that is not the report's."""
     rows = replace(f.rows, rules=REPORT)
     for part, rule in f.rows.rules.others.items():
-        own, (fills, first) = getattr(REPORT, part), PARTS[part]
-        judged = range(first, f.table.steps)
-        first = next((k for k in judged if not f.follows(part, own, k)), first)
-        role, at = rows.shows(part, first)
-        wanted = rows.wanted(role, at) if role == fills else None
+        role, at = rows.shows(part, _first_unlike(f, part))
+        wanted = rows.wanted(role, at) if role == PARTS[part][0] else None
         cells = f.cells(role, at, at if part == "start" else None)
         if part == "brake" and (area := wrong_area(f)):
             line, rows_off = area

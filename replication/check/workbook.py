@@ -263,18 +263,16 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
         if not (isinstance(stored, float) and isinstance(value, float)):
             return not (calculation.book[place].error and calculation.error(place))
         off = abs(stored - value)
-        return (
-            off > calculation.book.resolution
-            and off > _STALE * abs(value)
-            and not any(
-                off <= _STALE * max(abs(number) for number in line.values if number is not None)
-                for line in lines
-                if line.covers(place)
-                or any(
-                    area.covers(line.place(at))
-                    for area in calculation.formulas[place].areas
-                    for at in (line.first + 1, line.last)
-                )
+        if off <= max(calculation.book.resolution, _STALE * abs(value)):
+            return False
+        return not any(
+            off <= _STALE * max(abs(number) for number in line.values if number is not None)
+            for line in lines
+            if line.covers(place)
+            or any(
+                area.covers(line.place(at))
+                for area in calculation.formulas[place].areas
+                for at in (line.first + 1, line.last)
             )
         )
 
