@@ -308,16 +308,15 @@ _KEPT: list[Any] = []
 
 @cache
 def _make_known() -> None:
-    """Have Numba compile what the models call, with arrays for the coefficients of series."""
+    """Have Numba compile what the models call, with arrays for their lists of numbers."""
     import numpy as np
     from numba.extending import overload, register_jitable
 
     for module in (crater, depth, impact, motion, sheet):
         for function in vars(module).values():
-            if inspect.isfunction(function) and function is not motion.series:
+            if inspect.isfunction(function) and function is not motion.zeros:
                 register_jitable(function)
-    length = motion.ORDER + 1
-    overload(motion.series)(lambda: lambda: np.zeros(length))
+    overload(motion.zeros)(lambda count: lambda count: np.zeros(count))  # noqa: ARG005
 
 
 # Containers of other libraries, told by their types, so that none is imported before it is in use

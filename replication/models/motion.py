@@ -39,14 +39,24 @@ def history(
     """
     V, R, rho_p, rho_t, R_t = velocity, radius, particle_density, target_density, resistance
     final = normalized_depth(V, rho_p, rho_t, R_t)
-    y, w = series(), series()
-    end = 0.0
+    y, w = zeros(ORDER + 1), zeros(ORDER + 1)
+    s, at, dy = zeros(len(time)), zeros(len(time)), zeros(len(time))
+    rising = True
+    for k in range(1, len(time)):
+        rising = rising and time[k - 1] <= time[k]
+    k, end = 0, 0.0
     for start, unit, length in _steps(y, w, final, V, rho_p, rho_t, R_t):
         begin, end = start * R / V, (start + length * unit) * R / V
-        for k in range(len(time)):
-            if begin <= time[k] < end:
-                at, dy = _state(y, w, (time[k] * V / R - start) / unit)
-                depth[k], speed[k] = R * min(at, final), V * (dy / unit)
+        k = k if rising else 0
+        while k < len(time) and not (rising and time[k] >= end):
+            first = k
+            while k < len(time) and begin <= time[k] < end:
+                s[k - first] = (time[k] * V / R - start) / unit
+                k += 1
+            _states(y, w, s, at, dy, k - first)
+            for i in range(k - first):
+                depth[first + i], speed[first + i] = R * min(at[i], final), V * (dy[i] / unit)
+            k = max(k, first + 1)
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
             depth[k], speed[k] = math.nan, math.nan
@@ -91,10 +101,10 @@ def _time(
     time, final = 0.0, normalized_depth(V, rho_p, rho_t, R_t)
     if depth == 0:
         return time
-    y, w = series(), series()
+    y, w = zeros(ORDER + 1), zeros(ORDER + 1)
     for start, unit, length in _steps(y, w, final, V, rho_p, rho_t, R_t):
         aim_y, aim_w = depth / R, speed / V * unit
-        at, dy = _state(y, w, length)
+        at, dy, _ = _state(y, w, length)
         if speed > 0 and (at >= aim_y or dy <= aim_w):
             return (start + _locate(y, w, aim_y, aim_w, length) * unit) * R / V
         time = (start + length * unit) * R / V
@@ -112,18 +122,18 @@ def _steps(
     b = 0.375 * rho_t / rho_p
     c = b / (rho_t * V * V / (2 * R_t))
     at_radius = math.sqrt(c / b * math.expm1(2 * b * (final - 1))) if final > 1 else 0.0
-    area, stress = series(), series()
+    area, stress = zeros(ORDER + 1), zeros(ORDER + 1)
     start, unit = 0.0, 1 / math.sqrt(1 + b + c)
     y[0], w[0] = 0.0, unit
     beyond, rest = False, False
     while not rest:
         growth = _expand(y, w, area, stress, b, c * unit * unit, beyond)
         length = growth
-        at, dy = _state(y, w, length)
+        at, dy, _ = _state(y, w, length)
         aim_y, aim_w = (final, 0.0) if beyond or final <= 1 else (1.0, at_radius * unit)
         if at >= aim_y or dy <= aim_w:
             length = _locate(y, w, aim_y, aim_w, length)
-            at, dy = _state(y, w, length)
+            at, dy, _ = _state(y, w, length)
             beyond, rest = True, aim_w == 0
         yield start, unit, length
         start += length * unit
@@ -163,13 +173,27 @@ def _expand(
     return E_2 / inverse_radius
 
 
-def _state(y: Series, w: Series, s: float) -> tuple[float, float]:
-    """Depth and dy at a time s since the start of the step."""
-    at, dy = y[ORDER], w[ORDER]
+def _states(y: Series, w: Series, s: Series, at: Series, dy: Series, count: int) -> None:
+    """Fill in depth and dy at so many times s since the start of the step.
+
+    In arrays of their own, so that what is compiled takes several at a time.
+    """
+    for i in range(count):
+        depth, speed = y[ORDER], w[ORDER]
+        for k in range(ORDER - 1, -1, -1):
+            depth = depth * s[i] + y[k]
+            speed = speed * s[i] + w[k]
+        at[i], dy[i] = depth, speed
+
+
+def _state(y: Series, w: Series, s: float) -> tuple[float, float, float]:
+    """Depth, dy and ddy at a time s since the start of the step."""
+    at, dy, ddy = y[ORDER], w[ORDER], 0.0
     for k in range(ORDER - 1, -1, -1):
-        at = at * s + y[k]
+        ddy = ddy * s + dy
         dy = dy * s + w[k]
-    return at, dy
+        at = at * s + y[k]
+    return at, dy, ddy
 
 
 def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float:
@@ -179,11 +203,7 @@ def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float
     not change yet, the depth tells where; at rest, where the depth does not, the velocity.
     """
     for _ in range(10):
-        at, dy, ddy = y[ORDER], w[ORDER], 0.0
-        for k in range(ORDER - 1, -1, -1):
-            ddy = ddy * s + dy
-            dy = dy * s + w[k]
-            at = at * s + y[k]
+        at, dy, ddy = _state(y, w, s)
         change = ((depth - at) * dy + (speed - dy) * ddy) / (dy * dy + ddy * ddy)
         s += change
         if abs(change) <= 1e-16 * s:
@@ -191,6 +211,6 @@ def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float
     return s
 
 
-def series() -> list[float]:
-    """Room for the coefficients of a series: a list, and where it is compiled an array."""
-    return [0.0] * (ORDER + 1)
+def zeros(count: int) -> list[float]:
+    """Room for so many numbers: a list, and where it is compiled an array."""
+    return [0.0] * count

@@ -132,6 +132,9 @@ def test_histories_broadcast_in_any_order() -> None:
         np.testing.assert_array_equal(pair, np.diag(row))
     alone = history(times.reshape(3, 100), velocities[64], *CASE[1:])
     np.testing.assert_array_equal(alone[0].ravel(), rows[0][64])
+    order = np.random.default_rng(1).permutation(300)
+    mixed = history(times[order], velocities[64], *CASE[1:])
+    np.testing.assert_array_equal(mixed, [row[64][order] for row in rows])
 
 
 @pytest.mark.parametrize("kind", [np.float64, np.float32, np.longdouble, int, object, ">f8"])
