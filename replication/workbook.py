@@ -16,7 +16,7 @@ from reference.ledger import Ledger, load
 from reference.printed import Interval, Printed, Rounding
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DEEP
+from replication.error import COARSE, DIGITS
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, frank_zook, resistance, stream
@@ -279,7 +279,7 @@ def _inputs(
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
         "travel_most": COARSE,
-        "excess_most": DEEP,
+        "excess_most": DIGITS,
     }
     for entry, number in typed.items():
         name = entry.name

@@ -1,6 +1,6 @@
-"""The sheet against the exact motion; here, signs in a sheet that its time step is too long."""
+"""The sheet against the exact motion; here, what a run of the sheet is to be warned of."""
 
-from replication.models.depth import final_depth
+from replication.models.depth import depth_at_velocity, final_depth
 from replication.models.sheet import Sheet
 
 COARSE = 0.1
@@ -8,9 +8,9 @@ COARSE = 0.1
 published scheme is then 1 % short of the exact depth, and as it is of first order, further with
 every longer step."""
 
-DEEP = 5e-4
-"""By so much of itself may the exact depth be exceeded: the report prints three digits, and half a
-unit of the third is at least that much."""
+DIGITS = 5e-4
+"""By so much of itself may the exact depth be exceeded, or the stop velocity leave it short: the
+report prints three digits, and half a unit of the third is at least that much."""
 
 
 def warnings(sheet: Sheet) -> dict[str, str]:
@@ -18,7 +18,8 @@ def warnings(sheet: Sheet) -> dict[str, str]:
 
     "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
     "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
-    more than `COARSE` R; "deep": its depth is more than `DEEP` beyond the exact one at rest.
+    more than `COARSE` R; "deep": its depth is more than `DIGITS` beyond the exact one at rest;
+    "short": the exact depth at the stop velocity is more than `DIGITS` short of that at rest.
 
     >>> from dataclasses import replace
     >>> from replication.cases import BETA_5
@@ -40,7 +41,11 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         text = f"a step at the impact velocity passes {travel:.3g} of the radius"
         said["coarse"] = f"{text}: at most {COARSE} is sound"
     rest = final_depth(**impact.motion)
-    if last.depth > rest * (1 + DEEP):
+    if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
         said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
+    short = 1 - depth_at_velocity(impact.stop_velocity, **impact.motion) / rest
+    if short > DIGITS:
+        text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"
+        said["short"] = f"{text}: {100 * short:.3g} % of the exact depth is still to come"
     return said

@@ -69,8 +69,8 @@ def test_a_frame_holds_the_rows() -> None:
     assert math.isnan(frame.velocity_final.iloc[0])
 
 
-@kept("replication/kept.txt", "Runs of beta-5 otherwise, and what speaks for too long a step")
-def test_what_speaks_for_too_long_a_step(question: str, answer: str) -> None:
+@kept("replication/kept.txt", "Runs of beta-5 otherwise, and what they are warned of")
+def test_warnings_of_a_run(question: str, answer: str) -> None:
     changes = dict(item.split(" = ") for item in question.split(", ") if item != "nothing")
     impact = replace(BETA_5, **{name: float(value) for name, value in changes.items()})
     sheet = run(impact)
