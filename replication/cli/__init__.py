@@ -1,8 +1,8 @@
 """The command `coldspray`: reads the command line, runs one command, says what went wrong.
 
-Each command has two functions in a module of this package: `depth_options` declares what `depth`
-takes, `run_depth` does it. They import what they need when they run, and only the options of the
-command that is asked for are declared, so that a light command starts fast.
+What a command takes stands in `options.toml`; `run_depth` of `commands` does what `depth` is for.
+Only the options of the command that is asked for are declared, and it imports what it needs when
+it runs, so that a light command starts fast.
 """
 
 import argparse
@@ -11,28 +11,15 @@ import os
 import re
 import signal
 import sys
+import tomllib
 from collections.abc import Sequence
-from importlib import import_module
+from importlib import resources
 from typing import Any, NoReturn
 
 from replication.reading import one_line, quoted
 
-COMMANDS = {
-    "audit": ("audit", "audit every number the report prints"),
-    "claims": ("audit", "list the claims, or prove one"),
-    "workbook": ("workbook", "write the live workbook"),
-    "sheet": ("case", "the Excel scheme's rows for a case"),
-    "depth": ("case", "final depth of a case, without time steps"),
-    "history": ("case", "depth and velocity of a case against time, without small steps"),
-    "converge": ("case", "error against time step, observed order, limit"),
-    "stability": ("case", "the hard cases: sheet, closed form and reference"),
-    "sweep": ("runs", "many cases by a TOML plan, to CSV or Parquet"),
-    "bench": ("runs", "speed against error: every method and its peers"),
-    "check": ("check", "check somebody's own workbook of the scheme"),
-    "diff": ("check", "compare two workbooks: layout, formulas and values"),
-    "power": ("audit", "plant misprints in memory and measure what the audit notices"),
-}
-"""The module of each, and what it does, in the order in which `coldspray --help` lists them."""
+COMMANDS = tomllib.loads((resources.files(__name__) / "options.toml").read_text("utf-8"))
+"""What each does and takes, in the order in which `coldspray --help` lists them."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -119,11 +106,14 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, (module, text) in COMMANDS.items():
-        command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+    for name, own in COMMANDS.items():
+        does = own["does"]
+        command = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.")
         if name in arguments:
-            home = import_module(f"replication.cli.{module}")
-            getattr(home, f"{name}_options")(command)
+            from replication.cli import commands as home
+            from replication.cli.options import declare
+
+            declare(command, own["options"])
             command.set_defaults(run=getattr(home, f"run_{name}"))
     for argument in arguments:
         if _DASHES.fullmatch(argument):

@@ -1,0 +1,447 @@
+"""What the commands do: a function each, which gives the status, and how they print."""
+
+import argparse
+import gc
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from replication.cases import inputs_of
+from replication.cli.options import case_of, given, times_of
+from replication.reading import one_line, place, quoted, read_number
+from replication.text import aligned, columns, json_text, number, numbers, quantity, rows_csv
+
+if TYPE_CHECKING:
+    from replication.check.examination import Difference
+    from spreadsheets.engines import EngineCheck
+    from spreadsheets.recalculation import Calculation
+
+# The report: audit; claims, one by one; power, what the audit would notice
+
+
+def run_audit(options: argparse.Namespace) -> int:
+    if options.schema:
+        from replication.audit.record import schema
+
+        sys.stdout.write(json_text(schema()))
+        return 0
+    gc.disable()  # to look for garbage would take a tenth of the time
+    try:
+        from replication import report
+        from replication.audit.audit import audit
+        from replication.error import hard_cases
+        from replication.workbook import build
+        from spreadsheets import emit
+
+        report.check(options.out)
+        workbook = options.out / "workbook.xlsx"
+        if workbook.exists():
+            emit.check(workbook, force=options.force)
+        record = audit()
+        beside = {
+            "workbook.xlsx": build(record=record).to_bytes(),
+            "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
+        }
+        written = report.write(record, options.out, beside)
+    finally:
+        gc.freeze()  # what is left over ends with the process
+        gc.enable()
+    if options.json:
+        sys.stdout.write(written["audit.json"].decode())
+    elif not options.quiet:
+        print(report.summary(record, _width(), _may_emphasize()), end="\n\n")
+        print(f"Written to {one_line(str(options.out))}/; start with audit.html")
+    return 1 if options.exit_code and record.counts.failing else 0
+
+
+def run_claims(options: argparse.Namespace) -> int:
+    """List the ledger, without verdicts; or prove one claim."""
+    from reference.ledger import load
+
+    ledger = load()
+    if options.id is None:
+        record = [
+            {
+                **{name: getattr(claim, name) for name in ("id", "title", "unit", "kind")},
+                **{name: getattr(claim.place, name) for name in ("line", "section", "cell")},
+                "where": str(claim.place),
+                "quote": " ".join(claim.quote.split()),
+                "printed": claim.text,
+            }
+            for claim in ledger.claims.values()
+        ]
+        rows = [
+            (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
+            for claim in ledger.claims.values()
+        ]
+        return _put(options, record, lambda: columns(rows, _width(piped=10_000)))
+    if options.id not in ledger.claims:
+        from difflib import get_close_matches
+
+        near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
+        hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+        raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
+    from replication.audit.audit import Audit
+    from replication.report import proof
+
+    claim = Audit(ledger).claim(ledger.claims[options.id])
+    return _put(options, claim, lambda: proof(claim, ledger, _width(), _may_emphasize()))
+
+
+def run_power(options: argparse.Namespace) -> int:
+    """Print the rates, whole, by kind of entry and by kind of edit, then what passes."""
+    from reference.ledger import load
+    from replication.power import power
+
+    def bar(plants: Any) -> Any:
+        return _progress(options, iterable=plants, unit=" misprints", leave=False)
+
+    result = power(load(), options.sample, options.seed, bar)
+    table = result.table()
+    lines = [
+        f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as every",
+        "number still rounds as printed. Of the others, in percent:",
+        "",
+        *aligned([table.heads, *table.rows]),
+    ]
+    if result.unnoticed:
+        lines += ["", "Visible, and not noticed:"]
+        lines += [f"  {x['entry']}: {x['true']!r} as {x['text']!r}" for x in result.unnoticed]
+    return _put(options, result, lambda: "\n".join(lines))
+
+
+# A case: its live workbook; sheet, depth, history, converge; and stability, the hard cases
+
+
+def run_workbook(options: argparse.Namespace) -> int:
+    """Write the workbook of the report, or of a case, and verify it if asked to."""
+    from replication import workbook
+    from spreadsheets import emit, engines
+    from spreadsheets.safely import write_bytes
+
+    emit.check(options.output, force=options.force)
+    if options.output.suffix.lower() != ".xlsx":
+        raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
+    own = options.case is not None or options.case_file is not None or given(options)
+    case = case_of(options) if own else None
+    book = workbook.build(case, options.scheme, options.rows)
+    if options.verify and all(engine.missing() for engine in engines.ENGINES):
+        raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
+    write_bytes(options.output, book.to_bytes())
+    checks = [
+        engines.verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
+        for engine in (engines.ENGINES if options.verify else ())
+    ]
+    passed = all(check.passed for check in checks)
+    record = {
+        "file": str(options.output),
+        "passed": passed if options.verify else None,
+        "long_double_bound": book.rounding,
+        "engines": list(map(asdict, checks)),
+        "warnings": list(book.warnings),
+    }
+    verified = ["", *_verified(checks, book.rounding)] if checks else []
+    _tell(options, record, "\n".join([f"Written: {one_line(str(options.output))}", *verified]))
+    if not options.json:
+        _warn(options, book.warnings)
+    return 0 if passed else 1
+
+
+_SHOWN = 5
+"""So many wrong cells of an engine are printed; the JSON has them all."""
+
+_LEGEND = """\
+Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
+LN, SIN, ASIN or a cube root, within the rounding of that chain; and, of an engine of long doubles,
+those within {bound:.1e} of the largest number of their column, a proven bound on our rounding."""
+
+
+def _verified(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
+    """A line for each engine, what is wrong with it, what the columns mean, and the outcome."""
+    rows: list[tuple[str, ...]] = [("engine", "outcome", "seconds", "cells", "rounded", "wrong")]
+    for check in checks:
+        seconds = "" if check.seconds is None else f"{check.seconds:.2f}"
+        counts = map(str, (check.cells, check.rounded, len(check.wrong)))
+        rows.append((f"{check.engine} {check.version or ''}", check.outcome, seconds, *counts))
+    yield from aligned(rows, right=True)
+    for check in checks:
+        wrong = [
+            f"{left.sheet}!{left.cell}: expected {left.expected!r}, found {left.found!r}"
+            for left in check.wrong
+        ]
+        if len(wrong) > _SHOWN:
+            wrong[_SHOWN:] = [f"and {len(wrong) - _SHOWN} more"]
+        yield from (f"{check.engine}: {words}" for words in (check.reason, *wrong) if words)
+    yield from ("", _LEGEND.format(bound=bound), "")
+    ran = [check for check in checks if check.outcome != "missing"]
+    good = sum(check.passed for check in ran)
+    yield f"{good} of {len(ran)} engines on this machine give the values of the workbook"
+
+
+def run_sheet(options: argparse.Namespace) -> int:
+    from replication.error import warnings
+    from replication.models.sheet import run
+
+    sheet = run(case_of(options), options.scheme)
+    rows = [row._asdict() for row in sheet.rows] if options.json or options.csv else []
+    doubts = list(warnings(sheet).values())
+    record = {
+        "inputs": inputs_of(sheet.impact),
+        "scheme": sheet.scheme,
+        "rows": rows,
+        "final_depth": sheet.final_depth,
+        "normalized_depth": sheet.normalized_depth,
+        "steps": sheet.steps,
+        "warnings": doubts,
+    }
+
+    def text() -> str:
+        """The rows, then what the report reads off the last."""
+        heads = ("time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]")
+        table = ((time * 1e9, v, x * 1e6, a, final) for time, v, x, a, final in sheet.rows)
+        lines = zip(("row", *range(len(sheet.rows))), numbers(heads, table), strict=True)
+        return "\n".join(
+            [
+                *(f"{k:>5}{line}" for k, line in lines),
+                "",
+                f"final depth       {number(sheet.final_depth * 1e6, 8)} um",
+                f"normalized depth  {number(sheet.normalized_depth, 8)}",
+                f"steps             {sheet.steps}",
+            ]
+        )
+
+    return _put(options, record, text, rows, doubts)
+
+
+def run_depth(options: argparse.Namespace) -> int:
+    from replication.models.depth import normalized_depth
+
+    case = case_of(options)
+    ratio = normalized_depth(**{name: x for name, x in case.motion.items() if name != "radius"})
+    depth = case.radius * ratio
+    record = {
+        "inputs": inputs_of(case),
+        "depth": depth,
+        "normalized_depth": ratio,
+        "beyond_radius": ratio > 1,
+    }
+    text = (
+        f"final depth       {number(depth * 1e6, 8)} um ({depth!r} m)\n"
+        f"normalized depth  {number(ratio, 8)}\n"
+        f"beyond radius     {'yes' if ratio > 1 else 'no'}"
+    )
+    return _put(options, record, lambda: text)
+
+
+MOST_TIMES, MOST_STEPS = 1_000_000, 40
+"""What `--times` and `--steps` may list: as many as `--points` and `--levels` may ask for."""
+
+
+def run_history(options: argparse.Namespace) -> int:
+    from replication.models.motion import history, stop_time
+
+    case = case_of(options)
+    stop = stop_time(**case.motion)
+    if options.times is None:
+        times = [stop * (k / (options.points - 1)) for k in range(options.points)]
+    else:
+        times = times_of("--times", options.times, MOST_TIMES)
+    depth, velocity = [0.0] * len(times), [0.0] * len(times)
+    history(times, **case.motion, depth=depth, speed=velocity)
+    lists = {"time": times, "depth": depth, "velocity": velocity}
+    table = list(zip(*lists.values(), strict=True))
+
+    def text() -> str:
+        heads = ("time [ns]", "x [um]", "velocity [m/s]")
+        lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
+        return "\n".join([*lines, "", f"stop time  {number(stop * 1e9, 8)} ns"])
+
+    record = {"inputs": inputs_of(case), **lists, "stop_time": stop}
+    rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
+    return _put(options, record, text, rows)
+
+
+def run_converge(options: argparse.Namespace) -> int:
+    from replication.error.ladder import converge, ladder, step_for_digits, text
+
+    case, scheme = case_of(options), options.scheme
+    if options.steps is None:
+        steps = ladder(case.step, options.levels)
+    else:
+        steps = times_of("--steps", options.steps, MOST_STEPS)
+    record = converge(case, steps, scheme)
+    record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
+    warnings = (f"{x['step']!r} s: {said}" for x in record["levels"] for said in x["warnings"])
+    return _put(options, record, lambda: text(record), warnings=warnings)
+
+
+def run_stability(options: argparse.Namespace) -> int:
+    from replication.error import hard_cases
+
+    record = hard_cases.record(options.random, options.seed)
+    return _put(options, record, lambda: hard_cases.text(record))
+
+
+# Many cases: sweep, by a plan; bench, by every method
+
+
+def run_sweep(options: argparse.Namespace) -> int:
+    from replication.sweep import check_output, provenance, read_plan, write
+
+    plan = read_plan(options.plan)
+    output = options.output or Path(f"{options.plan.stem}.csv")
+    check_output(output)
+    if output.resolve() == options.plan.resolve():
+        raise ValueError(f"{output} is the plan itself: give another -o")
+    bar = _progress(options, total=plan.count, unit=" cases", unit_scale=True)
+    with bar, place(str(options.plan)):
+        write(plan, output, done=bar.update)
+    record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
+    text = f"Written: {one_line(str(output))} ({plan.count} cases)"
+    return _tell(options, record | provenance(plan), text)
+
+
+def run_bench(options: argparse.Namespace) -> int:
+    from replication.bench import CASES, bench, texts, write
+    from spreadsheets.safely import check_folder
+
+    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
+    if options.out is not None:
+        check_folder(options.out, ["bench.txt"])
+    repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
+    if options.limit is not None:
+        with place("--limit"):
+            limit = read_number(options.limit, "s")
+    # Without a terminal (None) there is no bar.
+    record = bench(names, options.repeat or repeat, limit, quiet=options.quiet or None)
+    if options.out is not None:
+        write(options.out, record)
+    form = "json" if options.json else "csv" if options.csv else "txt"
+    sys.stdout.write(texts(record)[f"bench.{form}"])
+    return 0
+
+
+# Somebody's workbook: check, against the report's sheet; diff, against another one
+
+
+def run_check(options: argparse.Namespace) -> int:
+    """Check, and say what was found: 1 if the workbook is not the report's sheet."""
+    _check_files(options, options.file)
+    from replication.check.examination import KINDS
+    from replication.check.show import check_record
+    from replication.check.workbook import check
+
+    mapping = {}
+    for text in options.map:
+        name, _, where = text.partition("=")
+        if not where:
+            raise ValueError(f"--map {text[:60]!r}: give NAME=RANGE, such as depth=D8:D139")
+        mapping[name.strip().replace("-", "_")] = where.strip()
+    checked = check(options.file, mapping)
+    return _put_found(
+        options, check_record(checked), checked.differences, checked.calculation, KINDS
+    )
+
+
+def run_diff(options: argparse.Namespace) -> int:
+    """Compare, and say what was found: 1 if anything differs."""
+    _check_files(options, options.first, options.second)
+    from replication.check.diff import KINDS, Tolerance, diff
+    from replication.check.show import diff_record
+
+    allowed = Tolerance(options.ulp, options.relative, options.digits)
+    both = options.first, options.second
+    comparison = diff(*both, values_only=options.values_only, allowed=allowed)
+    record = diff_record(comparison)
+    return _put_found(options, record, comparison.differences, comparison.after, KINDS)
+
+
+def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
+    """Raise OSError or ValueError, before any work, where a file cannot or must not be written."""
+    from spreadsheets.safely import check_target
+
+    files = [file for file in (options.html, options.junit) if file is not None]
+    written = [str(check_target(file)) for file in files]
+    read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
+    if len({*written, *read}) < len(written) + len(read):
+        raise ValueError("--html and --junit each need a file of their own, none that is read")
+
+
+def _put_found(
+    options: argparse.Namespace,
+    record: dict[str, Any],
+    differences: "Sequence[Difference]",
+    calculation: "Calculation",
+    kinds: Sequence[str],
+) -> int:
+    """Write the files that were asked for, then print the record as JSON or as text: the status."""
+    from replication.check import show
+    from spreadsheets.safely import write_bytes
+
+    if options.html is not None:
+        write_bytes(options.html, show.html(record, differences, calculation).encode())
+    if options.junit is not None:
+        write_bytes(options.junit, show.junit(record, kinds).encode())
+    _tell(options, record, show.text(record))
+    return 0 if record["clean"] else 1
+
+
+# How they print
+
+
+def _put(
+    options: argparse.Namespace,
+    record: Any,
+    text: Callable[[], str],
+    rows: Sequence[Mapping[str, Any]] = (),
+    warnings: Iterable[object] = (),
+) -> int:
+    """Print what a command found as JSON, as rows of CSV or as text, as it was asked to; 0.
+
+    Warnings go to standard error, but not beside JSON: they stand in the record.
+    """
+    if options.json:
+        sys.stdout.write(json_text(record))
+        return 0
+    if "csv" in options and options.csv:
+        sys.stdout.write(rows_csv(rows))
+    else:
+        print(text())
+    _warn(options, warnings)
+    return 0
+
+
+def _tell(options: argparse.Namespace, record: Any, text: str) -> int:
+    """Print what a command has done as JSON, or as text unless quiet; 0."""
+    if options.json or not options.quiet:
+        sys.stdout.write(json_text(record) if options.json else f"{text}\n")
+    return 0
+
+
+def _warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:
+    """Warnings on standard error, unless quiet."""
+    if not options.quiet:
+        for warning in warnings:
+            print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
+
+
+def _width(piped: int = 80) -> int:
+    """The columns of the terminal; where output goes elsewhere, so many."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
+
+
+def _may_emphasize() -> bool:
+    """Whether output may be bold: to a terminal that can, and NO_COLOR is not set."""
+    is_able = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    return is_able and not os.environ.get("NO_COLOR")
+
+
+def _progress(options: argparse.Namespace, **settings: Any) -> Any:
+    """A progress bar, unless quiet; none without a terminal, which is what None asks for."""
+    from tqdm import tqdm
+
+    return tqdm(**settings, disable=options.quiet or None)
