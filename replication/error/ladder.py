@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
 from itertools import islice, pairwise
 from typing import Any
 
@@ -22,12 +21,7 @@ Level = dict[str, Any]
 
 def exact_motion(impact: Impact) -> Trajectory:
     """The exact motion for a case, its inputs taken as the doubles that they are; to 50 digits."""
-    return _motion(*impact.motion.values())
-
-
-@lru_cache(maxsize=8)  # the steps of a ladder share one motion
-def _motion(*inputs: float) -> Trajectory:
-    return Trajectory(*map(Fraction, inputs), digits=50)
+    return Trajectory(*map(Fraction, impact.motion.values()), digits=50)
 
 
 def split(sheet: Sheet) -> tuple[float, Budget]:
