@@ -21,8 +21,8 @@ import numpy.typing as npt
 
 from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
+from replication.models.estimates import particle_velocity
 from replication.models.impact import Impact, InputError, check, particle_mass
-from replication.models.stream import particle_velocity
 from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
 from spreadsheets.safely import check_target, draft_of
 

@@ -19,7 +19,7 @@ from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DIGITS
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
-from replication.models import crater, depth, frank_zook, resistance, stream
+from replication.models import crater, depth, estimates
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
@@ -351,7 +351,7 @@ def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
 
 
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
-    ratio, k_t = frank_zook.sphere_length_ratio(), si["k_t"]
+    ratio, k_t = estimates.sphere_length_ratio(), si["k_t"]
     v, target = impact.velocity, impact.target_density
     values: Tree = {"length_ratio": ratio}
     for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
@@ -360,8 +360,8 @@ def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
         values[which] = {
             "resistance": r_t,
             "pressure": k_t * target * v * v / r_t,
-            "as_printed": frank_zook.depth_as_printed(*arguments),
-            "derived": frank_zook.depth_derived(*arguments),
+            "as_printed": estimates.frank_zook_as_printed(*arguments),
+            "derived": estimates.frank_zook_derived(*arguments),
         }
     return values
 
@@ -390,16 +390,16 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
     for which, size in sizes.items():
         mass = particle_mass(size / 2, impact.particle_density)
-        velocity = stream.particle_velocity(impact.velocity, mass, impact.mass)
+        velocity = estimates.particle_velocity(impact.velocity, mass, impact.mass)
         values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
     return values
 
 
 def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
-    alpha = resistance.walker_anderson_alpha(si["E_t"], si["Y_steel"])
+    alpha = estimates.walker_anderson_alpha(si["E_t"], si["Y_steel"])
     betas = {
-        "goodier_beta": resistance.goodier_beta(si["q_Y"]),
-        "walker_anderson_beta": resistance.walker_anderson_beta(alpha),
+        "goodier_beta": estimates.goodier_beta(si["q_Y"]),
+        "walker_anderson_beta": estimates.walker_anderson_beta(alpha),
         "brinell_beta": si["HB_ratio"],
     }
     grains = {name: si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
@@ -412,11 +412,11 @@ def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
         "mean_grain": mean,
         "clear_over_bulk": grains["clear"] / grains["bulk"],
         "grain_over_bulk": mean / grains["bulk"],
-        "strain_rate": stream.strain_rate(si["V_impact"], si["L_typ"]),
+        "strain_rate": estimates.strain_rate(si["V_impact"], si["L_typ"]),
     }
     for page, sheet in runs:
         impact, r_t = sheet.impact, sheet.impact.target_resistance
-        stress = resistance.centerline_stress(impact.target_density, impact.velocity, r_t)
+        stress = estimates.centerline_stress(impact.target_density, impact.velocity, r_t)
         values[page.slug] = {
             "target_resistance": r_t,
             "centerline_stress": stress,

@@ -23,7 +23,7 @@ from replication.audit import record as r
 from replication.audit import wording
 from replication.audit.explain import Explainer
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
-from replication.models import crater, depth, frank_zook, sheet
+from replication.models import crater, depth, estimates, sheet
 from replication.models.impact import Impact
 
 Value = Fraction | float | bool
@@ -269,7 +269,7 @@ def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
     inputs = {key: known[name] for key, (name,) in stainless.inputs.items()}
 
     def distance(resistance: Fraction) -> float:
-        depth = frank_zook.depth_derived(**{**inputs, "resistance": float(resistance)})
+        depth = estimates.frank_zook_derived(**{**inputs, "resistance": float(resistance)})
         return abs(depth - known["observed-depth-ratio"])
 
     grid = strength.number.quantum * strength.si

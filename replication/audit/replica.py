@@ -7,7 +7,7 @@ written separately, and the audit compares them.
 import math
 from collections.abc import Callable, Mapping
 
-from replication.models import crater, frank_zook, resistance, sheet, stream
+from replication.models import crater, estimates, sheet
 from replication.models.impact import Impact, particle_mass
 
 
@@ -46,23 +46,23 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "half": lambda value: value / 2,
     "radius_of": lambda diameter: diameter / 2,
     "diameter_of": lambda radius: 2 * radius,
-    "sphere_length_ratio": lambda length_ratio: length_ratio * frank_zook.sphere_length_ratio(),
+    "sphere_length_ratio": lambda length_ratio: length_ratio * estimates.sphere_length_ratio(),
     "sphere_volume": lambda diameter: crater.volume(diameter / 2),
     "crater_normalized_depth": lambda volume_ratio: _crater(volume_ratio),
     "crater_depth": lambda volume_ratio, diameter: _crater(volume_ratio) * diameter / 2,
     "crater_depth_over_diameter": lambda volume_ratio: _crater(volume_ratio) / 2,
     "contact_diameter": crater.contact_diameter,
-    "target_resistance": resistance.target_resistance,
+    "target_resistance": estimates.target_resistance,
     # A stress times a length to this power is a force: log2 of what doubling the length does.
     "force_power": lambda: math.log2(crater.contact_diameter(1.0, 2.0) ** 2),
-    "goodier_beta": lambda q, power: resistance.goodier_beta(q) * 2 ** (power - 2),
-    "walker_anderson_alpha": resistance.walker_anderson_alpha,
-    "walker_anderson_beta": lambda **steel: resistance.walker_anderson_beta(
-        resistance.walker_anderson_alpha(**steel)
+    "goodier_beta": lambda q, power: estimates.goodier_beta(q) * 2 ** (power - 2),
+    "walker_anderson_alpha": estimates.walker_anderson_alpha,
+    "walker_anderson_beta": lambda **steel: estimates.walker_anderson_beta(
+        estimates.walker_anderson_alpha(**steel)
     ),
     "least_beta": lambda **betas: min(betas.values()),
     "greatest_beta": lambda **betas: max(betas.values()),
-    "strain_rate": stream.strain_rate,
+    "strain_rate": estimates.strain_rate,
     "particle_mass": particle_mass,
     "row_time": lambda row, step: row * step,
     "row_velocity_initial": _cell("velocity_initial"),
@@ -71,6 +71,6 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "row_velocity_final": _cell("velocity_final"),
     "deceleration_at_start": _deceleration_at_start,
     "final_sheet_depth": lambda scheme, **case: sheet.run(Impact(**case), scheme).final_depth,
-    "frank_zook_as_printed": frank_zook.depth_as_printed,
-    "frank_zook_derived": frank_zook.depth_derived,
+    "frank_zook_as_printed": estimates.frank_zook_as_printed,
+    "frank_zook_derived": estimates.frank_zook_derived,
 }

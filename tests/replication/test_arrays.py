@@ -26,7 +26,7 @@ from kept import kept, said
 
 import replication
 from replication.cases import BETA_5
-from replication.models import arrays, depth, impact, motion, sheet, stream
+from replication.models import arrays, depth, estimates, impact, motion, sheet
 from replication.models.arrays import history, run_many, ufunc
 from replication.models.impact import Impact, InputError
 
@@ -70,7 +70,7 @@ MODELS: dict[Callable[..., Any], tuple[tuple[float, float], ...]] = {
     motion.time_to_depth: ((1e-18, 1e-12), (1, 1e5), (1e-6, 1), *MOTION[2:]),
     motion.stop_time: (*MOTION, (1e-9, 1e-6)),
     impact.particle_mass: MOTION[1:3],
-    stream.particle_velocity: (MOTION[0], (1e-15, 1e-6), (1e-15, 1e-6)),
+    estimates.particle_velocity: (MOTION[0], (1e-15, 1e-6), (1e-15, 1e-6)),
 }
 """All that is compiled one number at a time, by the functions for arrays and by sweeps."""
 

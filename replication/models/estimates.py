@@ -1,0 +1,111 @@
+"""What the report estimates beside the penetration itself: stream, resistance, Frank and Zook.
+
+The stream of particles (Eq. 1), the strain rate, the target resistance and its factor beta by two
+routes (Eqs. 7-11), the centerline stress, and the Frank-Zook depth of a noneroding penetrator
+(Eqs. 14-17), derived and as printed.
+"""
+
+import math
+
+
+def particle_velocity(average_velocity: float, mass: float, average_mass: float) -> float:
+    """V_p = V (m_o / m)^(1/2) [m/s] (Eq. 1): V [m/s], m and m_o in the same unit.
+
+    >>> particle_velocity(500.0, 4.0, 1.0)
+    250.0
+    """
+    return average_velocity * math.sqrt(average_mass / mass)
+
+
+def strain_rate(velocity: float, length: float) -> float:
+    """Estimate V / L [1/s] (section 3): impact velocity [m/s] over a typical dimension [m].
+
+    >>> f"{strain_rate(500.0, 20e-6):.1e}"
+    '2.5e+07'
+    """
+    return velocity / length
+
+
+def target_resistance(beta: float, flow_stress: float) -> float:
+    """R_t = beta Y_t [Pa] (Eqs. 7, A-2); beta [1], flow stress Y_t [Pa].
+
+    >>> target_resistance(5.0, 700e6)
+    3500000000.0
+    """
+    return beta * flow_stress
+
+
+def goodier_beta(q_over_flow_stress: float) -> float:
+    """Goodier: beta = 4 (q / Y_t) / pi [1], from F_r = q (2a)^2 = pi a^2 R_t (Eqs. 8-9 with n = 2).
+
+    >>> f"{goodier_beta(2.77):.1f}"
+    '3.5'
+    """
+    return 4 * q_over_flow_stress / math.pi
+
+
+def walker_anderson_alpha(elastic_modulus: float, flow_stress: float) -> float:
+    """Extent of the plastic zone, alpha = (2 E_t / 3 Y_t)^(1/3) [1] (Eq. 11); both in [Pa].
+
+    >>> f"{walker_anderson_alpha(200e9, 215e6):.1f}"
+    '8.5'
+    """
+    return math.cbrt(2 * elastic_modulus / (3 * flow_stress))
+
+
+def walker_anderson_beta(alpha: float) -> float:
+    """beta = 7/3 ln(alpha) [1] (Eq. 10).
+
+    >>> f"{walker_anderson_beta(walker_anderson_alpha(200e9, 215e6)):.1f}"
+    '5.0'
+    """
+    return 7 / 3 * math.log(alpha)
+
+
+def centerline_stress(target_density: float, velocity: float, resistance: float) -> float:
+    """Axial stress Sigma = rho_t v^2 / 2 + R_t [Pa] of a rigid particle (Eqs. 5-6, v = u).
+
+    By Eq. 5 it is also the least particle strength Y_p [Pa] at which the particle stays rigid.
+
+    >>> f"{centerline_stress(7850.0, 500.0, 3.5e9) / 1e9:.2f}"
+    '4.48'
+    """
+    return target_density * velocity * velocity / 2 + resistance
+
+
+def frank_zook_as_printed(
+    length_ratio: float, particle_density: float, target_density: float, k_1: float, k_t: float,
+    resistance: float, velocity: float,
+) -> float:  # fmt: skip
+    """X/R [1] as Eq. 16 prints it.
+
+    length_ratio L/D [1], densities [kg/m^3], k_1 and k_t [1], R_t [Pa], V [m/s].
+
+    >>> f"{frank_zook_as_printed(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
+    '0.127'
+    """
+    inertia = (length_ratio * particle_density / target_density + k_1) / (2 * k_t)
+    return inertia * math.log1p(k_t * target_density * velocity * velocity / resistance)
+
+
+def frank_zook_derived(*inputs: float, **named: float) -> float:
+    """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
+
+    -(L rho_p + k_1 rho_t D) dv/dt = k_t rho_t v^2 + R_t, integrated from V to rest, is X/D =
+    ((L/D) (rho_p/rho_t) + k_1) / (2 k_t) ln(1 + k_t rho_t V^2 / R_t): the right side of Eq. 16, but
+    for the depth in *diameters*. Eq. 16 prints X/R in front of it.
+
+    >>> f"{frank_zook_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
+    '0.255'
+    """
+    return 2 * frank_zook_as_printed(*inputs, **named)
+
+
+def sphere_length_ratio() -> float:
+    """L/D [1] of the cylinder of the sphere's mass and diameter (section 3): 2/3.
+
+    >>> sphere_length_ratio() == 2 / 3
+    True
+    """
+    # (pi / 6) D^3 = (pi / 4) D^2 L
+    return (1 / 6) / (1 / 4)
