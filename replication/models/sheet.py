@@ -10,6 +10,7 @@ power), and a row's time is `k * dt`, not a running sum.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -82,18 +83,15 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     (131, '7.67')
     """
     check_scheme(scheme)
-    dt, v_stop, v, x = impact.step, impact.stop_velocity, impact.velocity, 0.0
-    R, M, rho_t, R_t = impact.radius, impact.mass, impact.target_density, impact.target_resistance
-    rows = [Row(0.0, v, x, 0.0, None)]
-    many = _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS
-    while v >= v_stop:
-        k = len(rows)
-        if many or k > MAX_STEPS:
+    dt, v_stop = impact.step, impact.stop_velocity
+    inputs = *impact.motion.values(), dt, v_stop
+    rows = [Row(0.0, impact.velocity, 0.0, 0.0, None)]
+    for k, v, x, a, v_final in _rows(scheme == "centered", *inputs):
+        if k > MAX_STEPS:
             raise refusal(math.nan, dt, v_stop)
-        x, a, v_final = _next_row(k, x, v, dt, scheme == "centered", R, M, rho_t, R_t)
         rows.append(Row(k * dt, v, x, a, v_final))
-        v = v_final
-    if not math.isfinite(x + rows[-1].deceleration + v):  # it only overflows in a last row
+    last = rows[-1]  # it only overflows in a last row
+    if not math.isfinite(last.depth + last.deceleration + (last.velocity_final or 0.0)):
         raise refusal(math.inf, dt, v_stop)
     return Sheet(impact, tuple(rows), scheme)
 
@@ -111,27 +109,36 @@ def last_row(
     >>> f"{depth[0] * 1e6:.2f}", steps[0]
     ('7.67', 131)
     """
-    dt, v_stop, v, x, k = step, stop_velocity, velocity, 0.0, 0
-    R, M, rho_t, R_t = radius, particle_mass(radius, particle_density), target_density, resistance
+    x, k = 0.0, 0
+    motion = velocity, radius, particle_density, target_density, resistance
+    for k, _, x, _, _ in _rows(centered, *motion, step, stop_velocity):
+        if k > MAX_STEPS:
+            x = math.nan
+            break
+    depth[0], steps[0] = x, k
+
+
+def _rows(
+    centered: bool, V: float, R: float, rho_p: float, rho_t: float, R_t: float, dt: float,
+    v_stop: float,
+) -> Iterator[tuple[int, float, float, float, float]]:  # fmt: skip
+    """Number, initial velocity, depth, deceleration and final velocity of the rows from 1 on.
+
+    Where more than `MAX_STEPS` are needed a number beyond that comes; at once, where it is plain.
+    """
+    k, x, v, M = 0, 0.0, V, particle_mass(R, rho_p)
     if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
-        k = MAX_STEPS + 1
-    while v >= v_stop and k <= MAX_STEPS:
+        k = MAX_STEPS
+    while v >= v_stop:
         k += 1
-        x, _, v = _next_row(k, x, v, dt, centered, R, M, rho_t, R_t)
-    depth[0], steps[0] = x if k <= MAX_STEPS else math.nan, k
-
-
-def _next_row(
-    k: int, x: float, v: float, dt: float, centered: bool, R: float, M: float, rho_t: float,
-    R_t: float,
-) -> tuple[float, float, float]:  # fmt: skip
-    """Depth, deceleration and final velocity of row k, from the depth of the row before and v."""
-    # The half step to start: x is half a step behind the velocity that closes the row.
-    x = v * (dt / 2) if k == 1 else x + v * dt
-    a = deceleration(x, v, R, M, rho_t, R_t)
-    if centered:
-        a = deceleration(x, v - a * (dt / 2), R, M, rho_t, R_t)
-    return x, a, v - a * dt
+        # The half step to start: x is half a step behind the velocity that closes the row.
+        x = v * (dt / 2) if k == 1 else x + v * dt
+        a = deceleration(x, v, R, M, rho_t, R_t)
+        if centered:
+            a = deceleration(x, v - a * (dt / 2), R, M, rho_t, R_t)
+        v_final = v - a * dt
+        yield k, v, x, a, v_final
+        v = v_final
 
 
 def deceleration(x: float, v: float, R: float, M: float, rho_t: float, R_t: float) -> float:
