@@ -251,13 +251,12 @@ def _each(function: Any, *values: Any) -> Any:
     views += [np.broadcast_to(value, shape) for value in values[1:]]
     results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
 
-    def work(piece: int) -> None:
-        ends = (shape[axis] * k // pieces for k in (piece, piece + 1))
-        cut = (slice(None),) * axis + (slice(*ends),)
-        function(*(view[cut] for view in views), out=tuple(x[cut] for x in results))
+    def work(*parts: Any) -> None:
+        function(*parts[: len(views)], out=parts[len(views) :])
 
+    cut = [np.array_split(array, pieces, axis) for array in (*views, *results)]
     with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
-        list(pool.map(work, range(pieces)))  # which raises what a piece did
+        list(pool.map(work, *cut))  # which raises what a piece did
     return tuple(results) if len(results) > 1 else results[0]
 
 
