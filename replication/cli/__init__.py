@@ -106,14 +106,14 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, own in COMMANDS.items():
-        does = own["does"]
+    for name, takes in COMMANDS.items():
+        does = takes["does"]
         command = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.")
         if name in arguments:
             from replication.cli import commands as home
             from replication.cli.options import declare
 
-            declare(command, own["options"])
+            declare(command, takes)
             command.set_defaults(run=getattr(home, f"run_{name}"))
     for argument in arguments:
         if _DASHES.fullmatch(argument):

@@ -10,12 +10,13 @@ from replication.models.impact import Impact
 from replication.reading import place, quoted, read_number
 
 
-def declare(command: argparse.ArgumentParser, options: dict[str, Any]) -> None:
-    """Declare what a command takes."""
+def declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:
+    """Declare what a command takes, as its table of `options.toml` says."""
     groups: dict[str, argparse._ActionsContainer] = {"": command}
-    for option, said in options.items():
+    for option, said in takes.items():
         if option == "inputs":
             _declare_inputs(command, said)
+        if option in ("does", "inputs"):
             continue
         settings = {"help": said} if isinstance(said, str) else dict(said)
         either, within = settings.pop("either", ""), settings.pop("within", ())
