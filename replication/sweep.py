@@ -244,13 +244,16 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], ByMass | No
                 by_mass = _by_mass(name, value)
             else:
                 sources[name] = read_source(name, value)
+    for name, source in sources.items():
+        for number in source.bounds:
+            check({name: number})
     return sources, by_mass
 
 
 def read_source(name: str, value: Any) -> Source:
-    """The source of an input, all of whose values are such as the input may have.
+    """The source of an input, whose values may yet be such as the input cannot have.
 
-    Raises ValueError that names the key, what is wrong and what would be right.
+    Raises ValueError that says what is wrong and what would be right.
 
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
     (1e-06, 5e-06)
@@ -266,8 +269,6 @@ def read_source(name: str, value: Any) -> Source:
         source = _listed(_spaced(value, INPUTS[name]))
     else:
         raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
-    for number in source.bounds:
-        check({name: number})
     return source
 
 
