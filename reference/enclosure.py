@@ -113,66 +113,6 @@ def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dic
     return value.value, {name: value.slopes.get(name, zero) for name in wide}
 
 
-class Exploration(msgspec.Struct, frozen=True):
-    """What is proven of a function's values over a box, against a target interval.
-
-    `ends` of a range that holds all values. `inside`: a point of the box whose value is proven
-    inside the target, if one is known. `never`: no value in the box is, which is proven.
-    """
-
-    ends: Ends
-    inside: Mapping[str, Fraction] | None
-    never: bool = False
-
-
-def explore(function: Function, box: Box, target: Interval, budget: int = 250) -> Exploration:
-    """Decide whether values over the box fall inside the target interval.
-
-    Where every input acts in one direction, the way from the least to the greatest value is
-    searched; other boxes are cut in halves, of which at most `budget` are looked at.
-
-    >>> box = {"x": (Fraction(0), Fraction(1))}
-    >>> explore(lambda ar, x: x * x - x, box, Interval(Fraction("0.1"), None)).never
-    True
-    """
-    whole = enclose(function, box)
-    if target.excludes(*whole.ends):
-        return Exploration(whole.ends, None, never=True)
-    if whole.is_monotone:
-        inside = _on_the_way(function, box, whole, target) if whole.signs else None
-        return Exploration(whole.ends, inside)
-    outcome, inside = satisfying([(function, target)], box, budget)
-    return Exploration(whole.ends, inside, never=outcome is False)
-
-
-_STEPS = 80
-"""Halvings of a way through a box: down to parts that no printed digit and no double could tell."""
-
-
-def _on_the_way(
-    function: Function, box: Box, range_: Range, target: Interval
-) -> dict[str, Fraction] | None:
-    """A point inside the target on the way from the box's least value to its greatest, if found.
-
-    Not at the corners themselves: an open end of an input's interval does not belong to it.
-    """
-    low, high = Fraction(0), Fraction(1)
-    for _ in range(_STEPS):
-        share = (low + high) / 2
-        point = {
-            name: a + (b - a) * (share if range_.signs.get(name, 1) > 0 else 1 - share)
-            for name, (a, b) in box.items()
-        }
-        ends = _plain(function, _points(point))
-        if target.encloses(*ends):
-            return point
-        if target.lower is not None and ends[0] <= target.lower:
-            low = share
-        else:
-            high = share
-    return None
-
-
 def _middle(box: Box) -> dict[str, Fraction]:
     return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
@@ -303,6 +243,8 @@ def _bracket(
 
 _RESOLUTION = Fraction(1, 2**44)
 """Of a part: how narrow a bracket is made, beyond what any page shows."""
+_STEPS = 80
+"""At most of them, down to a bracket that no printed digit and no double could tell."""
 
 
 def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
@@ -319,47 +261,28 @@ Constraint = tuple[Function, Interval]
 """A function of the inputs in a box, and the interval that its value must fall in."""
 
 
-def extent(
-    constraints: Sequence[Constraint], name: str, box: Box, start: Fraction
-) -> tuple[Ends, Ends]:
-    """How far one input can range while the others may be anywhere in the box.
+def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
+    """How far one input can range at most while the others may be anywhere in the box.
 
-    Every constraint alone bounds the input, with all others at the ends that suit it best. The
-    second pair is the tightest of these bounds: no value beyond it satisfies all constraints. The
-    first is the hull of `start` and of the values that are attained at such corners.
+    Every constraint alone bounds the input, with all others at the ends that suit it best; these
+    are the tightest of such bounds. No value beyond them satisfies all constraints.
+
+    >>> product = (lambda ar, x, y: x * y, Interval(Fraction(2), Fraction(3)))
+    >>> box = {"x": (Fraction(0), Fraction(9)), "y": (Fraction(1), Fraction(2))}
+    >>> [f"{float(end):.3f}" for end in bounds([product], "x", box)]
+    ['1.000', '3.000']
     """
-    outer, attained = list(box[name]), [start]
-    # An open end does not belong to the box: what is attained is sought a little inside.
-    margins = {key: (high - low) / 10**6 for key, (low, high) in box.items() if key != name}
-    inside = {key: (box[key][0] + margin, box[key][1] - margin) for key, margin in margins.items()}
-    ranges = [(*constraint, enclose(constraint[0], box)) for constraint in constraints]
-    monotone = [
-        (function, target, range_.signs, top)
-        for function, target, range_ in ranges
-        if range_.is_monotone
-        for top in (0, 1)
-    ]
-
-    def is_met_at_the_bound(function: Function, target: Interval, top: int) -> bool:
-        return target.encloses(*_plain(function, _points({name: outer[top]})))
-
-    for function, target, signs, top in monotone:
-        best = holding(function, _corner(box, name, signs, top))
-        if is_met_at_the_bound(best, target, top):
-            continue  # it bounds the input farther out
-        if beyond := solve(best, name, box[name], target).outer:
-            bound = beyond[-top][top]
-            outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
-    for function, target, signs, top in monotone:
-        corner = _corner(inside, name, signs, top)
-        best = holding(function, corner)
-        if outer[top] != box[name][top] and is_met_at_the_bound(best, target, top):
-            continue  # what it allows is beyond the bound
-        allowed = solve(best, name, box[name], target).inner
-        value = allowed[-top][top] if allowed else start
-        if _undecided(constraints, _points({**corner, name: value})) == []:
-            attained.append(value)
-    return (min(attained), max(attained)), (outer[0], outer[1])
+    outer = list(box[name])
+    for function, target in constraints:
+        range_ = enclose(function, box)
+        for top in (0, 1) if range_.is_monotone else ():
+            best = holding(function, _corner(box, name, range_.signs, top))
+            if target.encloses(*_plain(best, _points({name: outer[top]}))):
+                continue  # it bounds the input farther out
+            if beyond := solve(best, name, box[name], target).outer:
+                bound = beyond[-top][top]
+                outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
+    return outer[0], outer[1]
 
 
 def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str, Fraction]:

@@ -233,7 +233,7 @@ class Audit(Known):
             interval=_doubles(*inner, inward=True),
             interval_exact=(str(inner[0]), str(inner[1])),
             with_printed_mass=_doubles(*inference.with_mass.scaled(si).ends, inward=True),
-            possible_with_rounded_inputs=rounded and _doubles(*rounded[1].scaled(si).ends),
+            possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
             sources=[] if centered else self.sources(INFERRED + name),

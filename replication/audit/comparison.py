@@ -77,7 +77,7 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     printed = known.ledger.claims["a1-density"].target().ends
     chosen = (known.ledger.claims[name] for name in ("a1-initial-velocity", "a-step"))
     exact = ", ".join(with_unit(claim.shown, claim.unit) for claim in chosen)
-    possible = known.judge.inference(DENSITY).admitted(Convention())[1].ends
+    possible = known.judge.inference(DENSITY).admitted(Convention()).ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),

@@ -317,7 +317,7 @@ class Explainer:
             changed = claim.resting_on(**inputs)
             function = ledger.function(changed)
             at_print = enclose(function, self.judge.printed(changed)).ends
-            everywhere = enclose(function, self.judge.box(changed, rounded)[1]).ends
+            everywhere = enclose(function, self.judge.box(changed, rounded)).ends
             fits = "" if target.excludes(*everywhere) else "not excluded within rounding"
             if target.encloses(*at_print):
                 fits = "as printed"

@@ -77,7 +77,8 @@ class Known:
             if name not in source.claims:
                 continue
             if name.startswith(INFERRED):
-                outcome = f"is {self.judge.inference(name).admits(source.value, source.interval)}"
+                admission = self.judge.inference(name).admits(source.value, source.interval)
+                outcome = f"is {admission.value}"
             else:
                 meets = self.ledger.claims[name].target().meets(source.interval)
                 outcome = "agrees" if meets else "differs"
@@ -241,7 +242,7 @@ def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
     rounded = Convention(choices_exact=choices_exact)
     claims = known.ledger.claims
     box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(DENSITY).admitted(rounded)[1].ends
+    box["density"] = known.judge.inference(DENSITY).admitted(rounded).ends
     return enclose(ratio, box).ends[0]
 
 
@@ -300,7 +301,7 @@ def _least_admitted(known: Known) -> Fraction:
     All inputs are rounded but the velocity; the density is one that the header as printed admits.
     """
     claim = known.ledger.claims["frank-zook-stainless"]
-    box = dict(known.judge.box(claim, Convention(choices_exact=False))[1])
+    box = dict(known.judge.box(claim, Convention(choices_exact=False)))
     box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
     box[DENSITY] = known.judge.inference(DENSITY).outer.ends
     return enclose(known.ledger.function(claim, reading=DERIVED), box).ends[0]
@@ -322,8 +323,8 @@ def _target_density(own: Evidence) -> Mapping[str, Value]:
     inference = known.judge.inference(DENSITY)
     ranges = {
         "": inference.inner,
-        "possible_": inference.admitted(Convention())[1],
-        "rounded_": inference.admitted(Convention(choices_exact=False))[1],
+        "possible_": inference.admitted(Convention()),
+        "rounded_": inference.admitted(Convention(choices_exact=False)),
         "centered_": known.judge.inference(DENSITY, centered=True).inner,
     }
     evidence: dict[str, Value] = {}

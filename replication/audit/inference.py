@@ -1,13 +1,25 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
 from collections.abc import Mapping, Sequence
+from enum import Enum
 from fractions import Fraction
 from functools import cache, cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Box, Constraint, Ends, Solutions, extent, holding, satisfying, solve
+from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, holding, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
+
+
+class Admission(Enum):
+    """Whether the evidence admits a value from somewhere else, and on what condition."""
+
+    ADMITTED = "admitted"
+    AS_ROUNDED = "admitted only as a number that was rounded"
+    HEADER_ROUNDED = "admitted only if the header of Table A-1 is rounded"
+    CHOICES_ROUNDED = "admitted only if what the author chose is rounded, too"
+    UNDECIDED = "undecided"
+    EXCLUDED = "excluded as long as the mass is the sphere's"
 
 
 class Inference:
@@ -25,7 +37,7 @@ class Inference:
     ) -> None:
         self.ledger, self.name, self.centered = ledger, name, centered
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
-        self._narrowed, self._admitted = cache(self._narrow), cache(self._extent)
+        self._narrowed, self._admitted = cache(self._narrow), cache(self._bounds)
         self.each: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             own = claim.resting_on(mass=self.entry.mass) if by_mass else claim
@@ -52,23 +64,20 @@ class Inference:
         """As `inner`, where the particle mass is the printed one."""
         return Inference(self.ledger, self.name, centered=self.centered, by_mass=True).inner
 
-    def admitted(self, convention: Convention) -> tuple[Interval, Interval]:
-        """The values that serve the evidence where inputs are rounded as a convention says.
+    def admitted(self, convention: Convention) -> Interval:
+        """All values that can serve the evidence where inputs are rounded as a convention says.
 
-        The printed mass and diameter are evidence, too. The first interval is the hull of values
-        that were found, the second holds all that there are. How the evidence itself is rounded is
-        no question: cut off, no value would serve it.
+        The printed mass and diameter are evidence, too. How the evidence itself is rounded is no
+        question: cut off, no value would serve it.
         """
         if (convention.choices_exact and convention.header_exact) or not self.agreeing:
-            return self.inner, self.outer
+            return self.outer
         return self._admitted(convention.choices_exact, convention.header_exact)
 
-    def _extent(self, choices_exact: bool, header_exact: bool) -> tuple[Interval, Interval]:
+    def _bounds(self, choices_exact: bool, header_exact: bool) -> Interval:
         convention = Convention(choices_exact=choices_exact, header_exact=header_exact)
-        joint, box = self._joint(convention, by_mass=not header_exact)
-        start = sum(self.inner.ends, Fraction(0)) / 2
-        attained, bounds = extent(joint, self.name, box, start)
-        return Interval(*attained), Interval(*bounds)
+        constraints, box = self.joint(convention, {self.name: self.entry.search})
+        return Interval(*bounds(constraints, self.name, box))
 
     def rounded(self, name: str, convention: Convention) -> Ends:
         """The values of an input that print like it, and for which what shows it alone does so.
@@ -85,78 +94,54 @@ class Inference:
                 low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
         return low, high
 
-    def _joint(
-        self, convention: Convention, *, by_mass: bool, also: Sequence[Constraint] = ()
-    ) -> tuple[list[Constraint], dict[str, Ends]]:
-        """All evidence at once, and the box of those of its inputs that may be other than printed.
+    def joint(
+        self, convention: Convention, box: Box, also: Sequence[Constraint] = ()
+    ) -> tuple[list[Constraint], Box]:
+        """All evidence at once and what `also` must hold, and the box with all of their inputs.
 
-        The printed mass and density tell the radius more closely than its own print does: with
-        `by_mass` the mass is free in its place.
+        The printed mass and density tell the radius more closely than its own print does: where
+        the header is rounded, the mass is free in its place.
         """
-        radius, mass, density = self.entry.radius, self.entry.mass, self.entry.density
-
-        def box(names: set[str]) -> dict[str, Ends]:
-            ends = {name: self.rounded(name, convention) for name in sorted(names)}
-            free = {name: (low, high) for name, (low, high) in ends.items() if low != high}
-            return {**free, self.name: self.entry.search}
-
-        def of_mass(function: Function) -> Function:
-            def by_radius(ar: Arithmetic, **entries: Number) -> Number | Fraction:
-                volume = entries[mass] / entries[density]
-                own = ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
-                return function(ar, **{**entries, radius: own})
-
-            return by_radius
-
-        free, constraints = box(self.inputs), list[Constraint]()
-        for claim in self._joining:
-            function = self.ledger.function(claim, centered=self.centered)
-            printed = {name: self.ledger.value(name) for name in claim.entries if name not in free}
-            constraints.append((holding(function, printed), claim.target()))
+        claims, entry, names = self.ledger.claims, self.entry, self.inputs
+        constraints: list[Constraint] = [
+            (self.ledger.function(claim, centered=self.centered), claim.target())
+            for claim in self._joining
+        ]
         constraints += also
-        if not by_mass:
-            return constraints, free
-        own = self.ledger.claims[radius].as_input(convention)
-        constraints.append((lambda _, **entries: entries[radius], own))
-        by_radius = [(of_mass(function), target) for function, target in constraints]
-        return by_radius, box(self.inputs - {radius} | {mass})
+        if not convention.header_exact:
+            printed = claims[entry.radius].as_input(convention)
+            constraints.append((lambda _, **entries: entries[entry.radius], printed))
+            constraints = [(self._of_mass(function), target) for function, target in constraints]
+            names = names - {entry.radius} | {entry.mass}
+            box = {name: ends for name, ends in box.items() if name != entry.radius}
+        own = {name: self.rounded(name, convention) for name in sorted(names)}
+        return constraints, {**box, **own}
 
-    def holds_at(self, point: Mapping[str, Fraction], convention: Convention) -> bool:
-        """Whether the evidence can hold at a point; other inputs are within their rounding."""
-        by_mass = not convention.header_exact and self.entry.radius not in point
-        joint, box = self._joint(convention, by_mass=by_mass)
-        fixed = {name: (x, x) for name, x in point.items() if name in box}
-        return satisfying(joint, {**box, **fixed})[0] is True
+    def _of_mass(self, function: Function) -> Function:
+        """A function of the radius as one of the particle's mass and density."""
+        entry = self.entry
 
-    def excludes(
-        self, function: Function, target: Interval, convention: Convention, box: Box, budget: int
-    ) -> bool:
-        """Whether no inputs of the box give a number in the target and the evidence, too."""
-        by_mass = not convention.header_exact
-        joint, own = self._joint(convention, by_mass=by_mass, also=[(function, target)])
-        whole = {**box, **own}
-        if by_mass:
-            whole.pop(self.entry.radius, None)
-        return satisfying(joint, whole, budget)[0] is False
+        def by_mass(ar: Arithmetic, **entries: Number) -> Number | Fraction:
+            volume = entries[entry.mass] / entries[entry.density]
+            own = ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
+            return function(ar, **{**entries, entry.radius: own})
 
-    def admits(self, value: Fraction, range_: Interval) -> str:
+        return by_mass
+
+    def admits(self, value: Fraction, range_: Interval) -> Admission:
         """What the evidence says of a value that is printed, with its range, somewhere else."""
         if self.inner.contains(value):
-            return "admitted"
+            return Admission.ADMITTED
         if not self.inner.excludes(*range_.ends):
-            return "admitted only as a number that was rounded"
-        rounded = {
-            "admitted only if the header of Table A-1 is rounded": Convention(),
-            "admitted only if what the author chose is rounded, too": Convention(
-                choices_exact=False
-            ),
-        }
-        for words, convention in rounded.items():
-            joint, box = self._joint(convention, by_mass=True)
-            admitted = satisfying(joint, {**box, self.name: range_.ends})[0]
+            return Admission.AS_ROUNDED
+        for admission, convention in (
+            (Admission.HEADER_ROUNDED, Convention()),
+            (Admission.CHOICES_ROUNDED, Convention(choices_exact=False)),
+        ):
+            admitted, _ = satisfying(*self.joint(convention, {self.name: range_.ends}))
             if admitted is not False:
-                return words if admitted else "undecided"
-        return "excluded as long as the mass is the sphere's"
+                return admission if admitted else Admission.UNDECIDED
+        return Admission.EXCLUDED
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:

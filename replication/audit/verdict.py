@@ -12,7 +12,7 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Reals
-from reference.enclosure import Box, Ends, enclose, explore
+from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
@@ -204,47 +204,40 @@ class Judge:
                     yield judged(Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
-        """The inputs as printed do not give the number: do any that print like them?"""
+        """The inputs as printed do not give the number: do any that print like them?
+
+        They must give the numbers, too, from which an input is inferred.
+        """
         target = claim.target(convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
-        inferences = [self.inference(e, centered=convention.centered) for e in claim.inferred]
+        box = self.box(claim, convention)
+        ends = enclose(function, box).ends
+        judged = partial(_judgement, claim, convention)
+        if target.excludes(*ends):
+            return judged(Verdict.NOT_REPRODUCED, ends)
+        constraints = [(function, target)]
+        for entry in claim.inferred:
+            inference = self.inference(entry, centered=convention.centered)
+            constraints, box = inference.joint(convention, box, constraints)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        narrow, whole = self.box(claim, convention)
-        for box in (whole,) if narrow == whole else (narrow, whole):
-            search = explore(function, box, target, budget)
-            witness = search.inside
-            if witness is not None and all(own.holds_at(witness, convention) for own in inferences):
-                ends = enclose(function, whole).ends
-                return _judgement(claim, convention, Verdict.WITHIN_ROUNDING, ends, witness)
-        against_evidence = witness is not None and any(
-            own.excludes(function, target, convention, whole, budget) for own in inferences
-        )
-        never = search.never or against_evidence
-        verdict = Verdict.NOT_REPRODUCED if never else Verdict.UNDECIDED
-        return _judgement(claim, convention, verdict, search.ends, None, against_evidence)
+        outcome, witness = satisfying(constraints, box, budget)
+        if outcome is None:
+            return judged(Verdict.UNDECIDED, ends)
+        if outcome:
+            return judged(Verdict.WITHIN_ROUNDING, ends, witness)
+        return judged(Verdict.NOT_REPRODUCED, ends, None, bool(claim.inferred))
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
-    def box(self, claim: Claim, convention: Convention) -> tuple[Box, Box]:
-        """Inputs that print like the report's: a narrow box, to search first, and one with all.
-
-        An inferred input has the values that were found, or all that its evidence admits. In the
-        narrow box what this evidence rests on is exact where the author chose it.
-        """
-        claims, exact = self.ledger.claims, replace(convention, choices_exact=True)
-        inferred = {e: self.inference(e, centered=convention.centered) for e in claim.inferred}
-        evidence = {name for inference in inferred.values() for name in inference.inputs}
-        narrow, whole = dict[str, Ends](), dict[str, Ends]()
-        for entry in claim.stated:
-            usual = exact if entry in evidence else convention
-            narrow[entry] = claims[entry].as_input(usual).ends
-            whole[entry] = claims[entry].as_input(convention).ends
-        for entry, inference in inferred.items():
-            narrow[entry] = inference.admitted(exact)[0].ends
-            whole[entry] = inference.admitted(convention)[1].ends
-        return narrow, whole
+    def box(self, claim: Claim, convention: Convention) -> Box:
+        """All inputs of a claim that print like the report's, or that its evidence admits."""
+        claims, centered = self.ledger.claims, convention.centered
+        box = {entry: claims[entry].as_input(convention) for entry in claim.stated}
+        for entry in claim.inferred:
+            box[entry] = self.inference(entry, centered=centered).admitted(convention)
+        return {entry: interval.ends for entry, interval in box.items()}
 
     def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
         """A proven range of a claim's values, in SI; one exact value where that can be told."""
