@@ -43,6 +43,11 @@ Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 
 
+FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
+"""The report has the first two. The others are for findings: e^x - 1, X/R of a crater's CV/PV, the
+share of a normal distribution below x, and x to three digits."""
+
+
 @cache
 def _token(written: tuple[str, ...]) -> re.Pattern[str]:
     """What an expression is made of, with the symbols as they are written."""
@@ -50,7 +55,7 @@ def _token(written: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile(
         r"(?P<space>(?:\s|\\quad|&)*)(?:"
         r"(?P<number>\d+(?:\.\d+)?)"
-        r"|(?P<function>\\(?:ln|log)(?![a-zA-Z]))"
+        rf"|(?P<function>\\(?:{'|'.join(FUNCTIONS)})(?![a-zA-Z]))"
         r"|(?P<fraction>\\frac(?![a-zA-Z]))"
         r"|(?P<sign>[-+/^(){}])"
         r"|(?P<end>\Z)"
@@ -204,7 +209,10 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
             if power.denominator == 1 and power > 0:
                 return value(base) ** int(power)
             return ar.power(value(base), power)
-        return _OPERATIONS[node.kind](ar, *map(value, node.parts))
+        numbers = map(value, node.parts)
+        if node.kind in _OPERATIONS:
+            return _OPERATIONS[node.kind](ar, *numbers)
+        return getattr(ar, node.kind)(*numbers)
 
     return value(node)
 

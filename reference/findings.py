@@ -7,7 +7,7 @@ no longer agrees, the finding says so.
 
 import operator
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from string import ascii_uppercase
@@ -16,7 +16,7 @@ from typing import Literal
 import msgspec
 
 from reference.arithmetic import Reals
-from reference.equations import Node, evaluate, read_expression
+from reference.equations import FUNCTIONS, Node, evaluate, read_expression
 from reference.formulas import Entry
 from reference.ledger import load as load_ledger
 from reference.ledger import tables
@@ -33,15 +33,19 @@ class Assertion(Entry, frozen=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
     `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
-    before one. Where it is "yes" or "no", a proof must have had that outcome. It is computed by a
-    `formula`, as the `exact` X/R with some inputs changed, or is how often the report has `words`.
+    before one. Where it is "yes" or "no", a proof must have had that outcome. How it is computed is
+    said by the other keys, which the head of the file explains.
     """
 
     says: str
     means: str
     unit: str = "1"
     formula: str = ""
+    over: Mapping[Literal["exact", "usual", "rounded"], Sequence[str]] = {}
     exact: Mapping[str, str] = {}
+    run: Mapping[str, str] = {}
+    verdicts: Mapping[str, str] = {}
+    under: Mapping[str, bool | str] = {}
     words: str = ""
 
     @property
@@ -54,6 +58,11 @@ class Assertion(Entry, frozen=True):
         """The number, or yes or no."""
         return self.says.rpartition(" ")[2]
 
+    @property
+    def is_outcome(self) -> bool:
+        """Whether it is no number, but yes or no."""
+        return self.text in ("yes", "no")
+
     def holds(self, computed: Fraction | float | bool) -> bool:
         """Whether the computed number (in `unit`) or outcome is as asserted.
 
@@ -61,7 +70,7 @@ class Assertion(Entry, frozen=True):
         >>> ratio.holds(1.1476), ratio.holds(1.1469)
         (True, False)
         """
-        if self.text in ("yes", "no"):
+        if self.is_outcome:
             return computed is (self.text == "yes")
         printed, value = parse(self.text), Fraction(computed)
         if self.relation:
@@ -73,7 +82,8 @@ class Finding(Entry, frozen=True, kw_only=True):
     """One finding as asserted, its texts with the printed and the asserted numbers in them.
 
     `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
-    open; `steps`: the lines of arithmetic in its texts, and whether they hold.
+    open; `where`: formulas of values that are no evidence themselves; `steps`: the lines of
+    arithmetic in its texts, and whether they hold.
     """
 
     id: str
@@ -87,6 +97,7 @@ class Finding(Entry, frozen=True, kw_only=True):
     statement: str
     by_hand: str = ""
     settle: str = ""
+    where: Mapping[str, str] = {}
     evidence: dict[str, Assertion]
     steps: dict[str, bool] = msgspec.field(default_factory=dict)
 
@@ -147,8 +158,8 @@ def expression(text: str) -> tuple[Node, set[str]]:
 
     def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
         letter = ascii_uppercase[len(names)]
-        return r"\ln" if match[0] == "ln" else names.setdefault(match[0], letter)
+        return f"\\{match[0]}" if match[0] in FUNCTIONS else names.setdefault(match[0], letter)
 
-    line = re.sub(r"(?<![\w.-])[a-z][\w:.-]*", written, text).replace("*", " ").strip()
+    line = re.sub(r"(?<![\w.-])(?:\d+-)?[a-z][\w:.-]*", written, text).replace("*", " ").strip()
     symbols = {letter: name for name, letter in names.items()}
     return read_expression(line, dict.fromkeys(ascii_uppercase, "") | symbols), {*names} - {"pi"}

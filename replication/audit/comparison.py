@@ -12,7 +12,6 @@ from replication.audit.findings import (
     DERIVED,
     Known,
     case,
-    constant_pressure_ratio,
     exact_ratio,
 )  # fmt: skip
 from replication.models import depth, motion, sheet
@@ -61,6 +60,16 @@ def approaches(known: Known) -> list[r.Approach]:
                    printed=claims[claim].shown if claim else "")
         for kind, name, value, claim in rows
     ]  # fmt: skip
+
+
+def constant_pressure_ratio(impact: Impact) -> float:
+    """X/R [1] of a crater at the constant pressure R_t: the model without the target's inertia.
+
+    Its work R_t CV is the kinetic energy rho_p PV V^2 / 2, so CV/PV = rho_p V^2 / (2 R_t); beyond
+    half a sphere the crater goes on as a cylinder.
+    """
+    ratio = impact.particle_density * impact.velocity**2 / (2 * impact.target_resistance)
+    return depth_from_volume_ratio(ratio) if ratio <= 0.5 else (1 + 4 * ratio) / 3
 
 
 # What the depth depends on

@@ -1,27 +1,31 @@
 """The findings: the evidence of each, computed anew from the ledger, the verdicts and the models.
 
-What arithmetic gives is a formula of `reference/report/findings.toml`; here is what takes a proof,
-a model or a search: for each finding a function of the same name.
+How each piece is computed is said in `reference/report/findings.toml`, by formulas, runs of the
+sheet and verdicts; only what has no such words is a function here.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fnmatch import fnmatch
 from fractions import Fraction
-from functools import cache, cached_property, partial
-from statistics import NormalDist
+from functools import cache, partial
+from statistics import NormalDist, fmean
 from typing import Any
 
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose, holding, solve
 from reference.equations import evaluate
-from reference.ledger import INFERRED, Claim, Convention, Ledger, claims_of_case
-from reference.units import to_si
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
+from reference.printed import Interval
+from reference.units import same_dimension, to_si
 from replication.audit import record as r
 from replication.audit import wording
 from replication.audit.explain import Explainer
+from replication.audit.inference import Admission
 from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
 from replication.models import crater, depth, estimates, sheet
 from replication.models.impact import Impact
@@ -32,6 +36,13 @@ Value = Fraction | float | bool
 DENSITY = INFERRED + "target-density"
 DERIVED = "derived from Eqs. 14 and 15"
 """How Eq. 16 is read otherwise than printed."""
+
+_CONVENTIONS = {
+    "exact": Convention(header_exact=True),
+    "usual": Convention(),
+    "rounded": Convention(choices_exact=False),
+}
+"""How inputs are taken: header and choices exact, the header rounded, or both rounded."""
 
 _READINGS = {"computed": "", "derived": DERIVED}
 
@@ -70,6 +81,11 @@ class Known:
         undecided = f"Nothing in the report decides it: {claim.given}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
+    def admission(self, source: Source) -> Admission:
+        """What the evidence of an inferred input says of a public source for it."""
+        (name,) = source.claims
+        return self.judge.inference(name).admits(source.value, source.interval)
+
     def _sources(self, name: str) -> list[r.SourceRecord]:
         """The public sources for a claim or an inferred input, and whether each agrees with it."""
         records = []
@@ -77,12 +93,11 @@ class Known:
             if name not in source.claims:
                 continue
             if name.startswith(INFERRED):
-                admission = self.judge.inference(name).admits(source.value, source.interval)
-                outcome = f"is {admission.value}"
+                admission = self.admission(source)
+                agrees, outcome = admission is Admission.ADMITTED, f"is {admission.value}"
             else:
-                meets = self.ledger.claims[name].target().meets(source.interval)
-                outcome = "agrees" if meets else "differs"
-            agrees = outcome in ("agrees", "is admitted")
+                agrees = self.ledger.claims[name].target().meets(source.interval)
+                outcome = "agrees" if agrees else "differs"
             records.append(r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome))
         return records
 
@@ -121,45 +136,123 @@ class Evidence:
 
     def __init__(self, known: Known, finding: asserted.Finding) -> None:
         self.known, self.finding = known, finding
+        evidence = {name: own.formula for name, own in finding.evidence.items() if not own.over}
+        self.formulas = {**finding.where, **{name: own for name, own in evidence.items() if own}}
         self.value = cache(self._value)
-
-    @cached_property
-    def proven(self) -> Mapping[str, Value]:
-        """What the function of the finding's name computes."""
-        proven: Mapping[str, Value] = globals()[f"_{self.finding.id.replace('-', '_')}"](self)
-        return proven
 
     def __getitem__(self, name: str) -> float:
         """A value by its name in a formula, as a double."""
         return float(self.value(name))
 
     def _value(self, name: str) -> Value:
-        """What stands for a name: evidence, an entry, an end of its print, what a reading gives."""
-        known, assertion = self.known, self.finding.evidence.get(name)
-        entry, _, part = name.partition(".")
-        if assertion is not None and assertion.formula:
-            return self.calculated(assertion.formula)
-        if assertion is not None and assertion.exact:
-            changed = {key: float(self.calculated(x)) for key, x in assertion.exact.items()}
-            return exact_ratio(case(known, 5, **changed))
-        if assertion is not None and assertion.words:
-            return Fraction(" ".join(known.ledger.text.split()).count(assertion.words))
-        if part in _READINGS:
-            reading = known.reading(entry, _READINGS[part])
-            return reading.computed * float(known.ledger.claims[entry].si)
-        if part:
-            ends = known.ledger.claims[entry].target().ends
-            return ends[("least", "greatest").index(part)]
-        is_entry = assertion is None and (name in known.ledger.claims or INFERRED in name)
-        return known.exact(name) if is_entry or name in known.ledger.sources else self.proven[name]
+        """What stands for a name: a piece of evidence, as its keys say, or a name of a formula."""
+        own = self.finding.evidence.get(name)
+        if name in self.formulas:
+            value: Fraction | float = self.calculated(self.formulas[name])
+            return bool(value > 0) if own is not None and own.is_outcome else value
+        if own is None:
+            return self._named(name)
+        if own.over:
+            return self._least(own.formula, own.over)
+        if own.exact:
+            changed = {key: float(self.calculated(x)) for key, x in own.exact.items()}
+            impact = case(self.known, 5, **changed)
+            deep = depth.final_depth(**impact.motion)
+            return deep if same_dimension(own.unit, "m") else deep / impact.radius
+        if own.run:
+            return self._run(**own.run)
+        if own.verdicts:
+            return all(
+                verdict == stated
+                for pattern, stated in own.verdicts.items()
+                for verdict in self._verdicts(pattern, own.under)
+            )
+        if own.words:
+            return Fraction(" ".join(self.known.ledger.text.split()).count(own.words))
+        return _BESIDES[f"{self.finding.id}: {name}"](self)
 
-    def calculated(self, formula: str) -> Fraction | float:
-        """The value of a formula, exact until a logarithm or a root is taken."""
+    def _named(self, name: str) -> Value:
+        """A unit, an entry or a source, or what the parts of its name say of it."""
+        entry, *parts = name.split(".")
+        if name.startswith("unit:"):
+            return to_si(name.removeprefix("unit:"))
+        if not parts:
+            return self.known.exact(name)
+        if parts[-1] in ("least", "greatest"):
+            return self._range(entry, *parts[:-1]).ends[parts[-1] == "greatest"]
+        if parts[0] == "by":
+            return _needed(self.known, entry, parts[1])
+        return _PARTS[parts[0]](self.known, entry)
+
+    def _range(self, entry: str, how: str = "") -> Interval:
+        """What prints like a claim, or what the evidence of an inferred input admits, SI.
+
+        With everything exactly as printed; `how` names a convention, the other scheme ("centered"),
+        or says that the mass is the printed one ("mass").
+        """
+        judge = self.known.judge
+        if entry in self.known.ledger.claims:
+            return self.known.ledger.claims[entry].target()
+        if how in _CONVENTIONS:
+            return judge.rounded(entry, _CONVENTIONS[how])
+        inference = judge.inference(entry, centered=how == "centered")
+        return inference.with_mass if how == "mass" else inference.inner
+
+    def calculated(
+        self, formula: str, ar: Arithmetic | None = None, numbers: Mapping[str, Number] = {}
+    ) -> Any:
+        """The value of a formula, exact until a logarithm or a root is taken.
+
+        Or in another arithmetic, in which some entries are given as `numbers`.
+        """
         node, names = asserted.expression(formula)
-        value: Fraction | float = evaluate(
-            node, _Exact(), {name: self.value(name) for name in names}
-        )
-        return value
+
+        def value(name: str) -> Number:
+            if numbers and name in self.formulas:
+                return self.calculated(self.formulas[name], ar, numbers)
+            return numbers[name] if name in numbers else self.value(name)
+
+        return evaluate(node, ar or _Exact(), {name: value(name) for name in names})
+
+    def _least(self, formula: str, over: Mapping[Any, Sequence[str]]) -> Fraction:
+        """The least value of a formula, proven, for all that some entries may stand for."""
+        box = {
+            entry: self.known.judge.rounded(entry, _CONVENTIONS[name]).ends
+            for name, entries in over.items()
+            for entry in entries
+        }
+        return enclose(lambda ar, **numbers: self.calculated(formula, ar, numbers), box).ends[0]
+
+    def _run(self, claim: str, row: str = "", scheme: str = "published", **inputs: str) -> float:
+        """What the sheet gives for a claim in another row, by another scheme, of other inputs."""
+        own = self.known.ledger.claims[claim].resting_on(**inputs)
+        own = replace(own, row=int(self.value(row))) if row else own
+        return self.known.judge.answer(own, scheme=scheme)
+
+    def _verdicts(self, pattern: str, under: Mapping[str, bool | str]) -> Iterator[str]:
+        """The verdicts on all that is computed with such a name, or those under some conventions.
+
+        A part of the name says in which reading.
+        """
+        known = self.known
+        if pattern in known.ledger.sources:
+            yield known.admission(known.ledger.sources[pattern]).value
+        if pattern in known.ledger.equations:
+            yield known.equation(pattern).verdict
+        pattern, _, part = pattern.partition(".")
+        for claim in known.ledger.claims.values():
+            computed = claim.computation is not None and not claim.computation.restates
+            if not computed or not fnmatch(claim.id, pattern):
+                continue
+            assessment = known.assessment(claim)
+            judged = [
+                judgement.verdict
+                for reading in assessment.readings
+                if not part or reading.name == _READINGS[part]
+                for judgement in reading.judgements
+                if under.items() <= to_builtins(judgement.convention).items()
+            ]
+            yield from judged if under and judged else [assessment.verdict]
 
     def record(self) -> r.FindingRecord:
         """The finding with its evidence, as asserted and as computed."""
@@ -195,213 +288,70 @@ class _Exact(Arithmetic):
 
     pi, number = math.pi, Fraction
     log, power = staticmethod(math.log), staticmethod(math.pow)
+    expm1, normal = staticmethod(math.expm1), staticmethod(NormalDist().cdf)
+
+    def crater(self, volume_ratio: Number) -> float:
+        return crater.depth_from_volume_ratio(float(volume_ratio))
+
+    def rounded(self, x: Number) -> Fraction:
+        return Fraction(f"{float(x):.2e}")
 
 
-def _headline(own: Evidence) -> Mapping[str, Value]:
-    known = own.known
-    claims = known.ledger.claims
-    model = [c for c in claims.values() if c.cell and c.computation and not c.computation.restates]
-    model += [claims[f"{what}-beta-{beta}"] for what in ("depth", "ratio") for beta in (3, 5)]
-    pair = [claims[f"frank-zook-{name}"] for name in ("rha", "stainless")]
-    greatest = own.value("frank-zook-stainless.greatest") / own.value("frank-zook-rha.least")
-    return {
-        "model": all(known.assessment(c).verdict is Verdict.REPRODUCED for c in model),
-        "pair": all(known.assessment(c).verdict is Verdict.NOT_REPRODUCED for c in pair),
-        "together": _least_ratio(known, choices_exact=False) <= greatest,
-        "factor": _factor(known),
-    }
-
-
-# Frank and Zook
-
-
-def _factor(known: Known) -> Fraction:
-    """Derived right side of Eq. 16 over the printed one; 0 where that is no number."""
-    factor = known.equation("eq16").factor
-    return Fraction(0) if factor is None else 1 / factor
-
-
-def _least_ratio(known: Known, *, choices_exact: bool) -> Fraction:
-    """The least ratio of the two depths that any Eq. 16 gives for inputs that print so, proven.
-
-    Only R_t differs between them, so that all but the logarithms cancels. The 7.6E9 Pa, which the
-    author chose, is exact or rounded to its digits.
-    """
-
-    def ratio(ar: Any, k_t: Number, density: Number, velocity: Number, armor: Number,
-              stainless: Number) -> Number:  # fmt: skip
-        drag = k_t * density * velocity**2
-        return ar.log(1 + drag / stainless) / ar.log(1 + drag / armor)
-
-    names = {
-        "k_t": "fz-kt",
-        "velocity": "a1-initial-velocity",
-        "armor": "fz-resistance-rha",
-        "stainless": "fz-resistance-stainless",
-    }
-    rounded = Convention(choices_exact=choices_exact)
-    claims = known.ledger.claims
-    box = {key: claims[name].as_input(rounded).ends for key, name in names.items()}
-    box["density"] = known.judge.inference(DENSITY).admitted(rounded).ends
-    return enclose(ratio, box).ends[0]
-
-
-def _frank_zook_pair(own: Evidence) -> Mapping[str, Value]:
-    return {
-        name: _least_ratio(own.known, choices_exact=exact) - 1
-        for name, exact in (("least", True), ("least_rounded", False))
-    }
-
-
-def _equation_16(own: Evidence) -> Mapping[str, Value]:
-    (must,) = own.known.equation("eq16").constants["eq16-denominator"].needed
-    return {"factor": _factor(own.known), "must": Fraction(must)}
-
-
-def _frank_zook_values(own: Evidence) -> Mapping[str, Value]:
-    known = own.known
-    names = ("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
-    rha, stainless, strength = map(known.ledger.claims.__getitem__, names)
-    exact, rounded = (
-        [j for j in known.reading(stainless.id, DERIVED).judgements
-         if j.convention.choices_exact is choices_exact]
-        for choices_exact in (True, False)
-    )  # fmt: skip
-    inputs = {key: known[name] for key, (name,) in stainless.inputs.items()}
-
-    def distance(resistance: Fraction) -> float:
-        depth = estimates.frank_zook_derived(**{**inputs, "resistance": float(resistance)})
-        return abs(depth - known["observed-depth-ratio"])
-
-    grid = strength.number.quantum * strength.si
-    exponent = round(own["derived"], 3) * known["fz-kt"] / own["inertia"]
-    return {
-        "least_exact": min(j.ends[0] for j in exact),
-        "corner": any(j.verdict is Verdict.WITHIN_ROUNDING for j in rounded),
-        "needed": _needed(known, stainless, strength.id),
-        "grid": grid,
-        "nearest": min((grid * k for k in range(1, 200)), key=distance),
-        "least_admitted": _least_admitted(known),
-        "back": own["z"] / math.expm1(exponent),
-        "rha_resistance": _needed(known, rha, "fz-resistance-rha"),
-        "rha_velocity": _needed(known, rha, "a1-initial-velocity"),
-        "never": all(
-            j.verdict is Verdict.NOT_REPRODUCED
-            for reading in known.assessment(rha).readings
-            for j in reading.judgements
-            if j.convention.choices_exact
-        ),
-        "slips": not any(slip.fits for slip in known.explainer.slips(rha)),
-    }
-
-
-def _least_admitted(known: Known) -> Fraction:
-    """The least X/R for stainless steel, by Eqs. 14 and 15, proven.
-
-    All inputs are rounded but the velocity; the density is one that the header as printed admits.
-    """
-    claim = known.ledger.claims["frank-zook-stainless"]
-    box = dict(known.judge.box(claim, Convention(choices_exact=False)))
-    box["a1-initial-velocity"] = (known.exact("a1-initial-velocity"),) * 2
-    box[DENSITY] = known.judge.inference(DENSITY).outer.ends
-    return enclose(known.ledger.function(claim, reading=DERIVED), box).ends[0]
-
-
-def _needed(known: Known, claim: Claim, entry: str) -> float:
-    """The middle of the values of an entry with which the derived form gives the number."""
-    inner = known.explainer.solutions(claim, DERIVED, entry).inner
+def _needed(known: Known, claim: str, entry: str) -> float:
+    """The middle of the values of an entry (SI) with which the derived form gives a claim."""
+    inner = known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry).inner
     if not inner:
         raise ArithmeticError(f"no value of {entry} gives the number")
     return float(sum(inner[0])) / 2
 
 
-# The sheet
+def _computed(known: Known, claim: str, reading: str = "") -> float:
+    return known.reading(claim, reading).computed * float(known.ledger.claims[claim].si)
 
 
-def _target_density(own: Evidence) -> Mapping[str, Value]:
-    known = own.known
-    inference = known.judge.inference(DENSITY)
-    ranges = {
-        "": inference.inner,
-        "possible_": inference.admitted(Convention()),
-        "rounded_": inference.admitted(Convention(choices_exact=False)),
-        "centered_": known.judge.inference(DENSITY, centered=True).inner,
-    }
-    evidence: dict[str, Value] = {}
-    for name, interval in ranges.items():
-        evidence[f"{name}least"], evidence[f"{name}greatest"] = interval.ends
-    said = {source.id: source.outcome.removeprefix("is ") for source in known.sources(DENSITY)}
-    depths = (known.reading(f"depth-beta-{beta}") for beta in (3, 5))
-    return evidence | {
-        "mass_greatest": inference.with_mass.ends[1],
-        "carbon": said["carbon-steel-density"] == "admitted",
-        "excluded": said["304-density-mill"].startswith("excluded"),
-        "chosen": "what the author chose" in said["304-density-793"],
-        "kinslow": "the header of Table A-1" in said["304-density-kinslow"],
-        "depths": all(reading.verdict is Verdict.REPRODUCED for reading in depths),
-        "all": not inference.odd,
-    }
+def _digit(known: Known, name: str) -> Fraction:
+    claim = known.ledger.claims[name]
+    return claim.number.quantum * claim.si
 
 
-def _two_schemes(own: Evidence) -> Mapping[str, Value]:
-    known = own.known
-    evidence: dict[str, Value] = {}
-    for beta in (3, 5):
-        evidence[f"exact_{beta}"] = depth.final_depth(**case(known, beta).motion)
-        for size, step in (("fine", known["a-step"]), ("coarse", known["coarse-step"])):
-            for name, scheme in (("plain", "published"), ("middle", "centered")):
-                run = sheet.run(case(known, beta, step=step), scheme)
-                evidence[f"{name}_{size}_{beta}"] = run.final_depth
-    row, row_plain, row_middle = _first_difference(known)
-    table = [c for c in known.ledger.claims.values() if c.cell and c.by_scheme]
-    return evidence | {
-        "reprinted": Fraction(f"{evidence['plain_coarse_5']:.2e}"),
-        "middle_density": _middle_density(known),
-        "row": Fraction(row),
-        "row_plain": row_plain,
-        "row_middle": row_middle,
-        "table": all(
-            j.verdict is Verdict.REPRODUCED
-            for claim in table
-            for j in known.reading(claim.id).judgements
-            if j.convention.rounding is Convention().rounding
-        ),
-        "order_plain": _order(known, "published"),
-        "order_middle": _order(known, "centered"),
-    }
+def _factor(known: Known, equation: str) -> Fraction:
+    factor = known.equation(equation).factor
+    return Fraction(0) if factor is None else 1 / factor
 
 
-def _middle_density(known: Known) -> Fraction:
-    """The least target density at which the drag at the middle velocity gives the depth."""
-    ledger = known.ledger
-    claim = ledger.claims["depth-beta-5"]
-    printed = {name: ledger.value(name) for name in claim.stated}
-    function = holding(ledger.function(claim, centered=True), printed)
-    admitted = known.judge.inference(DENSITY, centered=True).outer.ends
-    outer = solve(function, DENSITY, admitted, claim.target()).outer
-    if not outer:
-        raise ArithmeticError("no target density gives the depth")
-    return outer[0][0]
+def _constant(known: Known, name: str) -> Fraction:
+    (value,) = known.equation(known.ledger.claims[name].within).constants[name].needed
+    return Fraction(value)
 
 
-def _first_difference(known: Known) -> tuple[int, float, float]:
-    """The first row in which the two schemes print another deceleration, to three digits."""
-    runs = [sheet.run(case(known, 5), scheme).rows for scheme in sheet.SCHEMES]
-    for number, (plain, middle) in enumerate(zip(*runs, strict=False)):
-        cells = [f"{row.deceleration:.2E}" for row in (plain, middle)]
-        if cells[0] != cells[1]:
-            return number, plain.deceleration, middle.deceleration
-    raise ValueError("the two schemes print the same decelerations in every row")
+def _fitting(known: Known, claim: str) -> Fraction:
+    slips = known.explainer.slips(known.ledger.claims[claim])
+    return Fraction(sum(bool(slip.fits) for slip in slips))
 
 
-def _order(known: Known, scheme: str) -> float:
+_PARTS: Mapping[str, Callable[[Known, str], Value]] = {
+    "computed": _computed,
+    "derived": partial(_computed, reading=DERIVED),
+    "digit": _digit,
+    "factor": _factor,
+    "needed": _constant,
+    "slips": _fitting,
+    "odd": lambda known, name: Fraction(len(known.judge.inference(name).odd)),
+}
+"""What the parts of a name say of an entry; explained at the head of findings.toml."""
+
+
+# What has no formula
+
+
+def _order(own: Evidence, scheme: str) -> float:
     """Observed order of the error at the end of the motion, from 0.2 to 0.1 ns, for beta = 5.
 
     At a fixed time within the motion, where no stop rule interferes.
     """
     errors = []
     for parts in (1, 2):
-        impact = case(known, 5, step=known["a-step"] / parts)
+        impact = case(own.known, 5, step=own["a-step"] / parts)
         row = sheet.run(impact, scheme).rows[50 * parts]
         assert row.velocity_final is not None
         behind = row.depth + row.velocity_final * impact.step / 2
@@ -409,97 +359,68 @@ def _order(known: Known, scheme: str) -> float:
     return math.log2(errors[0] / errors[1])
 
 
-def _table_columns(own: Evidence) -> Mapping[str, Value]:
+def _first_difference(own: Evidence) -> Fraction:
+    """The first row in which the two schemes print another deceleration, to three digits."""
+    runs = (sheet.run(case(own.known, 5), scheme).rows for scheme in sheet.SCHEMES)
+    for number, rows in enumerate(zip(*runs, strict=False)):
+        if len({f"{row.deceleration:.2E}" for row in rows}) > 1:
+            return Fraction(number)
+    raise ValueError("the two schemes print the same decelerations in every row")
+
+
+def _middle_density(own: Evidence) -> Fraction:
+    """The least target density at which the drag at the middle velocity gives the depth."""
+    ledger = own.known.ledger
+    claim = ledger.claims["depth-beta-5"]
+    printed = {name: ledger.value(name) for name in claim.stated}
+    function = holding(ledger.function(claim, centered=True), printed)
+    admitted = own.known.judge.inference(DENSITY, centered=True).outer.ends
+    outer = solve(function, DENSITY, admitted, claim.target()).outer
+    if not outer:
+        raise ArithmeticError("no target density gives the depth")
+    return outer[0][0]
+
+
+def _added(own: Evidence) -> float:
+    """The velocity after three rows of the sheet in which the accelerations are added."""
     impact = case(own.known, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     x, v = 0.0, impact.velocity
     for row in range(3):
         x += v * impact.step * (1 if row else 0.5)
         v += sheet.deceleration(x, v, *fixed) * impact.step
-    return {"plus": v}
+    return v
 
 
-# Strengths
+def _nearest(own: Evidence) -> Fraction:
+    """The resistance on the grid that comes nearest to the observed depth, derived form."""
+    claim = own.known.ledger.claims["frank-zook-stainless"]
+    inputs = {key: own[name] for key, (name,) in claim.inputs.items()}
+    grid, observed = Fraction(own.value("grid")), own["observed-depth-ratio"]
+
+    def distance(resistance: Fraction) -> float:
+        given = inputs | {"resistance": float(resistance)}
+        return abs(estimates.frank_zook_derived(**given) - observed)
+
+    return min((grid * k for k in range(1, 200)), key=distance)
 
 
-def _observed_beta(own: Evidence) -> Mapping[str, Value]:
-    """p = rho_t V^2 / 2 R_t at which the exact X/R is y <= 1: y^2 - y^3/3 = c."""
-    density = own[DENSITY] / own["a1-density"]
-    depths = {"p": "observed-ratio", "p_least": "observed-ratio.least",
-              "p_greatest": "observed-ratio.greatest"}  # fmt: skip
-    return {p: math.expm1(crater.volume_ratio(own[y]) * density) for p, y in depths.items()}
+def _mean_deviation(own: Evidence) -> float:
+    """Mean |(d/d_0)^-1/2 - 1| V for normally distributed d > 0, by the midpoint rule in d."""
+    normal = NormalDist(1.0, own["diameter-deviation"] / own["mean-diameter"])
+    sizes = [(k + 0.5) / 10_000 for k in range(20_000)]
+    mean = fmean((abs(d**-0.5 - 1) for d in sizes), weights=map(normal.pdf, sizes))
+    return mean * own["a1-initial-velocity"]
 
 
-def _strengths(own: Evidence) -> Mapping[str, Value]:
-    between = own["strength-clear"] < own["flow-stress"] < own["strength-feathery"]
-    return {"between": between, "ksi": to_si("ksi")}
-
-
-def _inertia_term(own: Evidence) -> Mapping[str, Value]:
-    return {f"pressed_{b}": constant_pressure_ratio(case(own.known, b)) for b in (3, 5)}
-
-
-def constant_pressure_ratio(impact: Impact) -> float:
-    """X/R [1] of a crater at the constant pressure R_t: the model without the target's inertia.
-
-    Its work R_t CV is the kinetic energy rho_p PV V^2 / 2, so CV/PV = rho_p V^2 / (2 R_t); beyond
-    half a sphere the crater goes on as a cylinder.
-    """
-    ratio = impact.particle_density * impact.velocity**2 / (2 * impact.target_resistance)
-    return crater.depth_from_volume_ratio(ratio) if ratio <= 0.5 else (1 + 4 * ratio) / 3
-
-
-def _cth_pressure(own: Evidence) -> Mapping[str, Value]:
-    def pressure(name: str, density: str, u: float) -> float:
-        return (
-            own[density] * (own[f"{name}-hugoniot-speed"] + own[f"{name}-hugoniot-slope"] * u) * u
-        )
-
-    low, high = 0.0, own["cth-velocity"]
-    for _ in range(60):
-        middle = (low + high) / 2
-        steel = pressure("304", "304-density-kinslow", middle)
-        stiffer = steel < pressure("copper", "a1-density", own["cth-velocity"] - middle)
-        low, high = (middle, high) if stiffer else (low, middle)
-    return {"shock": pressure("304", "304-density-kinslow", low), "interface": low}
-
-
-# Craters and the stream
-
-
-def _observed_digits(own: Evidence) -> Mapping[str, Value]:
-    ratios = {"line": "volume-ratio-line", "least": "volume-ratio.least",
-              "greatest": "volume-ratio.greatest"}  # fmt: skip
-    return {name: crater.depth_from_volume_ratio(own[ratio]) for name, ratio in ratios.items()}
-
-
-def _equation_1_scatter(own: Evidence) -> Mapping[str, Value]:
-    relative = own["diameter-deviation"] / own["mean-diameter"]
-    return {"drag_exact": _mean_deviation(0.5, relative) * own["a1-initial-velocity"]}
-
-
-def _mean_deviation(power: float, relative: float) -> float:
-    """Mean |(d/d_0)^-p - 1| for normally distributed d > 0, by the midpoint rule in d."""
-    normal = NormalDist(1.0, relative)
-    count = 20_000
-    sizes = [(k + 0.5) * 2 / count for k in range(count)]
-    weights = [normal.pdf(d) for d in sizes]
-    total = math.fsum(w * abs(d**-power - 1) for d, w in zip(sizes, weights, strict=True))
-    return float(total / math.fsum(weights))
-
-
-def _faster_particles(own: Evidence) -> Mapping[str, Value]:
-    """If the deviation that the report states is the standard one, and if it is the mean one."""
-    kinds = {"standard": 1.0, "mean": math.sqrt(2 / math.pi)}
-    return {
-        f"{kind}{of}": NormalDist().cdf(-own[f"ratio{of}"] * factor)
-        for kind, factor in kinds.items()
-        for of in ("", "_400")
-    }
-
-
-def _wrong_reference(own: Evidence) -> Mapping[str, Value]:
-    return {
-        "stress": "Sigma" in own.known.ledger.printed_text("eq1"),
-        "follows": own.known.equation("eq6").verdict is Verdict.REPRODUCED,
-    }
+_BESIDES: Mapping[str, Callable[[Evidence], Value]] = {
+    "frank-zook-values: nearest": _nearest,
+    "two-schemes: order_plain": lambda own: _order(own, "published"),
+    "two-schemes: order_middle": lambda own: _order(own, "centered"),
+    "two-schemes: middle_density": _middle_density,
+    "two-schemes: row": _first_difference,
+    "table-columns: plus": _added,
+    "equation-1-scatter: drag_exact": _mean_deviation,
+    "wrong-reference: stress": lambda own: "Sigma" in own.known.ledger.printed_text("eq1"),
+}
+"""The evidence that takes a function of its own, by the finding and its name there."""

@@ -16,7 +16,7 @@ from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Rounding
+from reference.printed import Interval, Rounding
 from reference.units import Dimension, DimensionError
 from replication.audit.inference import Inference
 from replication.audit.record import ConstantRecord
@@ -172,14 +172,18 @@ class Judge:
             # With a misprint planted in an equation, the models, which have it right, do not serve.
             computed = float(reference)
         else:
-            inputs = {key: float(prod(map(self.value, own))) for key, own in claim.inputs.items()}
-            settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
-            if computation.by_scheme:
-                settings["scheme"] = "published"
-            answer = replica(computation.name, inputs, **settings)
-            computed = float(Fraction(answer) / claim.si)
+            computed = float(Fraction(self.answer(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
         return Reading(name, computation.summary, computed, digits, tuple(judgements))
+
+    def answer(self, claim: Claim, name: str = "", scheme: str = "published") -> float:
+        """What the models give for a claim at its inputs as printed, in SI."""
+        computation = claim.computations[name]
+        inputs = {key: float(prod(map(self.value, own))) for key, own in claim.inputs.items()}
+        settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
+        if computation.by_scheme:
+            settings["scheme"] = scheme
+        return replica(computation.name, inputs, **settings)
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
         """Under every convention that makes a difference to the claim, the usual one first."""
@@ -233,11 +237,13 @@ class Judge:
 
     def box(self, claim: Claim, convention: Convention) -> Box:
         """All inputs of a claim that print like the report's, or that its evidence admits."""
-        claims, centered = self.ledger.claims, convention.centered
-        box = {entry: claims[entry].as_input(convention) for entry in claim.stated}
-        for entry in claim.inferred:
-            box[entry] = self.inference(entry, centered=centered).admitted(convention)
-        return {entry: interval.ends for entry, interval in box.items()}
+        return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
+
+    def rounded(self, entry: str, convention: Convention) -> Interval:
+        """The values of an input (SI) that print like it, or that its evidence admits."""
+        if entry in self.ledger.claims:
+            return self.ledger.claims[entry].as_input(convention)
+        return self.inference(entry, centered=convention.centered).admitted(convention)
 
     def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
         """A proven range of a claim's values, in SI; one exact value where that can be told."""
