@@ -38,16 +38,8 @@ class Span(Operators):
 
     def __mul__(self, other: Number) -> "Span":
         low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
-        if self.low >= _ZERO:
-            if low >= _ZERO:
-                return Span(self.low * low, self.high * high)
-            if high <= _ZERO:
-                return Span(self.high * low, self.low * high)
-        elif self.high <= _ZERO:
-            if low >= _ZERO:
-                return Span(self.low * high, self.high * low)
-            if high <= _ZERO:
-                return Span(self.high * high, self.low * low)
+        if self.low >= _ZERO and low >= _ZERO:
+            return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
 

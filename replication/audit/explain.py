@@ -146,10 +146,13 @@ class Explainer:
             proof=proof,
         )
 
-    def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
+    def _solutions(
+        self, claim: Claim, reading: str, name: str, centered: bool = False
+    ) -> Solutions:
         """The values of an entry (SI), the others as printed, with which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = holding(self.ledger.function(claim, reading=reading), others)
+        computed = self.ledger.function(claim, reading=reading, centered=centered)
+        function = holding(computed, others)
         low, high, _ = self.ledger.search(name)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         return solve(function, name, (low, high), claim.target(), budget)

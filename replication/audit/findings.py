@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import enclose, holding, solve
+from reference.enclosure import enclose
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
 from reference.printed import Interval
@@ -299,19 +299,14 @@ class _Exact(Arithmetic):
 
 def _needed(known: Known, claim: str, entry: str) -> float:
     """The middle of the values of an entry (SI) with which the derived form gives a claim."""
-    inner = known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry).inner
-    if not inner:
-        raise ArithmeticError(f"no value of {entry} gives the number")
-    return float(sum(inner[0])) / 2
+    return (
+        float(sum(known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry).inner[0]))
+        / 2
+    )
 
 
 def _computed(known: Known, claim: str, reading: str = "") -> float:
     return known.reading(claim, reading).computed * float(known.ledger.claims[claim].si)
-
-
-def _digit(known: Known, name: str) -> Fraction:
-    claim = known.ledger.claims[name]
-    return claim.number.quantum * claim.si
 
 
 def _factor(known: Known, equation: str) -> Fraction:
@@ -324,19 +319,18 @@ def _constant(known: Known, name: str) -> Fraction:
     return Fraction(value)
 
 
-def _fitting(known: Known, claim: str) -> Fraction:
-    slips = known.explainer.slips(known.ledger.claims[claim])
-    return Fraction(sum(bool(slip.fits) for slip in slips))
-
-
 _PARTS: Mapping[str, Callable[[Known, str], Value]] = {
     "computed": _computed,
     "derived": partial(_computed, reading=DERIVED),
-    "digit": _digit,
     "factor": _factor,
     "needed": _constant,
-    "slips": _fitting,
+    "digit": lambda known, name: (
+        known.ledger.claims[name].number.quantum * known.ledger.claims[name].si
+    ),
     "odd": lambda known, name: Fraction(len(known.judge.inference(name).odd)),
+    "slips": lambda known, name: Fraction(
+        sum(bool(slip.fits) for slip in known.explainer.slips(known.ledger.claims[name]))
+    ),
 }
 """What the parts of a name say of an entry; explained at the head of findings.toml."""
 
@@ -370,15 +364,8 @@ def _first_difference(own: Evidence) -> Fraction:
 
 def _middle_density(own: Evidence) -> Fraction:
     """The least target density at which the drag at the middle velocity gives the depth."""
-    ledger = own.known.ledger
-    claim = ledger.claims["depth-beta-5"]
-    printed = {name: ledger.value(name) for name in claim.stated}
-    function = holding(ledger.function(claim, centered=True), printed)
-    admitted = own.known.judge.inference(DENSITY, centered=True).outer.ends
-    outer = solve(function, DENSITY, admitted, claim.target()).outer
-    if not outer:
-        raise ArithmeticError("no target density gives the depth")
-    return outer[0][0]
+    claim, explainer = own.known.ledger.claims["depth-beta-5"], own.known.explainer
+    return explainer.solutions(claim, "", DENSITY, centered=True).outer[0][0]
 
 
 def _added(own: Evidence) -> float:
