@@ -37,6 +37,10 @@ class Arithmetic:
     def greatest(self, x: Number, bound: Number) -> Number:
         return -self.least(-x, -bound)
 
+    def crater(self, volume_ratio: Number) -> Number:
+        """X/R of a crater: CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3)."""
+        return self.cap_root(4 * volume_ratio / 3)
+
     def contact_share(self, y: Number) -> Number:
         """y (2 - y), which increases on its domain, 0 <= y <= 1."""
         return y * (2 - y)

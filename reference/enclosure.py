@@ -301,12 +301,10 @@ def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
     >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).ends[0]
     Fraction(3, 1)
     """
-    known: dict[Any, dict[str, Number]] = {}
 
     def of_others(ar: Any, **others: Number) -> Number | Fraction:
-        if ar not in known:
-            known[ar] = {name: ar.number(number) for name, number in numbers.items()}
-        return function(ar, **{**known[ar], **others})
+        fixed = {name: ar.number(x) for name, x in numbers.items() if name not in others}
+        return function(ar, **fixed, **others)
 
     return of_others
 

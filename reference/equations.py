@@ -44,8 +44,8 @@ Sides = Mapping[str, tuple[Node, ...]]
 
 
 FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
-"""The report has the first two. The others are for findings: e^x - 1, X/R of a crater's CV/PV, the
-share of a normal distribution below x, and x to three digits."""
+"""The report has the first two. The others are for formulas of ours: e^x - 1, X/R of a crater's
+CV/PV, the share of a normal distribution below x, and x to three digits."""
 
 
 @cache

@@ -133,11 +133,6 @@ def computing(
     return value
 
 
-def _crater(ar: Arithmetic, volume_ratio: Number) -> Number:
-    # CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3)
-    return ar.cap_root(4 * volume_ratio / 3)
-
-
 def _final_sheet_depth(ar: Arithmetic, centered: bool, **inputs: Number) -> Number:
     rows = sheet_rows(ar, centered=centered, **inputs)
     return sheet_depth(ar, rows, inputs["stop_velocity"])
@@ -155,9 +150,6 @@ def _cell(column: str) -> Callable[..., Number]:
 
 FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
     "count": lambda _, **values: Fraction(len(values)),
-    "crater_normalized_depth": _crater,
-    "crater_depth": lambda ar, volume_ratio, diameter: _crater(ar, volume_ratio) * diameter / 2,
-    "crater_depth_over_diameter": lambda ar, volume_ratio: _crater(ar, volume_ratio) / 2,
     "force_power": lambda _: (unit_dimension("N") / unit_dimension("Pa")).powers[1],
     "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),
     "greatest_beta": lambda ar, **betas: reduce(ar.greatest, betas.values()),

@@ -290,8 +290,8 @@ class _Exact(Arithmetic):
     log, power = staticmethod(math.log), staticmethod(math.pow)
     expm1, normal = staticmethod(math.expm1), staticmethod(NormalDist().cdf)
 
-    def crater(self, volume_ratio: Number) -> float:
-        return crater.depth_from_volume_ratio(float(volume_ratio))
+    def cap_root(self, c: Number) -> float:
+        return crater.depth_from_volume_ratio(float(3 * c / 4))
 
     def rounded(self, x: Number) -> Fraction:
         return Fraction(f"{float(x):.2e}")
