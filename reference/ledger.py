@@ -62,7 +62,6 @@ class Inferred(Entry, frozen=True):
     radius: str
     density: str
     header: list[str]
-    results: list[str]
     evidence: list[str]
 
 
