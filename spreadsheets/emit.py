@@ -7,12 +7,10 @@ carries the SHA-256 of its parts, so that one that somebody changed is never tak
 import math
 import re
 import zipfile
-from collections import namedtuple
 from collections.abc import Mapping
 from errno import EEXIST
 from functools import cache
 from hashlib import sha256
-from html import escape
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -72,6 +70,8 @@ _CORRECTIONS = (
     ("docProps/core.xml", rb"<dcterms:(created|modified).*?</dcterms:\1>", rb""),
     # Where nothing is said, LibreOffice draws a smooth curve through the points.
     ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
+    # XlsxWriter stores the value "" of a formula without the type of a text.
+    ("xl/worksheets/", rb'(<c r="\w+" s="\d+")(><f>[^<]*</f><v></v>)', rb'\1 t="str"\2'),
 )
 """What is changed in the parts of the file: the start of a part's name, a pattern, and a text."""
 
@@ -84,11 +84,14 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        with zipfile.ZipFile(BytesIO(content)) as archive:
-            parts = {name: archive.read(name) for name in archive.namelist()}
-        return _sealed(parts) == content
+        return _sealed(_parts(content)) == content
     except Exception:  # what a damaged archive raises, and one that is not ours
         return False
+
+
+def _parts(content: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
 
 
 def _sealed(parts: dict[str, bytes]) -> bytes:
@@ -113,7 +116,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     # The font of all cells, since column widths are counted in digits of the default one; a copy,
     # since XlsxWriter writes into it.
     options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
-    book = xlsxwriter.Workbook(BytesIO(), options)
+    file = BytesIO()
+    book = xlsxwriter.Workbook(file, options)
 
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
@@ -124,17 +128,15 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 
     book.set_properties({"title": plan.title, **plan.properties})
     book.set_custom_property(_SEAL, _UNSEALED)
-    page_class, packager = _classes()
     for sheet in plan.sheets:
-        page = book.add_worksheet(sheet.name, page_class)
+        page = book.add_worksheet(sheet.name)
+        # Else it looks in each formula for functions newer than Excel 2010, for most of the time.
+        page._prepare_formula = lambda formula: formula[1:]
         _set_up(page, sheet)
         own = shown[sheet.name]
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.number_format, cell.wrap)
-            if cell.formula:
-                page.put_formula(address, cell.formula, look, own[address])
-            else:
-                _write_cell(page, address, cell, own.get(address, ""), look)
+            _write_cell(page, address, cell, own.get(address, ""), look)
             if cell.name:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.name, named) == -1:
@@ -146,9 +148,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             page.conditional_format(rule.cells, options)
         if sheet.chart:
             _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
-    book._get_packager = lambda: packager
     book.close()
-    parts = packager.parts
+    parts = _parts(file.getvalue())
     for start, pattern, words in _CORRECTIONS:
         parts |= {n: re.sub(pattern, words, parts[n]) for n in parts if n.startswith(start)}
     return _sealed(parts)
@@ -182,15 +183,12 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     page.ignore_errors(dict.fromkeys(kinds, everywhere))
 
 
-def _place(address: str) -> tuple[int, int]:
-    """Row and column of a cell, counted from 0."""
-    return int(address[1:]) - 1, ord(address[0]) - ord("A")
-
-
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
-    """A text, a number, or an input, with what may be typed into it."""
-    place = _place(address)
-    if cell.link:
+    """A formula, a text, a number, or an input, with what may be typed into it."""
+    place = int(address[1:]) - 1, ord(address[0]) - ord("A")
+    if cell.formula:
+        page.write_formula(*place, cell.formula, style, value)
+    elif cell.link:
         sheet, target = cell.link
         page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)
     elif isinstance(value, str):
@@ -223,47 +221,6 @@ class _Exact(float):
 
     def __format__(self, _: str) -> str:
         return float.__repr__(self)
-
-
-def _classes() -> tuple[type[Any], Any]:
-    """A class of worksheets that write formulas fast, and something that keeps a book's parts.
-
-    XlsxWriter looks in each formula for functions newer than Excel 2010, which ours do not have,
-    and stores the value "" without the type of a text. It would pack the parts, only for us to
-    unpack, correct and seal them.
-    """
-    from xlsxwriter.packager import Packager
-    from xlsxwriter.worksheet import Worksheet
-
-    # By this name XlsxWriter knows a cell whose value it stores with a chart.
-    Formula = namedtuple("Formula", "address formula format value")
-
-    class Page(Worksheet):  # type: ignore[misc]
-        def put_formula(self, address: str, formula: str, style: Any, value: Any) -> None:
-            row, column = _place(address)
-            self._check_dimensions(row, column)
-            expression = escape(formula[1:], quote=False)
-            self.table[row][column] = Formula(address, expression, style, value)
-
-        def _write_cell(self, row: int, column: int, cell: Any) -> None:
-            if type(cell) is not Formula:
-                super()._write_cell(row, column, cell)
-                return
-            value, kind = cell.value, ""
-            if isinstance(value, bool):
-                value, kind = int(value), ' t="b"'
-            elif isinstance(value, str):
-                value, kind = escape(value, quote=False), ' t="str"'
-            place = f'r="{cell.address}" s="{cell.format._get_xf_index()}"{kind}'
-            self.fh.write(f"<c {place}><f>{cell.formula}</f><v>{value}</v></c>")
-
-    class Parts(Packager):  # type: ignore[misc]
-        def _create_package(self) -> list[Any]:
-            files = super()._create_package()
-            self.parts = {name: file.getvalue().encode() for file, name, _ in files}
-            return []
-
-    return Page, Parts()
 
 
 # Charts; XlsxWriter stores the charted values with them.
