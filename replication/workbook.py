@@ -24,20 +24,30 @@ from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
+from spreadsheets.cases import (
+    ABOVE_TABLE,
+    DIGITS,
+    OTHER_TEXT,
+    SAME_TEXT,
+    TABLE_ROWS,
+    CaseSheet,
+    Input,
+    inputs_of,
+    prepared_rows,
+)
 from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
 from spreadsheets.sheets import (
     AS_PRINTED,
     KINDS,
+    LEVELS,
+    NO_ORDER,
     OTHERWISE,
+    POINTS,
+    RUN_INPUTS,
     Findings,
     computed_claims,
-    figures,
-    inputs,
-    steps,
     workbook_plan,
 )
-from spreadsheets.sheets.inputs import Input
-from spreadsheets.sheets.steps import CaseSheet
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
@@ -93,12 +103,12 @@ def build(
     ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
-    typed = _typed_inputs(inputs.inputs_of(pages, report=case is None), impacts, ledger)
+    typed = _typed_inputs(inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases with the numbers that their cells hold; they share all but the beta.
     held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
     sheets = [run(replace(impact, **held), scheme) for impact in impacts.values()]
-    count = steps.prepared_rows(max(sheet.steps for sheet in sheets), rows)
+    count = prepared_rows(max(sheet.steps for sheet in sheets), rows)
     if case is None:
         from replication.audit.audit import audit
 
@@ -246,7 +256,7 @@ def _values(
     results = ("depth_um", "normalized_depth", "message")
     table = pages[last_page.part]
     columns = [name for name in table["row"] if name not in ("index", "depth_um")]
-    rows = {name: table["row"][name][: steps.TABLE_ROWS] for name in columns}
+    rows = {name: table["row"][name][:TABLE_ROWS] for name in columns}
     return {
         "inputs": _inputs(runs, typed, si, changed),
         "overview": {
@@ -254,7 +264,7 @@ def _values(
             "inputs_unusable": 0,
             **{page.part: {x: pages[page.part][x] for x in results} for page, _ in runs},
         },
-        "table": {name: table[name] for name in steps.ABOVE_TABLE} | {"row": rows},
+        "table": {name: table[name] for name in ABOVE_TABLE} | {"row": rows},
         "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
         "figure_5": _figure_5(last.impact, si),
         "convergence": _convergence(runs, si),
@@ -278,6 +288,8 @@ def _inputs(
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
+        "pi_": math.pi,
+        "ksi_Pa": to_si("ksi"),
         "travel_most": COARSE,
         "excess_most": DIGITS,
     }
@@ -327,8 +339,8 @@ def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
 
 
 def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
-    low, high, last = si["V_from"], si["V_to"], figures.POINTS - 1
-    velocities = [low + (high - low) * point / last for point in range(figures.POINTS)]
+    low, high, last = si["V_from"], si["V_to"], POINTS - 1
+    velocities = [low + (high - low) * point / last for point in range(POINTS)]
     points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {what: [point[what] for point in points] for what in points[0]}
     return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
@@ -336,9 +348,9 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
     """The ladder of the cases as written, with inputs that are as yet those in use."""
-    of_runs = {name: si[name] for name in figures.RUN_INPUTS}
+    of_runs = {name: si[name] for name in RUN_INPUTS}
     of_runs |= {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
-    time_steps = ladder(si["dt_s"], figures.LEVELS)
+    time_steps = ladder(si["dt_s"], LEVELS)
     return {
         "message": MESSAGES["current"],
         "step": time_steps,
@@ -524,7 +536,7 @@ def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
         "depth_um": depths,
         "error": errors,
         "size": list(map(abs, errors)),
-        "order": [None, *(figures.NO_ORDER if order is None else order for order in orders)],
+        "order": [None, *(NO_ORDER if order is None else order for order in orders)],
     }
 
 
@@ -550,8 +562,8 @@ def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> di
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
-            difference = round(difference / float(printed.quantum), steps.DIGITS)
+            difference = round(difference / float(printed.quantum), DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
-        verdict = steps.SAME_TEXT if same else steps.OTHER_TEXT
+        verdict = SAME_TEXT if same else OTHER_TEXT
         checked |= {"difference": difference, "verdict": verdict}
     return {f"table_check.{address}.{what}": number for what, number in checked.items()}

@@ -7,7 +7,7 @@ supplies the values never sees the formulas, so that the two can be compared.
 
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import product
@@ -23,6 +23,9 @@ NOT_COMPUTED = "not computed"
 
 HOME = "Overview"
 """The first sheet, to which a link leads back from every other."""
+
+FIRST_ROW = 10
+"""Row 0 of the scheme, the impact itself, stands in this row of the sheet of a case."""
 
 Value = float | str | bool
 """What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
@@ -215,17 +218,40 @@ class SheetPlan:
         for line in wrap(words, width, break_on_hyphens=False):
             self.put(A=text(line, style))
 
-    def column(
-        self, top: str, key: str, formulas: Iterable[str], start: int = 0, **more: Any
-    ) -> None:
-        """Formulas below one another from the cell `top` on.
+    def grid(
+        self, columns: Mapping[str, Mapping[str, Any]], part: str, words: Mapping[str, object],
+        count: int, finish: Callable[[str], str] = str,
+    ) -> None:  # fmt: skip
+        """Columns of `sheets.toml`, by letter: heads, units, and `count` cells below one another.
 
-        Their keys are `key` with the number of each, from `start` on: "high.row.depth[1]".
+        part: what the keys begin with; they end with the number of the cell in its column:
+        "high.row.depth[1]". finish: what is made of each formula.
         """
-        column, first = top[0], int(top[1:]) - start
-        for k, expression in enumerate(formulas, start):
-            cell = Cell(key=f"{key}[{k}]", formula=expression, style="number", **more)
-            self.cells[f"{column}{first + k}"] = cell
+        letters, entries = "".join(columns), columns.values()
+        units = [entry.get("under", written(entry.get("unit", "1")) or None) for entry in entries]
+        self.heads(letters, [entry["head"] for entry in entries], letters, units)
+        first, self.row = self.row, self.row + count
+        for column, entry in columns.items():
+            key, shown = entry.get("key"), entry.get("shown", "General")
+            formulas = dict(row_formulas(entry, {**words, "column": column}, first, count))
+            for k in range(count):
+                if k in formulas:
+                    plain = "start" in entry and k == 0
+                    cell = formula(
+                        f"{part}.{key}[{k}]",
+                        finish(formulas[k]),
+                        number_format=entry.get("start_shown", "General") if plain else shown,
+                        unit=entry.get("unit", "1"),
+                        column=filled(entry.get("like", ""), words),
+                        transcendental=entry.get("transcendental", False),
+                    )
+                elif key is None:
+                    cell = Cell(number=float(k), style="number")
+                elif not formulas:
+                    cell = recorded(f"{part}.{key}[{k}]", number_format=shown)
+                else:
+                    continue
+                self.cells[f"{column}{first + k}"] = cell
 
     def heads(
         self, columns: str, words: Sequence[str], right: str, units: Sequence[str | None] = ()
@@ -346,6 +372,26 @@ def place_of(text: str) -> Place:
 
 
 # Formulas
+
+
+def row_formulas(
+    entry: Mapping[str, str], words: Mapping[str, object], first: int, count: int
+) -> Iterator[tuple[int, str]]:
+    """The formulas of a column of `sheets.toml`, with their numbers: those of `count` rows.
+
+    The same for `each`; or one to `start` with, which row `first` of the sheet has, the `first`
+    below it where that is another, and `then` all others. What is no formula by itself, without
+    "=", is blank where column A is no number; a test for "" fails in two spreadsheet programs.
+    """
+    then = entry.get("then")
+    kinds = entry.get("start"), entry.get("first", then), then
+    for k in range(count):
+        if expression := entry.get("each") or kinds[min(k, 2)]:
+            if expression[0] != "=":
+                expression = f'=IF(ISNUMBER(A{{row}}),{expression},"")'
+            rows = {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
+            yield k, filled(expression, {**words, **rows})
+
 
 _REFERENCE = re.compile(
     r"""(?P<skip>"[^"]*"|(?:'[^']*'!)?\$?[A-Z]{1,2}\$?\d+:\$?[A-Z]{1,2}\$?\d+|[A-Za-z]\w*\()

@@ -16,9 +16,9 @@ from reference.units import written
 from replication.audit.audit import audit
 from replication.cases import BETA_5
 from replication.workbook import Workbook, build
+from spreadsheets.cases import MAX_ROWS, prepared_rows
 from spreadsheets.plan import Cell, SheetPlan, place_of, tables
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
-from spreadsheets.sheets.steps import MAX_ROWS, prepared_rows
 
 LEDGER = load()
 RECORD = audit()

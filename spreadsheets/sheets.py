@@ -1,7 +1,8 @@
-"""The sheets of the workbook and their order; `Overview`, `Audit` and those of closed formulas.
+"""The sheets of the workbook and their order; all but those of `cases.py`.
 
 `Overview`, the first, has the results, whether they can be trusted, what the audit found, and the
 sheets. `Audit` has every claim of the ledger, with a live verdict where a cell computes it.
+`Figure 3`, `Figure 5` and `Convergence` are charts, and the numbers behind them.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,14 +12,24 @@ from itertools import zip_longest
 from textwrap import wrap
 
 from reference.ledger import Claim, Ledger
+from spreadsheets.cases import (
+    SCHEMES,
+    CaseSheet,
+    case_sheet,
+    inputs_sheet,
+    table_a1,
+    table_a1_check,
+)
 from spreadsheets.plan import (
     HOME,
+    MESSAGES,
     NOT_COMPUTED,
     Cell,
     Rule,
     SheetPlan,
     WorkbookPlan,
     formula,
+    guarded,
     place_of,
     printed,
     recorded,
@@ -26,8 +37,6 @@ from spreadsheets.plan import (
     text,
     unit_text,
 )
-from spreadsheets.sheets import figures, inputs, steps
-from spreadsheets.sheets.steps import SCHEMES, CaseSheet
 
 PROGRAM = f"coldspray {version('coldspray')}"
 
@@ -63,11 +72,11 @@ def workbook_plan(
     ValueError where the ledger has a claim computed by a cell that is none.
     """
     report, cases = findings is not None, [page for page in pages if not page.coarse]
-    table = steps.table_a1(ledger, cases[-1], report)
-    sheets = [inputs.sheet(ledger, cases, report), table]
-    sheets += [steps.table_a1_check(ledger, table)] if report else []
-    sheets += [steps.sheet(ledger, page) for page in pages]
-    sheets += [figures.figure_3(cases), figures.figure_5(cases[-1]), figures.convergence(cases)]
+    table = table_a1(ledger, cases[-1], report)
+    sheets = [inputs_sheet(ledger, cases, report), table]
+    sheets += [table_a1_check(ledger, table)] if report else []
+    sheets += [case_sheet(ledger, page) for page in pages]
+    sheets += [_figure_3(cases), _figure_5(cases[-1]), _convergence(cases)]
     words = [{**case.words, "third": ledger.value("observed-third")} for case in cases]
     sheets += [_formulas(ledger, name, words) for name in ("Frank-Zook", "Crater", "Resistance")]
     sheets += [_audit(ledger, findings)] if findings else []
@@ -267,16 +276,119 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
 def _inside(claim: Claim, row: int) -> str:
     """Whether E lies between H and I, ends counted as they are closed or open."""
     interval = claim.interval()
-    verdict = f'"{AS_PRINTED}"'
+    tests = []
     if interval.is_point:
         # To nine digits: no program holds 2/3, and not all round it alike.
-        near = f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"
-        verdict = f'IF({near},{verdict},"{OTHERWISE}")'
+        tests.append(f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})")
     else:
         if interval.upper is not None:
-            sign = "<=" if interval.upper_closed else "<"
-            verdict = f'IF(E{row}{sign}I{row},{verdict},"{OTHERWISE}")'
+            tests.append(f"E{row}{'<=' if interval.upper_closed else '<'}I{row}")
         if interval.lower is not None:
-            sign = ">=" if interval.lower_closed else ">"
-            verdict = f'IF(E{row}{sign}H{row},{verdict},"{OTHERWISE}")'
+            tests.append(f"E{row}{'>=' if interval.lower_closed else '>'}H{row}")
+    verdict = f'"{AS_PRINTED}"'
+    for test in tests:
+        verdict = f'IF({test},{verdict},"{OTHERWISE}")'
     return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
+
+
+# Charts, and the numbers behind them
+
+
+def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
+    """Depth against time, one curve for each case."""
+    series, written = [], []
+    page = SheetPlan.begun("Figure 3")
+    page.single_cells()
+    for at, (columns, case) in enumerate(zip(("PQ", "RS"), cases, strict=False), start=3):
+        key = f"figure_3.{case.slug}"
+        message = f"='{case.name}'!I1&\": \"&message{case.suffix}"
+        page.cells[f"A{at}"] = formula(f"{key}.message", message, "message")
+        page.rules += case.rules(f"A{at}")
+        page.row = 4
+        page.put(**{columns[0]: text(case.name, "block")})
+        entries = page.entry["columns"].values()
+        page.grid(dict(zip(columns, entries, strict=True)), key, case.words, case.rows + 1)
+        x, y = (f"{column}7:{column}{page.row - 1}" for column in columns)
+        series.append(((case.name, "I1"), x, y))
+        reached = f"{{{case.slug}.depth_um:.4g}} µm after {{{key}.time[{case.rows}]:.3g}} ns"
+        written.append(f"{case.label} reaches {reached}")
+    page.draw(series, ", ".join(written))
+    return page
+
+
+POINTS = 21
+"""Velocities of Figure 5, both ends included."""
+
+
+def _figure_5(case: CaseSheet) -> SheetPlan:
+    """Normalized depth against velocity for one case; the report's is that of beta = 5."""
+    page, first, last = SheetPlan.begun("Figure 5"), 7, 7 + POINTS - 1
+    missing = f"COUNT(T{first}:T{last})<{POINTS}"
+    page.single_cells(missing=missing)
+    page.rules = [Rule("A3", f"={missing}", "warning")]
+    page.row = first - 2
+    page.grid(page.entry["columns"], "figure_5", {**case.words, "last": last}, POINTS, guarded)
+    low, high = (
+        f"{{figure_5.normalized_depth[{k}]:.3g}} at {{figure_5.velocity[{k}]:.4g}} m/s"
+        for k in (0, POINTS - 1)
+    )
+    series = [((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}")]
+    page.draw(series, f"{case.label}, from {low} to {high}")
+    return page
+
+
+LEVELS = 8
+"""Steps of the ladder, each half of the one before; the fifth is the step dt_s as written."""
+
+RUN_INPUTS = ("V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop")
+"""The inputs, besides the target resistance, that the ladder's runs were made with."""
+
+NO_ORDER = "–"
+
+
+def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
+    """The final depth at a ladder of time steps against the depth at rest."""
+    first, series, written = 11, [], []
+    last = first + LEVELS - 1
+    page = SheetPlan.begun("Convergence", scheme=cases[0].scheme)
+    page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
+    page.row = first - 2
+    page.grid(page.entry["columns"], "convergence", {}, LEVELS)
+    page.put(A=text("At rest, without steps"))
+    ladder = page.entry["ladder"]
+    for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
+        key, whose = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
+        words, page.row = {"error": columns[2], "no_order": NO_ORDER}, first - 2
+        page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
+        # Called as it was when it was computed.
+        page.cells[whose] = text(f"{case.name}, {case.label}", "block")
+        at_rest = recorded(f"{key}.rest_um", number_format=ladder["depth_um"]["shown"])
+        page.cells[f"{columns[1]}{last + 1}"] = at_rest
+        ends = (
+            f"{{{key}.size[{k}]:.2g}} µm at {{convergence.step_ns[{k}]:.3g}} ns"
+            for k in (0, LEVELS - 1)
+        )
+        written.append(f"{case.label} from {' to '.join(ends)}")
+        size = f"{columns[3]}{first}:{columns[3]}{last}"
+        series.append((("Convergence", whose), f"B{first}:B{last}", size))
+    page.row = last + 4
+    _same_inputs(page, [*RUN_INPUTS, *(f"R_t{case.of}" for case in cases)])
+    page.draw(series, ", ".join(written))
+    return page
+
+
+def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
+    """The inputs of the runs beside those in use, and whether they are the same."""
+    page.heads("IJKL", ("Input", "Of these runs", "In use", ""), "JK")
+    first, shown = page.row, "0.0####E+00"
+    for name in names:
+        # To twelve digits: programs round a conversion of units in their own way.
+        same = f"=IF(ABS(J{page.row}-K{page.row})*1000000000000<=ABS(J{page.row}),1,0)"
+        same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
+        page.put(
+            I=text(name, "text"),
+            J=recorded(f"convergence.run.{name}", number_format=shown),
+            K=formula(f"convergence.in_use.{name}", f"={name}", number_format=shown),
+            L=formula(f"convergence.same.{name}", same, "text", number_format='"same";;"other"'),
+        )
+    page.single_cells(same=f"L{first}:L{page.row - 1}")

@@ -1,31 +1,37 @@
-"""The sheets of a case: the scheme row by row to the stop, its result, and the report's Table A-1.
+"""The sheets `Inputs`, of each case (its rows to the stop, its result), and `Table A-1`.
 
-Below the stop follow rows that stay blank until an input needs them. If even they do not suffice,
-the sheet says so instead of giving a depth; if the time step is too long for the motion, too.
+On `Inputs` stands every physical number, typed in the report's units. Yellow cells are typed;
+beside each stand the value in use in SI units, what the report has, and within what limits a number
+is taken. What follows from the inputs stands apart, below.
+
+On the sheet of a case, rows below the stop stay blank until an input needs them. If even they do
+not suffice, the sheet says so instead of giving a depth; if the time step is too long for the
+motion, too.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
 
-from reference.ledger import Claim, Ledger
-from reference.units import written
+from reference.ledger import INFERRED, Claim, Ledger
+from reference.units import to_si
 from spreadsheets.plan import (
+    FIRST_ROW,
     HOME,
     NOT_COMPUTED,
     Cell,
     Rule,
     SheetPlan,
-    filled,
+    filled_in,
     formula,
     printed,
     recorded,
+    row_formulas,
     tables,
     text,
     unit_text,
 )
-
-FIRST_ROW = 10
-"""Row 0 of the scheme, the impact itself, stands in this row of the sheet."""
 
 MAX_ROWS = 20_000
 """A sheet of more rows is refused: writing it takes half a minute and gigabytes of memory."""
@@ -124,7 +130,135 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
+# Inputs
+
+
+class Input(NamedTuple):
+    """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
+
+    source: the id of the claim that prints it, or of an inferred input. attribute: what it is of an
+    impact, if it belongs to a case.
+    """
+
+    name: str
+    symbol: str
+    source: str
+    unit: str
+    limits: tuple[float, float]
+    meaning: str = ""
+    attribute: str = ""
+
+    def of_report(self, ledger: Ledger) -> float:
+        """The report's number in this unit."""
+        return float(ledger.value(self.source) / to_si(self.unit))
+
+
+_BAD = ("too small", "too large", "no number")
+
+
+def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
+    """The inputs of a workbook of these cases, in blocks; `report`: it is the report's own."""
+    left_out = {"Y_t", "beta{of}"} if cases[0].resistance_given else {"R_t"}
+    left_out |= set() if report else {"dt_coarse"}
+    blocks: dict[str, list[Input]] = {}
+    for block, entries in tables()["inputs"].items():
+        named: dict[str, Input] = {}
+        for case, (name, entry) in product(cases, entries.items()):
+            if name not in left_out:
+                own = filled_in({"name": name, "unit": "1", **entry}, case.words)
+                own["limits"] = tuple(own.get("limits", tables()["limits"][own["unit"]]))
+                named[own["name"]] = Input(**own)
+        blocks[block] = [*named.values()]
+    return blocks
+
+
+def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan:
+    """The sheet for these cases, which share every input but the target resistance."""
+    page = SheetPlan.begun("Inputs")
+    page.row = 9
+    page.table("CFHIKL", "C")
+    first = page.row
+    for block, entries in inputs_of(cases, report).items():
+        page.put(A=text(block, "block"))
+        for entry in entries:
+            page.put(**_input(ledger, entry, page.row))
+        page.row += 1
+    checks = f"E{first}:E{page.row}"
+    page.single_cells(checks=checks)
+    page.put(A=text("What follows from them", "block"))
+    derived, words = dict(tables()["derived"]), [case.words for case in cases]
+    if cases[0].resistance_given:
+        del derived["target"]
+    page.lines(ledger, "inputs", derived, words, "ABFGIJ", headed=False)
+    page.row += 1
+    page.put(A=text("Constants", "block"))
+    for name, entry in tables()["constants"].items():
+        number = recorded(f"inputs.{name}", name=name, unit=entry["unit"])
+        named = text(name, "unit")
+        page.put(B=text(entry["meaning"]), F=number, G=unit_text(entry["unit"]), M=named)
+    page.print_area = f"A1:J{page.row - 1}"
+    bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
+    page.rules = [
+        Rule(checks, f"=OR({bad})", "warning"),
+        Rule(checks, f'=$E{first}="yours"', "changed"),
+        Rule("A7", "=inputs_unusable>0", "warning"),
+    ]
+    return page
+
+
+def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
+    inferred, key = entry.source.startswith(INFERRED), f"inputs.{entry.name}"
+    words = {
+        "row": row,
+        "factor": _factor(entry.unit),
+        "same": "as inferred" if inferred else "the report’s",
+        "none": NOT_COMPUTED,
+    }
+    texts = filled_in(tables()["input"], words)
+    style, shown = (
+        "inferred" if inferred else "input",
+        "0.0####E+00" if words["factor"] else "General",
+    )
+    si = _SI.get(entry.unit, entry.unit)
+    place = "inferred from Table A-1" if inferred else str(ledger.claims[entry.source].place)
+    own = text("nowhere", "recorded") if inferred else printed(ledger, entry.source, entry.unit)
+    return {
+        "A": text(entry.symbol, "text"),
+        "B": text(entry.meaning or ledger.title(entry.source)),
+        "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
+        "D": unit_text(entry.unit),
+        "E": formula(f"{key}.check", texts["check"], "text"),
+        "F": formula(key, texts["in_use"], name=entry.name, unit=si, number_format=shown),
+        "G": unit_text(si),
+        "H": recorded(entry.of_report(ledger)),
+        "I": own,
+        "J": text(place, "unit"),
+        "K": recorded(entry.limits[0]),
+        "L": recorded(entry.limits[1]),
+        "M": text(entry.name, "unit"),
+    }
+
+
+_SI = {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}
+"""The unit in which a value is in use, where it is not that in which it is typed."""
+
+
+def _factor(unit: str) -> str:
+    """What brings a number to SI: a division by a power of ten, where that is exact.
+
+    >>> _factor("ns"), _factor("MPa"), _factor("m/s")
+    ('/1000000000', '*1000000', '')
+    """
+    if unit not in _SI:
+        return ""
+    factor = to_si(unit)
+    return "*ksi_Pa" if unit == "ksi" else f"*{factor}" if factor > 1 else f"/{1 / factor}"
+
+
+# Rows
+
+
+def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case: title with the live β, state of the run, notes, rows, results."""
     centered, top = case.scheme == "centered", FIRST_ROW - 2
     columns = {c: x for c, x in tables()["rows"].items() if c != "H" or centered}
@@ -138,24 +272,11 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         page.cells["I1"] = text(case.label, "title")
         del page.cells["I2"]
     page.row = top
-    units = [written(entry["unit"]) or None for entry in columns.values()]
-    page.heads("".join(columns), [x["head"] for x in columns.values()], "".join(columns), units)
+    words = case.words | {"drag": "H" if centered else "C"}
+    page.grid(columns, f"{case.part}.row", words, case.rows + 1)
     page.row = top
     results = tables()["case"] | (tables()["coarse"] if case.coarse else {})
     page.lines(ledger, case.part, results, [case.words], "IJKLMN")
-    for column, entry in columns.items():
-        words = case.words | {"drag": "H" if centered else "C"}
-        like = {
-            "unit": entry["unit"],
-            "column": f"{case.part}.{entry['like']}" if "like" in entry else "",
-        }
-        key, shown = f"{case.part}.row.{entry['key']}", entry.get("shown", "General")
-        if "start" in entry:
-            start = _where_running(entry["start"], {**words, "row": FIRST_ROW})
-            plain = shown if column == "C" else "General"
-            page.column(f"{column}{FIRST_ROW}", key, [start], number_format=plain, **like)
-        below = step_formulas(entry, words, FIRST_ROW, case.rows)
-        page.column(f"{column}{FIRST_ROW + 1}", key, below, 1, number_format=shown, **like)
     page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (top, top + 1)
     page.print_area = f"A1:M{max(FIRST_ROW + case.steps, page.row - 1)}"
     used = f"A{FIRST_ROW}:{max(columns)}{FIRST_ROW + case.rows}"
@@ -165,30 +286,6 @@ def sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         *case.rules("A3"),
     ]
     return page
-
-
-def step_formulas(
-    entry: Mapping[str, str], words: Mapping[str, str], first: int, count: int
-) -> Iterator[str]:
-    """The formulas of a column of the scheme in rows 1 to `count`, where row 0 is row `first`.
-
-    entry: of the table `rows` in `sheets.toml`. words: those of the case, and "drag".
-    """
-    words = {**words, "row": "{0}", "above": "{1}"}
-    row_1 = _where_running(entry.get("first", entry["then"]), words | {"reached": "C{1}"})
-    below = _where_running(entry["then"], words | {"reached": "F{1}"})
-    yield row_1.format(first + 1, first)
-    for row in range(first + 2, first + count + 1):
-        yield below.format(row, row - 1)
-
-
-def _where_running(expression: str, words: Mapping[str, object]) -> str:
-    """A formula of a row with these words, blank below the stop.
-
-    A test for "" instead of a number fails in two spreadsheet programs.
-    """
-    bare = expression if expression[0] == "=" else f'=IF(ISNUMBER(A{{row}}),{expression},"")'
-    return filled(bare, words)
 
 
 # Table A-1: the report has it cell for cell in A1:F12; every number format gives the text that the
@@ -233,15 +330,16 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     for column, head in heads.items():
         cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
     columns = {column: entries["H" if column == "G" else column] for column in heads}
-    columns["A"] = {"key": "time", "start": "0", "then": tables()["table_a1"]["time"]}
+    columns["A"] = tables()["table_a1"]["time"]
     words = case.words | {"drag": "G" if centered else "C"}
     for column, entry in columns.items():
-        if column != "B":
-            ready, start = f"ISNUMBER('{case.name}'!A{FIRST_ROW})", entry.get("start")
-            formulas = [f'=IF({ready},{start},"")'] if start else []
-            formulas += step_formulas(entry, words, _FIRST, TABLE_ROWS - 1)
-            for step, expression in enumerate(formulas, start=TABLE_ROWS - len(formulas)):
-                live(f"{column}{_FIRST + step}", f"row.{entry['key']}[{step}]", expression)
+        if column == "B":
+            continue
+        if "start" in entry:
+            start = f"=IF(ISNUMBER('{case.name}'!A{FIRST_ROW}),{entry['start']},\"\")"
+            entry = {**entry, "start": start}
+        for k, expression in row_formulas(entry, words, _FIRST, TABLE_ROWS):
+            live(f"{column}{_FIRST + k}", f"row.{entry['key']}[{k}]", expression)
     if report:
         cells |= _as_printed(ledger, claims)
     page.row = 14
