@@ -75,14 +75,14 @@ class CaseSheet:
         return "" if self.slug == "case" else f"_{self.slug}"
 
     @property
-    def suffix(self) -> str:
-        """What the defined names of its results end with: "_low", "_low_coarse", or nothing."""
-        return f"{self.of}_coarse" if self.coarse else self.of
+    def part(self) -> str:
+        """What the keys of its sheet begin with: "low", "low_coarse", or "case"."""
+        return f"{self.slug}_coarse" if self.coarse else self.slug
 
     @property
-    def part(self) -> str:
-        """What the keys of its sheet begin with: "low", or "low_coarse"."""
-        return f"{self.slug}_coarse" if self.coarse else self.slug
+    def suffix(self) -> str:
+        """What the defined names of its results end with: "_low", "_low_coarse", or nothing."""
+        return "" if self.slug == "case" else f"_{self.part}"
 
     def claim(self, what: str) -> str:
         """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
@@ -137,7 +137,8 @@ class Input(NamedTuple):
     """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
 
     source: the id of the claim that prints it, or of an inferred input. attribute: what it is of an
-    impact, if it belongs to a case.
+    impact, if it belongs to a case. unit_in_use, factor: where that is another unit, it and what
+    brings the number to it, in a formula.
     """
 
     name: str
@@ -147,6 +148,8 @@ class Input(NamedTuple):
     limits: tuple[float, float]
     meaning: str = ""
     attribute: str = ""
+    unit_in_use: str = ""
+    factor: str = ""
 
     def of_report(self, ledger: Ledger) -> float:
         """The report's number in this unit."""
@@ -165,9 +168,9 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]
         named: dict[str, Input] = {}
         for case, (name, entry) in product(cases, entries.items()):
             if name not in left_out:
-                own = filled_in({"name": name, "unit": "1", **entry}, case.words)
-                own["limits"] = tuple(own.get("limits", tables()["limits"][own["unit"]]))
-                named[own["name"]] = Input(**own)
+                own = {"name": name, "unit": "1", **entry}
+                own = filled_in(tables()["units"][own["unit"]] | own, case.words)
+                named[own["name"]] = Input(**{**own, "limits": tuple(own["limits"])})
         blocks[block] = [*named.values()]
     return blocks
 
@@ -207,52 +210,31 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
 
 
 def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
-    inferred, key = entry.source.startswith(INFERRED), f"inputs.{entry.name}"
-    words = {
-        "row": row,
-        "factor": _factor(entry.unit),
-        "same": "as inferred" if inferred else "the report’s",
-        "none": NOT_COMPUTED,
-    }
+    key, unit = f"inputs.{entry.name}", entry.unit_in_use or entry.unit
+    if entry.source.startswith(INFERRED):
+        style, same, place = "inferred", "as inferred", "inferred from Table A-1"
+        prints = text("nowhere", "recorded")
+    else:
+        style, same, place = "input", "the report’s", str(ledger.claims[entry.source].place)
+        prints = printed(ledger, entry.source, entry.unit)
+    words = {"row": row, "factor": entry.factor, "same": same, "none": NOT_COMPUTED}
     texts = filled_in(tables()["input"], words)
-    style, shown = (
-        "inferred" if inferred else "input",
-        "0.0####E+00" if words["factor"] else "General",
-    )
-    si = _SI.get(entry.unit, entry.unit)
-    place = "inferred from Table A-1" if inferred else str(ledger.claims[entry.source].place)
-    own = text("nowhere", "recorded") if inferred else printed(ledger, entry.source, entry.unit)
+    shown = "0.0####E+00" if entry.factor else "General"
     return {
         "A": text(entry.symbol, "text"),
         "B": text(entry.meaning or ledger.title(entry.source)),
         "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
         "E": formula(f"{key}.check", texts["check"], "text"),
-        "F": formula(key, texts["in_use"], name=entry.name, unit=si, number_format=shown),
-        "G": unit_text(si),
+        "F": formula(key, texts["in_use"], name=entry.name, unit=unit, number_format=shown),
+        "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
-        "I": own,
+        "I": prints,
         "J": text(place, "unit"),
         "K": recorded(entry.limits[0]),
         "L": recorded(entry.limits[1]),
         "M": text(entry.name, "unit"),
     }
-
-
-_SI = {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}
-"""The unit in which a value is in use, where it is not that in which it is typed."""
-
-
-def _factor(unit: str) -> str:
-    """What brings a number to SI: a division by a power of ten, where that is exact.
-
-    >>> _factor("ns"), _factor("MPa"), _factor("m/s")
-    ('/1000000000', '*1000000', '')
-    """
-    if unit not in _SI:
-        return ""
-    factor = to_si(unit)
-    return "*ksi_Pa" if unit == "ksi" else f"*{factor}" if factor > 1 else f"/{1 / factor}"
 
 
 # Rows

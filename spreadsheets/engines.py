@@ -133,25 +133,16 @@ class IronCalc(Engine):
         return version(self.name)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        model = self._load(path)
-        model.evaluate()
-        for name, sheet, row, column in self._places(model):
-            yield name, address(row, column), model.get_cell_value(sheet, row, column)
-
-    def _load(self, path: Path) -> Any:
         import ironcalc
 
         try:
-            return ironcalc.load_from_xlsx(str(path))
+            model = ironcalc.load_from_xlsx(str(path))
         except ironcalc.WorkbookError as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
-
-    @staticmethod
-    def _places(model: Any) -> Iterator[tuple[str, int, int, int]]:
-        """Each cell's worksheet by name and by number, its row and its column."""
+        model.evaluate()
         names = [sheet["name"] for sheet in model.get_worksheets_properties()]
         for sheet, row, column in model.get_all_cells():
-            yield names[sheet], sheet, row, column
+            yield names[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
 class Formualizer(IronCalc):
@@ -164,6 +155,7 @@ class Formualizer(IronCalc):
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         import formualizer
+        from openpyxl.utils.cell import coordinate_to_tuple
 
         try:
             workbook = formualizer.load_workbook(str(path))
@@ -172,11 +164,11 @@ class Formualizer(IronCalc):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        for sheet, _, row, column in self._places(self._load(path)):
-            value = workbook.get_value(sheet, row, column)
+        for sheet, place, _ in super()._cells(path):
+            value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error
                 value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
-            yield sheet, address(row, column), value
+            yield sheet, place, value
 
 
 # From the system
