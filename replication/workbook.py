@@ -23,31 +23,10 @@ from replication.models import crater, depth, estimates
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
-from spreadsheets import emit
-from spreadsheets.cases import (
-    ABOVE_TABLE,
-    DIGITS,
-    OTHER_TEXT,
-    SAME_TEXT,
-    TABLE_ROWS,
-    CaseSheet,
-    Input,
-    inputs_of,
-    prepared_rows,
-)
+from spreadsheets import cases, emit, sheets
+from spreadsheets.cases import CaseSheet, Input
 from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
-from spreadsheets.sheets import (
-    AS_PRINTED,
-    KINDS,
-    LEVELS,
-    NO_ORDER,
-    OTHERWISE,
-    POINTS,
-    RUN_INPUTS,
-    Findings,
-    computed_claims,
-    workbook_plan,
-)
+from spreadsheets.sheets import Findings
 
 if TYPE_CHECKING:
     from replication.audit.record import Record
@@ -103,24 +82,24 @@ def build(
     ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
-    typed = _typed_inputs(inputs_of(pages, report=case is None), impacts, ledger)
+    typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases with the numbers that their cells hold; they share all but the beta.
     held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
-    sheets = [run(replace(impact, **held), scheme) for impact in impacts.values()]
-    count = prepared_rows(max(sheet.steps for sheet in sheets), rows)
+    computed = [run(replace(impact, **held), scheme) for impact in impacts.values()]
+    count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
         from replication.audit.audit import audit
 
         findings = findings_of(record or audit(), scheme, ledger)
         pages += [replace(page, name=f"{page.name} coarse", coarse=True) for page in pages]
-        coarse = [replace(sheet.impact, step=si["dt_coarse"]) for sheet in sheets]
-        sheets += [run(impact, scheme) for impact in coarse]
+        coarse = [replace(sheet.impact, step=si["dt_coarse"]) for sheet in computed]
+        computed += [run(impact, scheme) for impact in coarse]
     runs = [
         (replace(page, steps=sheet.steps, rows=count), sheet)
-        for page, sheet in zip(pages, sheets, strict=True)
+        for page, sheet in zip(pages, computed, strict=True)
     ]
-    plan = workbook_plan(ledger, [page for page, _ in runs], findings)
+    plan = sheets.workbook_plan(ledger, [page for page, _ in runs], findings)
     values = dict(_keyed(_values(ledger, runs, typed, si)))
     if findings is not None:
         values |= live_verdicts(ledger, plan, values, findings)
@@ -130,7 +109,7 @@ def build(
         if not page.coarse
         for doubt in doubts_about(sheet).values()
     ]
-    return Workbook(plan, values, warnings, max(map(rounding_bound, sheets)))
+    return Workbook(plan, values, warnings, max(map(rounding_bound, computed)))
 
 
 def rounding_bound(sheet: Sheet) -> float:
@@ -199,14 +178,14 @@ def _typed(si: float, unit: str) -> float:
 
 
 def _typed_inputs(
-    blocks: Mapping[str, Sequence[Input]], cases: Mapping[str, Impact], ledger: Ledger
+    blocks: Mapping[str, Sequence[Input]], impacts: Mapping[str, Impact], ledger: Ledger
 ) -> dict[Input, float]:
     """The number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
     for entry in (entry for block in blocks.values() for entry in block):
         if entry.attribute:
             # The name of a beta tells the case.
-            case = cases.get(entry.name.rpartition("_")[2]) or next(iter(cases.values()))
+            case = impacts.get(entry.name.rpartition("_")[2]) or next(iter(impacts.values()))
             number = _typed(getattr(case, entry.attribute), entry.unit)
         else:
             number = entry.of_report(ledger)
@@ -256,7 +235,7 @@ def _values(
     results = ("depth_um", "normalized_depth", "message")
     table = pages[last_page.part]
     columns = [name for name in table["row"] if name not in ("index", "depth_um")]
-    rows = {name: table["row"][name][:TABLE_ROWS] for name in columns}
+    rows = {name: table["row"][name][: cases.TABLE_ROWS] for name in columns}
     return {
         "inputs": _inputs(runs, typed, si, changed),
         "overview": {
@@ -264,7 +243,7 @@ def _values(
             "inputs_unusable": 0,
             **{page.part: {x: pages[page.part][x] for x in results} for page, _ in runs},
         },
-        "table": {name: table[name] for name in ABOVE_TABLE} | {"row": rows},
+        "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
         "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
         "figure_5": _figure_5(last.impact, si),
         "convergence": _convergence(runs, si),
@@ -339,8 +318,8 @@ def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
 
 
 def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
-    low, high, last = si["V_from"], si["V_to"], POINTS - 1
-    velocities = [low + (high - low) * point / last for point in range(POINTS)]
+    low, high, last = si["V_from"], si["V_to"], sheets.POINTS - 1
+    velocities = [low + (high - low) * point / last for point in range(sheets.POINTS)]
     points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {what: [point[what] for point in points] for what in points[0]}
     return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
@@ -348,9 +327,9 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
     """The ladder of the cases as written, with inputs that are as yet those in use."""
-    of_runs = {name: si[name] for name in RUN_INPUTS}
+    of_runs = {name: si[name] for name in sheets.RUN_INPUTS}
     of_runs |= {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
-    time_steps = ladder(si["dt_s"], LEVELS)
+    time_steps = ladder(si["dt_s"], sheets.LEVELS)
     return {
         "message": MESSAGES["current"],
         "step": time_steps,
@@ -462,12 +441,12 @@ def live_verdicts(
     Whether a live verdict is the proven one, a test asks.
     """
     live: dict[str, Value] = {}
-    for claim in computed_claims(ledger):
+    for claim in sheets.computed_claims(ledger):
         value = values[plan.cell(place_of(str(claim.workbook))).key]
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
-    for text, what in KINDS:
+    for text, what in sheets.KINDS:
         live[f"audit.{what}"] = live[f"overview.audit_{what}"] = float(verdicts.count(text))
     for name in (*findings.failing, *findings.differing):
         if ledger.claims[name].workbook:
@@ -526,17 +505,17 @@ def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
     """Final depths at steps, each half of the one before, against the depth at rest, in um."""
     impact = written.impact
     rest = depth.final_depth(*impact.motion.values()) * 1e6
-    sheets = [run(replace(impact, step=step), written.scheme) for step in time_steps]
-    depths = [sheet.final_depth * 1e6 for sheet in sheets]
+    finer = [run(replace(impact, step=step), written.scheme) for step in time_steps]
+    depths = [sheet.final_depth * 1e6 for sheet in finer]
     errors = [reached - rest for reached in depths]
     orders = starmap(error_order, pairwise(errors))
     return {
         "rest_um": rest,
-        "steps": [sheet.steps for sheet in sheets],
+        "steps": [sheet.steps for sheet in finer],
         "depth_um": depths,
         "error": errors,
         "size": list(map(abs, errors)),
-        "order": [None, *(NO_ORDER if order is None else order for order in orders)],
+        "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
     }
 
 
@@ -553,7 +532,7 @@ def _verdict(value: Value, interval: Interval) -> str:
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
         around = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = around.contains(Fraction(value))
-    return AS_PRINTED if inside else OTHERWISE
+    return sheets.AS_PRINTED if inside else sheets.OTHERWISE
 
 
 def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
@@ -562,8 +541,8 @@ def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> di
     if isinstance(value, float):
         difference = value - float(printed.value)
         if not exact:
-            difference = round(difference / float(printed.quantum), DIGITS)
+            difference = round(difference / float(printed.quantum), cases.DIGITS)
         same = difference == 0 if exact else abs(difference) <= 0.5
-        verdict = SAME_TEXT if same else OTHER_TEXT
+        verdict = cases.SAME_TEXT if same else cases.OTHER_TEXT
         checked |= {"difference": difference, "verdict": verdict}
     return {f"table_check.{address}.{what}": number for what, number in checked.items()}
