@@ -207,14 +207,14 @@ class LibreOffice(Engine):
     name = "libreoffice"
 
     def missing(self) -> str | None:
-        if (soffice := _soffice()) is None:
+        if (soffice := office()) is None:
             return "LibreOffice is not installed: install the system package libreoffice-calc."
         if _uno_python(soffice) is None:
             return "No Python here can import uno: install the system package python3-uno."
         return None
 
     def version(self) -> str:
-        told = self._run([str(_soffice()), "--version"])
+        told = self._run([str(office()), "--version"])
         return _first(r"LibreOffice\S* (\S+)", told)
 
     def _cells(self, path: Path) -> Iterator[Cell]:
@@ -222,7 +222,7 @@ class LibreOffice(Engine):
         return cells
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        soffice, script = str(_soffice()), str(Path(__file__).with_name("uno_script.py"))
+        soffice, script = str(office()), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
             # Copies, since LibreOffice puts a lock file beside what it opens.
             copies = [
@@ -240,7 +240,8 @@ class LibreOffice(Engine):
                     yield sheet, address(row, column), value
 
 
-def _soffice() -> str | None:
+def office() -> str | None:
+    """The path of LibreOffice's program, if it is installed."""
     return shutil.which("soffice") or shutil.which("libreoffice")
 
 

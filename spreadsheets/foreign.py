@@ -26,7 +26,7 @@ from xml.etree import ElementTree as ET
 from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
-from spreadsheets.engines import run_program
+from spreadsheets.engines import office, run_program
 
 Position = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""
@@ -175,8 +175,7 @@ def _converted(path: Path, folder: Path) -> Path:
 
     It runs within bounds of time, memory and disk.
     """
-    soffice = shutil.which("soffice") or shutil.which("libreoffice")
-    if soffice is None:
+    if (soffice := office()) is None:
         raise WorkbookError(
             f"{path}: {path.suffix} files are read by way of LibreOffice, which is not installed; "
             "save it as .xlsx"
@@ -209,12 +208,8 @@ def _limited() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
-class _Table(NamedTuple):
-    """A table of a sheet: its name in small letters, and its columns by their heads."""
-
-    name: str
-    columns: dict[str, int]
-
+_Tables = list[tuple[str, dict[str, int]]]
+"""The tables of a sheet: each its name in small letters, and its columns by their heads."""
 
 _THIS_ROW = re.compile(
     r"(?P<table>[^\W\d][\w.]*)?\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)+)\]"
@@ -261,17 +256,15 @@ class _Reader:
         notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
         return Book(self.path, sheets, _names(tree, names), tuple(notes))
 
-    def tables(self, sheet_part: str) -> list[_Table]:
-        related = self.relations(sheet_part).values()
-        trees = [
-            self.tree(part) for kind, part in related if kind == "table" and part in self.parts
-        ]
+    def tables(self, sheet_part: str) -> _Tables:
         tables = []
-        for tree in trees:
-            first = range_boundaries(tree.attrib["ref"])[0] or 1
-            heads = tree.iterfind("{*}tableColumns/{*}tableColumn")
-            columns = {head.attrib["name"]: column for column, head in enumerate(heads, first)}
-            tables.append(_Table(tree.attrib["displayName"].lower(), columns))
+        for kind, part in self.relations(sheet_part).values():
+            if kind == "table" and part in self.parts:
+                tree = self.tree(part)
+                heads = tree.iterfind("{*}tableColumns/{*}tableColumn")
+                numbered = enumerate(heads, range_boundaries(tree.attrib["ref"])[0] or 1)
+                columns = {head.attrib["name"]: column for column, head in numbered}
+                tables.append((tree.attrib["displayName"].lower(), columns))
         return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
@@ -343,7 +336,7 @@ def _text(string: ET.Element) -> str:
 class _Sheet:
     """Collects the cells of a worksheet, row by row."""
 
-    def __init__(self, reader: _Reader, texts: list[str], tables: list[_Table]) -> None:
+    def __init__(self, reader: _Reader, texts: list[str], tables: _Tables) -> None:
         self.reader, self.texts, self.tables = reader, texts, tables
         self.cells: dict[tuple[int, int], Cell] = {}
         self.masters: dict[str, tuple[str, str]] = {}
@@ -395,9 +388,10 @@ class _Sheet:
 
         What names a table of another sheet stays as it is.
         """
-        name, head = match["table"] or "", re.sub(r"'(.)", r"\1", match["long"] or match["short"])
-        named = (table for table in self.tables if name.lower() in ("", table.name))
-        column = next((table.columns.get(head) for table in named), None)
+        head = re.sub(r"'(.)", r"\1", match["long"] or match["short"])
+        wanted = (match["table"] or "").lower()
+        named = (columns for name, columns in self.tables if wanted in ("", name))
+        column = next(named, {}).get(head)
         return f"${get_column_letter(column)}{self.row}" if column else match[0]
 
     def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import accumulate
 from typing import NamedTuple
@@ -62,6 +62,12 @@ class Area(NamedTuple):
         """The first cell."""
         return self.sheet, self.top, self.left
 
+    def called(self, sheet: str) -> str:
+        """It as formulas write it, its sheet called so."""
+        first = f"{sheet}!{get_column_letter(self.left)}{self.top}"
+        last = f":{get_column_letter(self.right)}{self.bottom}"
+        return first if self.cells == 1 else f"{first}{last}"
+
     @property
     def ends(self) -> tuple[Position, Position]:
         """The first cell and the last."""
@@ -87,15 +93,12 @@ class Area(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """One token: its kind, its text, and the area that it refers to.
-
-    `ends` are the area's rows and columns as they are written, each with whether "$" fixes it.
-    """
+    """One token: its kind and text, the area that it refers to, and how R1C1 notation writes that."""
 
     kind: str
     text: str
     area: Area | None = None
-    ends: tuple[tuple[int, bool], ...] = ()
+    shape: str = ""
 
 
 @dataclass(frozen=True)
@@ -114,7 +117,7 @@ class Formula:
     @cached_property
     def shape(self) -> tuple[str, ...]:
         """The same for every cell that it is filled into, piece by piece."""
-        return tuple(self._shape(piece) for piece in self.pieces)
+        return tuple(piece.shape or piece.text for piece in self.pieces)
 
     @cached_property
     def literals(self) -> tuple[float, ...]:
@@ -128,22 +131,9 @@ class Formula:
     def for_engine(self, sheets: Mapping[str, str]) -> str:
         """The formula with names resolved and every sheet called as `sheets` says."""
         return "=" + "".join(
-            piece.text if piece.area is None else _written(piece, sheets[piece.area.sheet])
+            piece.text if piece.area is None else piece.area.called(sheets[piece.area.sheet])
             for piece in self.pieces
         )
-
-    def _shape(self, piece: Piece) -> str:
-        if piece.area is None:
-            return piece.text.upper() if piece.kind == "function" else piece.text
-        sheet, row, column = self.place
-        area, here = piece.area, (row, column, row, column)
-        steps = [
-            str(end) if fixed else f"[{end - own}]"
-            for (end, fixed), own in zip(piece.ends, here, strict=True)
-        ]
-        prefix = "" if area.sheet == sheet else f"{area.sheet}!"
-        first = f"{prefix}R{steps[0]}C{steps[1]}"
-        return first if area.cells == 1 else f"{first}:R{steps[2]}C{steps[3]}"
 
 
 def parse(text: str, place: Position, book: Book) -> Formula:
@@ -242,7 +232,15 @@ class _Reader:
         if sheet is None or rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
             return None
         area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
-        return Piece("area", match[0], area, ends)
+        own_sheet, *here = self.place
+        steps = [
+            str(end) if fixed else f"[{end - own}]"
+            for (end, fixed), own in zip(ends, here * 2, strict=True)
+        ]
+        shape = "" if sheet == own_sheet else f"{sheet}!"
+        shape += f"R{steps[0]}C{steps[1]}"
+        shape += "" if area.cells == 1 else f":R{steps[2]}C{steps[3]}"
+        return Piece("area", match[0], area, shape)
 
 
 def _end(text: str, whole: str) -> tuple[int, bool]:
@@ -250,13 +248,6 @@ def _end(text: str, whole: str) -> tuple[int, bool]:
     number = (text or whole).lstrip("$")
     fixed = (text or whole).startswith("$")
     return int(number) if number.isdigit() else column_index_from_string(number), fixed
-
-
-def _written(piece: Piece, sheet: str) -> str:
-    area = piece.area
-    assert area is not None
-    first = f"{sheet}!{get_column_letter(area.left)}{area.top}"
-    return first if area.cells == 1 else f"{first}:{get_column_letter(area.right)}{area.bottom}"
 
 
 # Values
@@ -314,8 +305,7 @@ class Calculation:
     @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a name, with it."""
-        unnamed = Book(self.book.path, self.book.sheets, {})
-        here = (next(iter(self.book.sheets)), 1, 1)
+        unnamed, here = replace(self.book, names={}), (next(iter(self.book.sheets)), 1, 1)
         names = {}
         for name, meaning in self.book.names.items():
             areas = parse(f"={meaning}", here, unnamed).areas
