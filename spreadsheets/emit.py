@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan, tables
+from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, tables
 from spreadsheets.safely import check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
@@ -146,8 +146,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             look = book.add_format(tables()["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
-        if sheet.chart:
-            _draw(book, page, sheet.name, sheet.chart, sheet.chart.described(values))
+        if sheet.curves:
+            _draw(book, page, sheet, sheet.description(values))
     book.close()
     parts = _parts(file.getvalue())
     for start, pattern, words in _CORRECTIONS:
@@ -229,27 +229,29 @@ _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
-def _draw(book: Any, page: Any, sheet: str, chart: Chart, description: str) -> None:
-    """Draw one chart on the page of `sheet`, which holds its cells."""
+def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
+    """Draw the chart of a sheet on its page."""
+    chart = sheet.entry["chart"]
+    logarithmic = chart.get("logarithmic", False)
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for (name, x, y), look in zip(chart.series, tables()["curves"], strict=False):
+    for curve, look in zip(sheet.curves, tables()["curves"], strict=False):
         settings = {
-            "name": f"={_absolute(*name)}",
-            "categories": f"={_absolute(sheet, x)}",
-            "values": f"={_absolute(sheet, y)}",
+            "name": f"={_absolute(*curve.name)}",
+            "categories": f"={_absolute(sheet.name, curve.x)}",
+            "values": f"={_absolute(sheet.name, curve.y)}",
             "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
         }
-        first, last = map(int, re.findall(r"\d+", x))
-        if chart.logarithmic or last - first < 50:
+        first, last = map(int, re.findall(r"\d+", curve.x))
+        if logarithmic or last - first < 50:
             # Few points: show where they are.
             fill = {"color": look["color"]}
             settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
         drawn.add_series(settings)
-    drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
+    drawn.set_title({"name": chart["title"], "name_font": {"name": "Arial", "size": 13}})
     axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
-    axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
-    drawn.set_x_axis({"name": chart.x_title, **axis})
-    drawn.set_y_axis({"name": chart.y_title, **axis})
+    axis |= {"label_position": "low"} | ({"log_base": 10} if logarithmic else {})
+    drawn.set_x_axis({"name": chart["x_title"], **axis})
+    drawn.set_y_axis({"name": chart["y_title"], **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
-    drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
-    page.insert_chart(chart.at, drawn, {"description": description})
+    drawn.set_size(dict(zip(("width", "height"), chart["size"], strict=True)))
+    page.insert_chart(chart["at"], drawn, {"description": description})

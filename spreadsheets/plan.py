@@ -103,27 +103,12 @@ class Rule(NamedTuple):
     style: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Chart:
-    """Curves of the sheet's own cells, drawn with the upper left corner in the cell `at`.
+class Curve(NamedTuple):
+    """A curve of a chart: the cell with its name, and the cells of its x and y: "A5:A25"."""
 
-    series: for each, the cell with its name and the cells of its x and y, such as "A5:A25". With
-    `logarithmic` both axes are. description: says in words what the chart shows, with values by key
-    as written: "{high.depth_um:.4g}".
-    """
-
-    at: str
-    title: str
-    description: str
-    x_title: str
-    y_title: str
-    series: list[tuple[Place, str, str]]
-    logarithmic: bool = False
-    size: Sequence[int] = (820, 470)
-
-    def described(self, values: Mapping[str, Value]) -> str:
-        """The description with its values."""
-        return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.description)
+    name: Place
+    x: str
+    y: str
 
 
 # What `sheets.toml` says
@@ -170,7 +155,8 @@ class SheetPlan:
     It is filled from the top; `row` is where the next cells go. entry: what `sheets.toml` says of
     it. frozen: the first cell that scrolls. repeated_rows: first and last row that head every
     printed page. print_area: the cells printed, all by default. page_break: the last row of page 1.
-    filtered: a table with a filter.
+    filtered: a table with a filter. curves: those of its chart. described: what that shows, in
+    words, with values by key as written: "{high.depth_um:.4g}".
     """
 
     name: str
@@ -181,7 +167,8 @@ class SheetPlan:
     frozen: str = ""
     repeated_rows: tuple[int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
-    chart: Chart | None = None
+    curves: Sequence[Curve] = ()
+    described: str = ""
     print_area: str = ""
     page_break: int | None = None
     filtered: str = ""
@@ -275,11 +262,14 @@ class SheetPlan:
         self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
         self.heads(letters, [words for words, _ in heads], right)
 
-    def draw(self, series: list[tuple[Place, str, str]], written: str) -> None:
+    def draw(self, curves: Sequence[Curve], written: str) -> None:
         """The chart of its entry; `written` stands in the description."""
-        settings = self.entry["chart"]
-        described = settings["description"].format(written=written)
-        self.chart = Chart(**{**settings, "description": described}, series=series)
+        self.curves = curves
+        self.described = self.entry["chart"]["description"].format(written=written)
+
+    def description(self, values: Mapping[str, Value]) -> str:
+        """What its chart shows, in words, with these values."""
+        return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.described)
 
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""

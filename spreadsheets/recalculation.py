@@ -93,7 +93,7 @@ class Area(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """One token: its kind and text, the area that it refers to, and how R1C1 notation writes that."""
+    """One token: its kind, its text, the area that it refers to, and that in R1C1 notation."""
 
     kind: str
     text: str

@@ -25,6 +25,7 @@ from spreadsheets.plan import (
     MESSAGES,
     NOT_COMPUTED,
     Cell,
+    Curve,
     Rule,
     SheetPlan,
     WorkbookPlan,
@@ -296,7 +297,7 @@ def _inside(claim: Claim, row: int) -> str:
 
 def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
     """Depth against time, one curve for each case."""
-    series, written = [], []
+    curves, written = [], []
     page = SheetPlan.begun("Figure 3")
     page.single_cells()
     for at, (columns, case) in enumerate(zip(("PQ", "RS"), cases, strict=False), start=3):
@@ -309,10 +310,10 @@ def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
         entries = page.entry["columns"].values()
         page.grid(dict(zip(columns, entries, strict=True)), key, case.words, case.rows + 1)
         x, y = (f"{column}7:{column}{page.row - 1}" for column in columns)
-        series.append(((case.name, "I1"), x, y))
+        curves.append(Curve((case.name, "I1"), x, y))
         reached = f"{{{case.slug}.depth_um:.4g}} µm after {{{key}.time[{case.rows}]:.3g}} ns"
         written.append(f"{case.label} reaches {reached}")
-    page.draw(series, ", ".join(written))
+    page.draw(curves, ", ".join(written))
     return page
 
 
@@ -332,8 +333,8 @@ def _figure_5(case: CaseSheet) -> SheetPlan:
         f"{{figure_5.normalized_depth[{k}]:.3g}} at {{figure_5.velocity[{k}]:.4g}} m/s"
         for k in (0, POINTS - 1)
     )
-    series = [((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}")]
-    page.draw(series, f"{case.label}, from {low} to {high}")
+    curves = [Curve((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}")]
+    page.draw(curves, f"{case.label}, from {low} to {high}")
     return page
 
 
@@ -348,7 +349,7 @@ NO_ORDER = "–"
 
 def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     """The final depth at a ladder of time steps against the depth at rest."""
-    first, series, written = 11, [], []
+    first, curves, written = 11, [], []
     last = first + LEVELS - 1
     page = SheetPlan.begun("Convergence", scheme=cases[0].scheme)
     page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
@@ -370,10 +371,10 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         )
         written.append(f"{case.label} from {' to '.join(ends)}")
         size = f"{columns[3]}{first}:{columns[3]}{last}"
-        series.append((("Convergence", whose), f"B{first}:B{last}", size))
+        curves.append(Curve(("Convergence", whose), f"B{first}:B{last}", size))
     page.row = last + 4
     _same_inputs(page, [*RUN_INPUTS, *(f"R_t{case.of}" for case in cases)])
-    page.draw(series, ", ".join(written))
+    page.draw(curves, ", ".join(written))
     return page
 
 

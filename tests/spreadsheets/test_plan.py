@@ -262,12 +262,12 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
         ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
         ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
     ):
-        chart = SHEETS[name].chart
-        assert words in chart.described(BOOK.values)
-        assert all("[" in title for title in (chart.x_title, chart.y_title))
-        for (sheet, at), _, _ in chart.series:
+        page = SHEETS[name]
+        assert words in page.description(BOOK.values)
+        assert all("[" in page.entry["chart"][axis] for axis in ("x_title", "y_title"))
+        for (sheet, at), _, _ in page.curves:
             assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
-        for cells in (cells for _, *xy in chart.series for cells in xy):
+        for cells in (cells for _, *xy in page.curves for cells in xy):
             first, last = cells.split(":")
             rows = range(int(first[1:]), int(last[1:]) + 1)
             assert all(isinstance(BOOK.cells[name][f"{first[0]}{row}"], float) for row in rows)
