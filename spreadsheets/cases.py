@@ -248,6 +248,8 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         "of a case", case.name,
         scheme=case.scheme, drag=SCHEMES[case.scheme], rows=case.rows, most=MAX_ROWS,
     )  # fmt: skip
+    if case.coarse:
+        page.entry = {**page.entry, "shows": page.entry["shows_coarse"]}
     page.widths = {**page.widths, "H": 13.0 if centered else page.widths["H"]}
     page.single_cells(**case.words)
     if case.resistance_given:

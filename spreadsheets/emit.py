@@ -126,7 +126,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         look |= {"align": "center"} if sample else {}
         return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
-    book.set_properties({"title": plan.title, **plan.properties})
+    book.set_properties(dict(plan.properties))
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)

@@ -331,7 +331,6 @@ class WorkbookPlan:
     """The sheets in order. No key stands twice, nor does a defined name, in whatever case."""
 
     sheets: tuple[SheetPlan, ...]
-    title: str
     properties: Mapping[str, str] = field(default_factory=dict)
 
     def cells(self) -> Iterator[tuple[Place, Cell]]:

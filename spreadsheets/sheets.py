@@ -29,6 +29,7 @@ from spreadsheets.plan import (
     Rule,
     SheetPlan,
     WorkbookPlan,
+    filled_in,
     formula,
     guarded,
     place_of,
@@ -40,7 +41,6 @@ from spreadsheets.plan import (
 )
 
 PROGRAM = f"coldspray {version('coldspray')}"
-
 
 AS_PRINTED, OTHERWISE = "as printed", "not as printed"
 KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
@@ -81,22 +81,10 @@ def workbook_plan(
     words = [{**case.words, "third": ledger.value("observed-third")} for case in cases]
     sheets += [_formulas(ledger, name, words) for name in ("Frank-Zook", "Crater", "Resistance")]
     sheets += [_audit(ledger, findings)] if findings else []
-    coarse = {page.name for page in pages if page.coarse}
-    kinds = ((s, "shows_coarse" if s.name in coarse else "shows") for s in sheets)
-    shows = {sheet.name: sheet.entry[kind] for sheet, kind in kinds}
-    written = ledger.report
-    plan = WorkbookPlan(
-        sheets=(_overview(ledger, cases, shows, findings), *sheets),
-        title=f"{written.title}: the model as a workbook",
-        properties={
-            "author": PROGRAM,
-            "subject": f"The model of a report by {written.author} ({written.year}), as live "
-            "formulas beside their computed values",
-            "keywords": "cold spray, penetration, replication, audit",
-            "comments": "No macros, no links to other files, no dates: the same inputs give the "
-            "same file.",
-        },
-    )
+    about = {name: getattr(ledger.report, name) for name in ("title", "author", "year")}
+    properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
+    overview = _overview(ledger, cases, sheets, properties["title"], findings)
+    plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
     for claim in computed_claims(ledger) if report else ():
         if not plan.cell(place_of(str(claim.workbook))).formula:
             raise ValueError(
@@ -105,8 +93,9 @@ def workbook_plan(
     return plan
 
 
-def _block(page: SheetPlan, *words: str, right: str = "") -> None:
-    """The heads of a table, after a blank row."""
+def _block(page: SheetPlan, table: str, right: str = "") -> None:
+    """The heads of a table of `Overview`, after a blank row."""
+    words = page.entry["heads"][table]
     page.row += 1
     page.heads("ABCDEF", [*words, *[""] * (6 - len(words))], right)
 
@@ -114,13 +103,14 @@ def _block(page: SheetPlan, *words: str, right: str = "") -> None:
 def _overview(
     ledger: Ledger,
     cases: Sequence[CaseSheet],
-    sheets: Mapping[str, str],
+    sheets: Sequence[SheetPlan],
+    title: str,
     findings: Findings | None,
 ) -> SheetPlan:
-    """The first sheet; `sheets` says what each of the others shows."""
+    """The first sheet; `sheets` are the others."""
     report, scheme = ledger.report, cases[0].scheme
-    page = SheetPlan(name=HOME, widths={"A": 38.0, **dict.fromkeys("BCDE", 17.0), "F": 54.0})
-    page.put(A=text(f"{report.title}: the model as a workbook", "title"))
+    page = SheetPlan.begun(HOME)
+    page.put(A=text(title, "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
         f"{scheme} scheme: {SCHEMES[scheme]}.",
@@ -132,21 +122,19 @@ def _overview(
     if findings is not None:
         _what_fails(page, ledger, findings)
         page.page_break = page.row
-    _block(page, "Sheets")
-    for name, what in sheets.items():
-        page.put(A=text(name, "link", link=(name, "A1")), B=text(what))
-    _block(page, "How to read it")
-    for style, what in tables()["how_to_read"].items():
+    _block(page, "sheets")
+    for sheet in sheets:
+        link = text(sheet.name, "link", link=(sheet.name, "A1"))
+        page.put(A=link, B=text(sheet.entry["shows"]))
+    _block(page, "how_to_read")
+    for style, what in page.entry["how_to_read"].items():
         page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
     page.print_area = f"A1:F{page.row - 1}"
     return page
 
 
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
-    _block(
-        page, "Results with the inputs in use", "Final depth [µm]", "The report prints",
-        "Depth over radius", "The report prints", "State of the run", right="BCDE",
-    )  # fmt: skip
+    _block(page, "results", right="BCDE")
     for case in cases:
         key, there, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"number_format": "0.0000"}
         # Beside the name of a sheet for another beta: the beta in use.
@@ -161,22 +149,15 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
             C=printed(ledger, case.claim("depth"), "um") if case.is_reports else None,
             E=printed(ledger, case.claim("ratio")) if case.is_reports else None,
         )
-    for words, name in (
-        ("Inputs that are not the report’s", "inputs_changed"),
-        ("Inputs that cannot be used", "inputs_unusable"),
-    ):
+    for name, words in page.entry["counts"].items():
         page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
         page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
 
 
 def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
-    heads = ("The report prints", "Inputs in use", "Why, with the report’s inputs")
-    for head, names in (
-        ("What does not follow from the report", findings.failing),
-        ("What public sources give otherwise", findings.differing),
-    ):
-        _block(page, head, *heads, right="BC")
+    for table, names in (("failing", findings.failing), ("differing", findings.differing)):
+        _block(page, table, right="BC")
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
@@ -190,7 +171,7 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             page.put(**cells)
             for line in more:
                 page.put(D=text(line, "text"))
-    _block(page, "Verdicts of the audit", "Numbers", "", "Live verdicts", "Cells", right="BDE")
+    _block(page, "verdicts", right="BDE")
     given = [(verdict, count) for verdict, count in findings.counts.items() if count]
     for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
         cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
@@ -198,10 +179,7 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             cells["D"] = text(kind[0], "number")
             cells["E"] = formula(f"overview.audit_{kind[1]}", f"=audit_{kind[1]}", "result")
         page.put(**cells)
-    page.say(
-        "Verdicts of the audit are about the report. Live verdicts tell which computed cells print "
-        "as the report does with the inputs in use."
-    )
+    page.say(page.entry["about_verdicts"])
 
 
 def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) -> SheetPlan:

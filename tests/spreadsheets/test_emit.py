@@ -18,7 +18,7 @@ from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
 
 
 def plan_of(**cells: Cell) -> WorkbookPlan:
-    return WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, widths={"A": 10.0}),), title="t")
+    return WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, widths={"A": 10.0}),))
 
 
 def written(path: Path, plan: WorkbookPlan, values: dict[str, Value]) -> Path:

@@ -188,7 +188,7 @@ CELLS = {
     "B3": Cell(key="log", formula="=LN(A1)", transcendental=True),
     "B4": Cell(key="alone", formula="=A1*3"),
 }
-PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Empty")), title="t")
+PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Empty")))
 VALUES = {"a": 0.1, "small": SMALL, "half": 0.5, "log": math.log(0.1), "alone": 0.1 * 3}
 EXPECTED = emit.cell_values(PLAN, VALUES)
 BOUND = 1e-14
