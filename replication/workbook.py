@@ -427,9 +427,8 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
             yield from _keyed(branch, f"{key}.{name}" if key else name)
     elif isinstance(tree, list):
         for number, value in enumerate(tree):
-            if value is not None:
-                yield f"{key}[{number}]", value if isinstance(value, str) else float(value)
-    else:
+            yield from _keyed(value, f"{key}[{number}]")
+    elif tree is not None:
         yield key, tree if isinstance(tree, str) else float(tree)
 
 

@@ -344,16 +344,6 @@ class Difference:
     expected: Value | None
     found: Value | None
 
-    @property
-    def distance(self) -> float:
-        """How far the two lie apart; infinite where they are not both numbers, but not the same."""
-        # LibreOffice hands out TRUE as 1.0, which Python takes as equal.
-        if self.expected == self.found:
-            return 0.0
-        if isinstance(self.expected, float) and isinstance(self.found, float):
-            return abs(self.expected - self.found)
-        return math.inf
-
 
 def compare(
     expected: Values, found: Values, tolerances: Mapping[Place, float] | None = None
@@ -368,10 +358,14 @@ def compare(
         wanted, got = expected.get(sheet, {}), found.get(sheet, {})
         for cell in dict.fromkeys([*wanted, *got]):
             # Engines cannot tell a blank cell from a formula that gives the empty text.
-            pair = (None if (v := values.get(cell)) == "" else v for values in (wanted, got))
-            left = Difference(sheet, cell, *pair)
-            if left.distance > allowed.get((sheet, cell), 0.0):
-                differences.append(left)
+            right, value = (None if (v := of.get(cell)) == "" else v for of in (wanted, got))
+            if right == value:  # TRUE, too, which LibreOffice hands out as 1.0
+                continue
+            distance = math.inf
+            if isinstance(right, float) and isinstance(value, float):
+                distance = abs(right - value)
+            if distance > allowed.get((sheet, cell), 0.0):
+                differences.append(Difference(sheet, cell, right, value))
     return differences
 
 
