@@ -217,7 +217,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     else:
         style, same, place = "input", "the report’s", str(ledger.claims[entry.source].place)
         prints = printed(ledger, entry.source, entry.unit)
-    words = {"row": row, "factor": entry.factor, "same": same, "none": NOT_COMPUTED}
+    words = {"row": row, "factor": entry.factor, "same": same}
     texts = filled_in(tables()["input"], words)
     shown = "0.0####E+00" if entry.factor else "General"
     return {
@@ -226,7 +226,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
         "E": formula(f"{key}.check", texts["check"], "text"),
-        "F": formula(key, texts["in_use"], name=entry.name, unit=unit, number_format=shown),
+        "F": formula(key, texts["in_use"], name=entry.name, unit=unit, shown=shown),
         "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
         "I": prints,
@@ -306,7 +306,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         claim = claims.get(address)
         shown = "0.00E+00" if claim is None or "." in claim.text else "General"
         unit = "m/s" if claim is None else claim.unit
-        cells[address] = formula(f"table.{what}", expression, number_format=shown, unit=unit)
+        cells[address] = formula(f"table.{what}", expression, shown=shown, unit=unit)
 
     for row, (what, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
         cells[f"A{row}"] = text(label)
@@ -362,7 +362,7 @@ def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     first = page.row
     for address, claim in _claims(ledger).items():
         assert claim.printed is not None
-        row, key, shown = page.row, f"table_check.{address}", table.cells[address].number_format
+        row, key, computed = page.row, f"table_check.{address}", f"='{table.name}'!{address}"
         difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
         if claim.is_exact:
             difference, same = f"E{row}-D{row}", f"F{row}=0"
@@ -373,23 +373,16 @@ def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
             A=text(address, "link", link=(table.name, address)),
             B=text(claim.title),
             C=unit_text(claim.unit),
-            D=recorded(float(claim.printed.value), claim=claim.id, number_format=shown),
-            E=formula(
-                f"{key}.computed",
-                f"='{table.name}'!{address}",
-                number_format="0.0000000000000000E+00",
-                unit=claim.unit,
+            D=recorded(
+                float(claim.printed.value), claim=claim.id, shown=table.cells[address].shown
             ),
+            E=formula(f"{key}.computed", computed, shown="0.0000000000000000E+00", unit=claim.unit),
             # Rounding is done by each program in its own way: it may cost a last digit.
             F=formula(
-                f"{key}.difference",
-                difference,
-                "result",
-                number_format="0.0000",
-                transcendental=True,
+                f"{key}.difference", difference, "result", shown="0.0000", transcendental=True
             ),
             G=formula(f"{key}.verdict", verdict, "text"),
-            H=recorded(float(claim.printed.quantum), number_format="0E+00"),
+            H=recorded(float(claim.printed.quantum), shown="0E+00"),
         )
     verdicts = f"G{first}:G{page.row - 1}"
     page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})

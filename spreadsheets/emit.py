@@ -135,7 +135,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         _set_up(page, sheet)
         own = shown[sheet.name]
         for address, cell in sheet.cells.items():
-            look = style(cell.style, cell.number_format, cell.wrap)
+            look = style(cell.style, cell.shown, cell.wrap)
             _write_cell(page, address, cell, own.get(address, ""), look)
             if cell.name:
                 named = f"={_absolute(sheet.name, address)}"

@@ -385,10 +385,10 @@ def tolerances(
         if cell.formula and isinstance(value := expected[place[0]].get(place[1]), float)
     ]
     for _, cell, number in numbers:
-        sizes[cell.column] = max(sizes.get(cell.column, 0.0), number)
+        sizes[cell.like] = max(sizes.get(cell.like, 0.0), number)
     allowed = {
         place: OF_FUNCTIONS * number * cell.transcendental
-        + long_doubles * (sizes[cell.column] if cell.column else number)
+        + long_doubles * (sizes[cell.like] if cell.like else number)
         for place, cell, number in numbers
     }
     return {place: distance for place, distance in allowed.items() if distance}

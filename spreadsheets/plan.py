@@ -40,13 +40,14 @@ class Cell(NamedTuple):
     It holds a `text`, a `number`, an input (a `key` alone), or a `formula` with a key; or nothing
     but a style.
 
-    name: what formulas call it. unit: of its value, spelled as in the ledger. claim: the id of the
-    claim whose printed text, or printed number, it shows. transcendental: its value passes through
-    LN, SIN, ASIN or a cube root, whose last digits depend on the program; all other values are the
-    same double everywhere. column: names a set of cells of like size, such as the velocities of a
-    sheet; their rounding errors are as large as the largest of them allows. link: where a click on
-    the text leads. limits, choices: what may be typed, the least and the greatest number in its
-    unit, or one of these texts. wrap: long text takes several lines.
+    shown: the number format. name: what formulas call it. unit: of its value, spelled as in the
+    ledger. claim: the id of the claim whose printed text, or printed number, it shows.
+    transcendental: its value passes through LN, SIN, ASIN or a cube root, whose last digits depend
+    on the program; all other values are the same double everywhere. like: names a set of cells of
+    like size, such as the velocities of a sheet; their rounding errors are as large as the largest
+    of them allows. link: where a click on the text leads. limits, choices: what may be typed, the
+    least and the greatest number in its unit, or one of these texts. wrap: long text takes several
+    lines.
     """
 
     text: str = ""
@@ -54,12 +55,12 @@ class Cell(NamedTuple):
     key: str = ""
     formula: str = ""
     style: str = "body"
-    number_format: str = "General"
+    shown: str = "General"
     name: str = ""
     unit: str = "1"
     claim: str = ""
     transcendental: bool = False
-    column: str = ""
+    like: str = ""
     link: Place | None = None
     limits: tuple[float, float] | None = None
     choices: Sequence[str] = ()
@@ -140,7 +141,7 @@ _FUNCTIONS = {name: Function(formula) for name, formula in tables()["functions"]
 
 def filled(text: str, words: Mapping[str, object]) -> str:
     """A text of `sheets.toml` with functions, messages and these words in place of braces."""
-    return text.format_map({**_FUNCTIONS, **MESSAGES, **words})
+    return text.format_map({**_FUNCTIONS, **MESSAGES, "none": NOT_COMPUTED, **words})
 
 
 def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
@@ -219,23 +220,19 @@ class SheetPlan:
         self.heads(letters, [entry["head"] for entry in entries], letters, units)
         first, self.row = self.row, self.row + count
         for column, entry in columns.items():
-            key, shown = entry.get("key"), entry.get("shown", "General")
+            looks = ("unit", "shown", "like", "transcendental")
+            look = filled_in({name: entry[name] for name in looks if name in entry}, words)
+            at_start = {**look, "shown": entry.get("start_shown", "General")}
             formulas = dict(row_formulas(entry, {**words, "column": column}, first, count))
             for k in range(count):
+                key = f"{part}.{entry['key']}[{k}]" if "key" in entry else ""
                 if k in formulas:
-                    plain = "start" in entry and k == 0
-                    cell = formula(
-                        f"{part}.{key}[{k}]",
-                        finish(formulas[k]),
-                        number_format=entry.get("start_shown", "General") if plain else shown,
-                        unit=entry.get("unit", "1"),
-                        column=filled(entry.get("like", ""), words),
-                        transcendental=entry.get("transcendental", False),
-                    )
-                elif key is None:
+                    own = at_start if k == 0 and "start" in entry else look
+                    cell = formula(key, finish(formulas[k]), **own)
+                elif not key:
                     cell = Cell(number=float(k), style="number")
                 elif not formulas:
-                    cell = recorded(f"{part}.{key}[{k}]", number_format=shown)
+                    cell = recorded(key, **look)
                 else:
                     continue
                 self.cells[f"{column}{first + k}"] = cell
@@ -297,8 +294,7 @@ class SheetPlan:
             pairs = product(cases, block.items())
             lines = {key.format_map(words): (words, line) for words, (key, line) in pairs}
             for key, (words, line) in lines.items():
-                words = {"none": NOT_COMPUTED, **words, **addresses}
-                own = filled_in(line, words)
+                own = filled_in(line, {**words, **addresses})
                 symbol, meaning, source, claim = (
                     own.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
                 )
@@ -310,7 +306,7 @@ class SheetPlan:
                 value = formula(
                     f"{part}.{key}",
                     guarded(expression) if own.pop("guard", True) else expression,
-                    number_format=own.pop("shown", "0.0000"),
+                    shown=own.pop("shown", "0.0000"),
                     transcendental=cell in transcendental,
                     **own,
                 )

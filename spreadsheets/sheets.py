@@ -136,10 +136,10 @@ def _overview(
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
     _block(page, "results", right="BCDE")
     for case in cases:
-        key, there, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"number_format": "0.0000"}
+        key, there, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"shown": "0.0000"}
         # Beside the name of a sheet for another beta: the beta in use.
         beta = "" if case.resistance_given else f'IF({there}I2="","",{there}I1&": ")&'
-        end, like = case.suffix, {"unit": "um", "column": f"{case.part}.depth_um"}
+        end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
         page.put(
             A=text(case.name, "link", link=(case.name, "A1")),
@@ -165,9 +165,8 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             if claim.workbook:
                 there = "='{}'!{}".format(*place_of(claim.workbook))
                 shown = "0.0" if ledger.value(name) > 100 else "0.0000"
-                cells["C"] = formula(
-                    f"overview.{name}", there, "result", number_format=shown, transcendental=True
-                )
+                looks = {"shown": shown, "transcendental": True}
+                cells["C"] = formula(f"overview.{name}", there, "result", **looks)
             page.put(**cells)
             for line in more:
                 page.put(D=text(line, "text"))
@@ -241,10 +240,10 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
     key, place, interval = f"audit.{claim.id}", place_of(claim.workbook), claim.interval()
     for column, end in (("H", interval.lower), ("I", interval.upper)):
         if end is not None:
-            cells[column] = recorded(float(end), number_format=shown, claim=claim.id)
+            cells[column] = recorded(float(end), shown=shown, claim=claim.id)
     return cells | {
         "E": formula(
-            f"{key}.computed", "='{}'!{}".format(*place), number_format=shown, unit=claim.unit,
+            f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit,
             transcendental=True,  # it may hand on a value that is
         ),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
@@ -341,7 +340,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
         # Called as it was when it was computed.
         page.cells[whose] = text(f"{case.name}, {case.label}", "block")
-        at_rest = recorded(f"{key}.rest_um", number_format=ladder["depth_um"]["shown"])
+        at_rest = recorded(f"{key}.rest_um", shown=ladder["depth_um"]["shown"])
         page.cells[f"{columns[1]}{last + 1}"] = at_rest
         ends = (
             f"{{{key}.size[{k}]:.2g}} µm at {{convergence.step_ns[{k}]:.3g}} ns"
@@ -366,8 +365,8 @@ def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
         page.put(
             I=text(name, "text"),
-            J=recorded(f"convergence.run.{name}", number_format=shown),
-            K=formula(f"convergence.in_use.{name}", f"={name}", number_format=shown),
-            L=formula(f"convergence.same.{name}", same, "text", number_format='"same";;"other"'),
+            J=recorded(f"convergence.run.{name}", shown=shown),
+            K=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
+            L=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
         )
     page.single_cells(same=f"L{first}:L{page.row - 1}")

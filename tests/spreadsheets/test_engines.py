@@ -183,8 +183,8 @@ def test_libreoffice_may_want_a_restart(
 SMALL = 0.1 + 0.2 - 0.29
 CELLS = {
     "A1": Cell(key="a"),
-    "B1": Cell(key="small", formula="=A1+0.2-0.29", column="like"),
-    "B2": Cell(key="half", formula="=5*A1", column="like"),
+    "B1": Cell(key="small", formula="=A1+0.2-0.29", like="half"),
+    "B2": Cell(key="half", formula="=5*A1", like="half"),
     "B3": Cell(key="log", formula="=LN(A1)", transcendental=True),
     "B4": Cell(key="alone", formula="=A1*3"),
 }

@@ -174,7 +174,7 @@ def test_each_number_of_table_a1_prints_as_it_does_in_the_report() -> None:
     assert len(claims) == 30
     for claim in claims:
         cell = SHEETS["Table A-1"].cells[str(claim.place.cell)]
-        value, scientific = BOOK.values[cell.key], cell.number_format == "0.00E+00"
+        value, scientific = BOOK.values[cell.key], cell.shown == "0.00E+00"
         assert (f"{value:.2E}" if scientific else f"{value:g}".upper()) == claim.text
         assert abs(float(BOOK.values[f"table_check.{claim.place.cell}.difference"])) <= 0.5
     for address in LEDGER.blank:
