@@ -259,6 +259,8 @@ def _inputs(
 ) -> Tree:
     first = runs[0][1].impact
     values: Tree = {
+        "pi_": math.pi,
+        "ksi_Pa": to_si("ksi"),
         "from": "yours",
         "unusable": 0,
         "changed": len(changed),
@@ -267,8 +269,6 @@ def _inputs(
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
-        "pi_": math.pi,
-        "ksi_Pa": to_si("ksi"),
         "travel_most": COARSE,
         "excess_most": DIGITS,
     }

@@ -130,7 +130,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)
-        # Else it looks in each formula for functions newer than Excel 2010, for most of the time.
+        # By itself, it searches each formula for functions newer than Excel 2010: half of the time.
         page._prepare_formula = lambda formula: formula[1:]
         _set_up(page, sheet)
         own = shown[sheet.name]
