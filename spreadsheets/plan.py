@@ -370,12 +370,13 @@ def row_formulas(
     """
     then = entry.get("then")
     kinds = entry.get("start"), entry.get("first", then), then
+    known: dict[str, object] = {**_FUNCTIONS, **words}
     for k in range(count):
         if expression := entry.get("each") or kinds[min(k, 2)]:
             if expression[0] != "=":
                 expression = f'=IF(ISNUMBER(A{{row}}),{expression},"")'
-            rows = {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
-            yield k, filled(expression, {**words, **rows})
+            known |= {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
+            yield k, expression.format_map(known)
 
 
 _REFERENCE = re.compile(
