@@ -372,7 +372,7 @@ def compare(
 def tolerances(
     plan: WorkbookPlan, expected: Values, long_doubles: float = 0.0
 ) -> dict[Place, float]:
-    """How far the value of a formula may lie from the expected one, where it may at all.
+    """How far the number of a formula may lie from the expected one; for most, not at all.
 
     long_doubles: for an engine of 80-bit long doubles, the bound on the rounding errors of our
     doubles, relative to the largest number of a cell's column, or to the cell's own where it stands
@@ -386,12 +386,11 @@ def tolerances(
     ]
     for _, cell, number in numbers:
         sizes[cell.like] = max(sizes.get(cell.like, 0.0), number)
-    allowed = {
+    return {
         place: OF_FUNCTIONS * number * cell.transcendental
         + long_doubles * (sizes[cell.like] if cell.like else number)
         for place, cell, number in numbers
     }
-    return {place: distance for place, distance in allowed.items() if distance}
 
 
 @dataclass(slots=True)

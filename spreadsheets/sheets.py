@@ -336,7 +336,8 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     ladder = page.entry["ladder"]
     for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
         key, whose = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
-        words, page.row = {"error": columns[2], "no_order": NO_ORDER}, first - 2
+        words = {"error": columns[2], "no_order": NO_ORDER}
+        page.row = first - 2
         page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
         # Called as it was when it was computed.
         page.cells[whose] = text(f"{case.name}, {case.label}", "block")
