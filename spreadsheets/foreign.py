@@ -129,7 +129,9 @@ def read(path: Path) -> Book:
     """
     if not path.is_file():
         kind = "is a folder" if path.is_dir() else "is no regular file"
-        raise WorkbookError(f"{path}: {kind if path.exists() else 'there is no such file'}")
+        if not path.exists():
+            kind = "is a link that leads nowhere" if path.is_symlink() else "there is no such file"
+        raise WorkbookError(f"{path}: {kind}")
     if path.stat().st_size > MAX_FILE:
         raise WorkbookError(f"{path}: has more than {MAX_FILE >> 20} MB; {_LIMITS}")
     if _is_xlsx(path):

@@ -20,6 +20,7 @@ from replication.check.scheme import BRAKES, REPORT, Case, Rows, contact
 from replication.check.table import FEW, Table, address
 from replication.check.words import (
     INPUTS,
+    between_units,
     input_roles,
     is_unit,
     power_of_ten,
@@ -147,7 +148,7 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
     numbers = (place for place, value in calculation.values.items() if isinstance(value, float))
     beside = (place for place in numbers if not any(line.covers(place) for line in inside))
     for place in islice(beside, _MAX_CANDIDATES):
-        label, unit = _label(place, calculation)
+        label, unit = label_of(place, calculation)
         roles, how = input_roles(label, unit) if label else frozenset(), "label"
         if not roles and place in calculation.named:
             label, how = calculation.named[place], "name"
@@ -163,7 +164,7 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             yield Input("", value, None, "name", name, roles=input_roles(name, None))
 
 
-def _label(place: Position, calculation: Calculation) -> tuple[str, str | None]:
+def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None]:
     """The label of a number, at its left, above or at its right, and its unit."""
     sheet, row, column = place
 
@@ -241,17 +242,15 @@ def _distance(cell: Input, values: Iterable[float]) -> float:
 def _as_role(cell: Input, role: str, report: Report) -> Input:
     """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
 
-    If it has the digits of the report's, any power of ten will do.
+    If it has the digits of the report's, it is the power that lies between them.
     """
     factor = Fraction(1)
     if INPUTS[role] != "1" and cell.unit:
         factor = to_si(cell.unit)
     elif INPUTS[role] != "1" and role in report and cell.si > 0:
         ratios = sorted((value / cell.si for value in report[role]), key=lambda r: abs(_round(r)))
-        odd = () if INPUTS[role] == "Pa" else (-1, 1)
         powers = (power_of_ten(ratio) for ratio in ratios)
-        # Ten times another is no unit but that of pressure, dyn/cm² in Pa.
-        same = next((p for p in powers if p is not None and p not in odd), None)
+        same = next((p for p in powers if p is not None and between_units(p, role)), None)
         factor = Fraction(10) ** (_thousands(ratios[0]) if same is None else same)
     return replace(cell, role=role, si=scaled(cell.si, factor), factor=factor)
 

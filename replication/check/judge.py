@@ -30,6 +30,7 @@ from replication.check.scheme import (
 from replication.check.table import Line, address
 from replication.check.words import (
     INPUTS,
+    between_units,
     power_of_ten,
     quantity,
     scaled,
@@ -100,8 +101,7 @@ def _calibrate(f: Examination) -> None:
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
-        # No unit is ten times another: without one, the number is a choice.
-        chosen = not own.unit and power % 3
+        chosen = not own.unit and not between_units(power, role, surely=True)
         if chosen or (own.unit and any(near(value, x) for x in report_inputs()[role])):
             taken = replace(own, si=value, factor=own.factor * factor)
             f.inputs = {**f.inputs, role: taken}
@@ -237,9 +237,8 @@ def _other_inputs(f: Examination) -> None:
             if INPUTS[name] == INPUTS[role] and any(near(own.si, value) for value in values):
                 text += f"; {quantity(own.si, role)} is {title(name)} there"
         kind, change = "other input", None
-        # Units mostly lie a thousand apart; a tenth or ten times as much is a choice.
         power = power_of_ten(own.si / nearest) if len(off) == 1 else None
-        if power and power % 3 == 0:
+        if power and between_units(power, role, surely=True):
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, own.si, own.si / nearest)
             f.intended = f.intended.with_input(role, nearest, nearest / own.si)

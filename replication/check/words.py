@@ -200,6 +200,23 @@ def power_of_ten(ratio: float) -> int | None:
     return round(power) if abs(power - round(power)) < 1e-9 else None
 
 
+def between_units(power: int, role: str, surely: bool = False) -> bool:
+    """Whether a power of ten may lie between two units; `surely`: whether it is no mere choice.
+
+    Units mostly lie a thousand apart, centimetres a hundred from metres. Ten times another is none
+    but that of pressure, dyn/cm² in Pa. But a number ten or a hundred times the report's, which
+    could be in another unit, may as well be another number.
+
+    >>> between_units(-2, "radius"), between_units(1, "radius"), between_units(-1, "flow_stress")
+    (True, False, True)
+    >>> between_units(-2, "radius", surely=True), between_units(-3, "radius", surely=True)
+    (False, True)
+    """
+    if surely:
+        return power % 3 == 0
+    return power not in (-1, 1) or _MEASURES[role] == "Pa"
+
+
 def times_too(power: int) -> str:
     """By which power of ten something is too large or too small.
 

@@ -10,10 +10,10 @@ from pathlib import Path
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.inputs import find, numbers_beside, report_inputs
+from replication.check.inputs import find, label_of, numbers_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
-from replication.check.words import COLUMNS, INPUTS, count
+from replication.check.words import COLUMNS, INPUTS, count, input_roles
 from replication.reading import place as named
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
@@ -172,13 +172,21 @@ def _nothing(calculation: Calculation) -> str:
     typed = sum(any(map(str.isdigit, text)) and not any(map(str.isalpha, text)) for text in texts)
     if typed > max(100, len(calculation.formulas)):
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
-    if wrong := [place for place in calculation.formulas if calculation.error(place)]:
-        first = min(wrong, key=calculation.order.__getitem__)
-        read = {calculation.source(area.corner) for area in calculation.areas(first)}
-        for place in sorted(read & calculation.spoiling):
-            nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+    wrong = [place for place in calculation.formulas if calculation.error(place)]
+    first = min(wrong, key=calculation.order.__getitem__, default=None)
+    corners = {area.corner for formula in calculation.formulas.values() for area in formula.areas}
+    typed_texts = {p for p in corners - calculation.formulas.keys() if isinstance(values.get(p), str)}
+    # A formula may guard itself against a text, and give no error: then its label tells.
+    inputs = {place for place in typed_texts if input_roles(*label_of(place, calculation))}
+    spoiling = {calculation.source(area.corner) for area in calculation.areas(first)}
+    instead = sorted(inputs | (spoiling & calculation.spoiling))
+    for place in instead:
+        nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+    if first:
         errors = f"{count(len(wrong), 'formula')} give errors, {address(first, True)} first"
         return f"{nothing}; {errors}: {calculation.error(first)}"
+    if instead:
+        return f"{nothing}: type a number there"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
     return f"{nothing}: say where they are, such as {such}"
 
