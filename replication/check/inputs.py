@@ -87,7 +87,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
         if value is None:
             raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
         known = next((c for c in candidates if c.place == place), Input("", value, place, ""))
-        choices[role] = [replace(_as_role(known, role, report_inputs()), how="--map")]
+        choices[role] = [replace(as_role(known, role, report_inputs()), how="--map")]
     labelled = [c for c in candidates if read and c.label and c.place not in {*read, *formulas}]
     unread = _by_role(labelled, True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
@@ -199,7 +199,7 @@ def _by_role(
     for cell in cells:
         if len(cell.roles) == 1:
             (role,) = cell.roles
-            by_role.setdefault(role, []).append(_as_role(cell, role, report))
+            by_role.setdefault(role, []).append(as_role(cell, role, report))
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
@@ -207,7 +207,7 @@ def _by_role(
         left = [role for role in cell.roles or alike if role not in by_role]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, report.get(role, ())))
-            own = replace(_as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
+            own = replace(as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
             by_role.setdefault(nearest, []).append(own)
     return by_role
 
@@ -239,7 +239,7 @@ def _distance(cell: Input, values: Iterable[float]) -> float:
     return min((abs(math.log10(si / value)) for value in values), default=9)
 
 
-def _as_role(cell: Input, role: str, report: Report) -> Input:
+def as_role(cell: Input, role: str, report: Report) -> Input:
     """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
 
     If it has the digits of the report's, it is the power that lies between them.

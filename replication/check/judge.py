@@ -45,13 +45,18 @@ OTHER_STOP: Mapping[str, Rule] = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
 
-def judge(f: Examination) -> None:
-    """Find every difference between a table and the report's sheet, but for printed numbers."""
+def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
+    """Find every difference between a table and the report's sheet, but for printed numbers.
+
+    `meant` is the target resistance [Pa] that it should have, and what tells so.
+    """
     _units(f)
     if f.table.digits is None:
         drifting(f)
         _calibrate(f)
         _derived(f)
+    if meant:
+        _repeated(f, *meant)
     _other_inputs(f)
     if f.table.digits is None:
         _scheme(f)
@@ -153,6 +158,16 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
     change = _changed("resistance", used.si, 1.0)
     f.intended = f.intended.with_input("resistance", stated)
     f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
+
+
+def _repeated(f: Examination, resistance: float, told: str) -> None:
+    """A table that reads the resistance of another one, which it repeats."""
+    cells = f.cells(*f.rows.shows("brake", 1))
+    text = f"the rows take {quantity(f.case.resistance, 'resistance')} for the target resistance, "
+    text += f"and so repeat another table; {told}"
+    change = _changed("resistance", f.case.resistance, 1.0)
+    f.intended = f.intended.with_input("resistance", resistance)
+    f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula, change)
 
 
 def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:

@@ -13,6 +13,7 @@ from replication.check.examination import NO_FAULT, Difference, Examination, nea
 from replication.check.inputs import find, label_of, numbers_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
+from replication.check.twins import meant
 from replication.check.words import COLUMNS, INPUTS, count, input_roles
 from replication.reading import place as named
 from replication.text import with_unit
@@ -80,8 +81,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
         examinations = [find(table, beside, cells) for table in read_tables]
-    for f in examinations:
-        judge(f)
+    other = meant(examinations, beside)
+    for number, f in enumerate(examinations):
+        judge(f, other.get(number))
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
         *(d for v in examinations for d in v.differences),
@@ -175,9 +177,9 @@ def _nothing(calculation: Calculation) -> str:
     wrong = [place for place in calculation.formulas if calculation.error(place)]
     first = min(wrong, key=calculation.order.__getitem__, default=None)
     corners = {area.corner for formula in calculation.formulas.values() for area in formula.areas}
-    typed_texts = {p for p in corners - calculation.formulas.keys() if isinstance(values.get(p), str)}
+    read = (p for p in corners - calculation.formulas.keys() if isinstance(values.get(p), str))
     # A formula may guard itself against a text, and give no error: then its label tells.
-    inputs = {place for place in typed_texts if input_roles(*label_of(place, calculation))}
+    inputs = {place for place in read if input_roles(*label_of(place, calculation))}
     spoiling = {calculation.source(area.corner) for area in calculation.areas(first)}
     instead = sorted(inputs | (spoiling & calculation.spoiling))
     for place in instead:

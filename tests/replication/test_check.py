@@ -112,6 +112,21 @@ def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
         assert [name for name, where in cells.items() if where is None] == ["resistance"]
 
 
+def test_a_text_over_an_input_of_our_own_workbook_is_named(tmp_path: Path) -> None:
+    """Its formulas guard themselves: none gives an error, and there is no table."""
+    from openpyxl import load_workbook
+
+    from replication import workbook
+
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(workbook.build().to_bytes())
+    book = load_workbook(path)
+    book["Inputs"]["C12"] = "eleven"
+    book.save(path)
+    with pytest.raises(ValueError, match="Inputs!C12 holds the text 'eleven': type a number there"):
+        check(path)
+
+
 @given(
     velocity=st.floats(100, 1500), radius=st.floats(1e-6, 3e-4), densities=st.floats(2e3, 2e4),
     strength=st.floats(3e7, 5e9), share=st.floats(2e-3, 1e-2),
