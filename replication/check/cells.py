@@ -26,21 +26,19 @@ def drifting(f: Examination) -> None:
     lines, number = f.table.every_line, f.calculation.number
     inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
     for line in lines:
-        every = [(line.place(at), line.formula(at)) for at in range(line.first, line.last + 1)]
-        formulas = [(place, formula) for place, formula in every if formula is not None]
-        shape = formulas[-1][1].shape if formulas else ()
-        alike = [(place, formula) for place, formula in formulas if formula.shape == shape]
-        for pieces in zip(*(formula.pieces for _, formula in alike), strict=True):
+        known = f.calculation.formulas
+        formulas = [known[place] for place in line.cells if place in known]
+        alike = [formula for formula in formulas if formula.shape == formulas[-1].shape]
+        for pieces in zip(*(formula.pieces for formula in alike), strict=True):
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
             beside = [p for p in read if not any(each.covers(p) for each in lines)]
             moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
             strays = None in map(number, beside) or inputs & set(beside[1:])
             if moves and strays and number(read[0]) is not None:
-                cells = [place for place, _ in alike[1:]]
+                cells = [formula.place for formula in alike[1:]]
                 cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
-                text = (
-                    f"its column reads {cell}, which no $ fixes: this row reads {here}, and so on"
-                )
+                text = f"its column reads {cell}, which no $ fixes: this row reads {here}, "
+                text += "and so on"
                 f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
 
 
@@ -121,7 +119,7 @@ def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
     order, values = f.calculation.order, f.calculation.values
     spoilt = wrong | {p for p in f.table.places if isinstance(values.get(p), str | bool)}
     spoilt |= f.calculation.texts.keys()
-    cells = {line.place(at) for line in f.table.helpers for at in range(line.first, line.last + 1)}
+    cells = {place for line in f.table.helpers for place in line.cells}
     for place in sorted(cells & order.keys(), key=order.__getitem__):
         if any(area.corner in spoilt for area in f.calculation.areas(place)):
             spoilt.add(place)
@@ -208,7 +206,7 @@ def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool
         return False
     # A first row that is the report's may be unlike the others, which follow another rule.
     part = FILLS.get(role, "advance")
-    return k != 1 or part == "advance" or not f.follows(part, getattr(REPORT, part), 1)
+    return k != 1 or part == "advance" or not f.follows(part, REPORT[part], 1)
 
 
 def _text(f: Examination, place: Position) -> bool:

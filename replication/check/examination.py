@@ -23,7 +23,8 @@ NEAR = 1e-12
 worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
 
 Change = Callable[[Case], Case] | Mapping[str, Rule]
-"""What a difference makes of the report's sheet: another case, or other rules for some parts."""
+"""What a difference makes of the report's sheet: another case, or other rules for some parts; none
+at all where only the stop is another."""
 
 
 def near(a: float | Fraction, b: float) -> bool:
@@ -131,7 +132,7 @@ class Examination:
 
     def followed(self, part: str, rule: Rule, numbers: Iterable[int]) -> Iterator[bool | None]:
         """Whether each of some rows follows a rule; None where cells are missing."""
-        rows = replace(self.rows, rules=replace(REPORT, **{part: rule}))
+        rows = replace(self.rows, rules=REPORT | {part: rule})
         near = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)
         for k in numbers:
             role, at = rows.shows(part, k)
@@ -195,10 +196,9 @@ class Examination:
         )
         self.differences.append(difference)
 
-    def cells(self, role: str, first: int, last: int | None = None) -> list[Position]:
+    def cells(self, role: str, first: int) -> list[Position]:
         """The cells of a column from a row on."""
-        last = self.table.steps if last is None else last
-        return [self.table.place(role, k) for k in range(first, max(first, last) + 1)]
+        return [self.table.place(role, k) for k in range(first, max(first, self.table.steps) + 1)]
 
     def shown(self, role: str, value: float | None) -> float | None:
         """A value in SI as its column holds it, in the column's unit and with its sign."""

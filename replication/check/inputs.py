@@ -28,6 +28,7 @@ from replication.check.words import (
     title,
     titles,
     unit_in,
+    unit_power,
 )  # fmt: skip
 from replication.models import crater
 from spreadsheets.foreign import Position
@@ -331,9 +332,7 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     # What the step would be, and what a column would be, if all cells were in SI units.
     step, move = _usual(table, "time"), _usual(table, "depth", speed)
     brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
-    units = {role: line.unit for role, line in table.lines.items()}
-    named = {role: power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
-             for role, unit in units.items()}  # fmt: skip
+    named = {role: unit_power(line.unit) for role, line in table.lines.items()}
     start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
     impact = inputs["velocity"].si if "velocity" in inputs else 0.0
     impact = impact if impact > 0 else report["velocity"][0]

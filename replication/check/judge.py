@@ -12,7 +12,6 @@ from functools import partial
 from itertools import pairwise, product
 from statistics import median
 
-from reference.units import to_si
 from replication.check.cells import NO_CONTACT, drifting, each_cell, order, wrong_area
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import RESTS_ON, report_inputs
@@ -24,7 +23,6 @@ from replication.check.scheme import (
     PARTS,
     REPORT,
     Case,
-    Rule,
     march,
 )  # fmt: skip
 from replication.check.table import Line, address
@@ -37,12 +35,10 @@ from replication.check.words import (
     times_too,
     title,
     titles,
+    unit_power,
     unit_text,
 )  # fmt: skip
 from spreadsheets.foreign import Position
-
-OTHER_STOP: Mapping[str, Rule] = {}
-"""The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
 
 def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
@@ -77,10 +73,10 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
 def _units(f: Examination) -> None:
     """Units in heads that contradict the rest."""
     for role, line in f.table.lines.items():
-        named = power_of_ten(float(to_si(line.unit or "1")))
-        if line.unit in (None, "1") or named in (None, f.powers[role]):
+        named = unit_power(line.unit)
+        if named is None or named == f.powers[role]:
             continue
-        right, slip = unit_text(role, f.powers[role]), abs((named or 0) - f.powers[role])
+        right, slip = unit_text(role, f.powers[role]), abs(named - f.powers[role])
         place = line.unit_place or f.table.place(role, 1)
         text = f"the head gives {title(role)} in {line.unit}, but the numbers are in {right}"
         f.add("unit", [place], right, f"{text}, a factor of 1e{slip}", line.unit)
@@ -147,8 +143,7 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
     solved = used.how in ("rows", "formulas", "report")
     if not solved or math.isclose(used.si, stated, rel_tol=1e-6):
         return
-    role, at = f.rows.shows("brake", 1)
-    cells = f.cells(role, at)
+    cells = f.cells(*f.rows.shows("brake", 1))
     taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
     where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
     text = (
@@ -277,11 +272,8 @@ def _typed_inputs(f: Examination) -> None:
     accused = f.accused
     columns = {title(role): (role, f.cells(role, 0)) for role in f.table.lines}
     columns |= {
-        f"the column of {address(line.place(line.first))}": (
-            "", [line.place(at) for at in range(line.first, line.last + 1)]
-        )
-        for line in f.table.helpers
-    }  # fmt: skip
+        f"the column of {address(line.cells[0])}": ("", line.cells) for line in f.table.helpers
+    }
     for own, (column, (role, places)) in product((*f.unread, *f.inputs.values()), columns.items()):
         if own.place is None:
             continue
@@ -345,10 +337,10 @@ def _is_explained(f: Examination, part: str) -> bool:
 
 def _scheme(f: Examination) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
-    chosen = {"start": REPORT.start}
-    if f.follows("start", REPORT.start, 1) is False:  # None if there is no velocity
+    chosen = {"start": REPORT["start"]}
+    if f.follows("start", REPORT["start"], 1) is False:  # None if there is no velocity
         starts = (rule for rule in KNOWN["start"] if f.follows("start", rule, 1))
-        chosen["start"] = next(starts, REPORT.start)
+        chosen["start"] = next(starts, REPORT["start"])
     unknown = []
     # Without a column for the deceleration, the brake is known by the velocity that it makes.
     parts = ("advance", "brake", "end") if "deceleration" in f.table.lines else ("advance", "brake")
@@ -371,45 +363,43 @@ def _scheme(f: Examination) -> None:
         flat, brake, deeper = (f.share("brake", rule) for rule in rules)
         if deeper > flat and deeper >= brake:
             chosen["brake"] = replace(BEYOND, says="")
-    f.rows = replace(f.rows, rules=replace(REPORT, **chosen))
+    f.rows = replace(f.rows, rules=REPORT | chosen)
     for part in unknown:
-        first = _first_unlike(f, part)
-        role, at = f.rows.shows(part, first)
-        wanted = f.rows.wanted(role, at) if role == PARTS[part][0] else None
-        kind, text, line = _cause(f, part, role)
-        cells = f.cells(role, at)
-        if line != f.table.lines[role]:  # a column beside it, which it reads
+        first, cells, wanted = _from_first_unlike(f, part)
+        kind, text, line = _cause(f, part)
+        if not line.covers(cells[0]):  # a column beside it, which it reads
             rows, wanted = range(first, f.table.steps + 1), None
             cells = [*(line.place(f.table.zero + k) for k in rows), *cells]
-        f.add(kind, cells, f.shown(role, wanted), text)
+        f.add(kind, cells, wanted, text)
     _named(f)
 
 
-def _first_unlike(f: Examination, part: str) -> int:
-    """The first row that does not follow the report's rule for a part of the scheme."""
-    first = PARTS[part][1]
+def _from_first_unlike(f: Examination, part: str) -> tuple[int, list[Position], float | None]:
+    """The first row unlike the report's, the cells from there on, what the first should hold."""
+    filled, first = PARTS[part]
     judged = range(first, f.table.steps)
-    return next((k for k in judged if not f.follows(part, getattr(REPORT, part), k)), first)
+    first = next((k for k in judged if not f.follows(part, REPORT[part], k)), first)
+    role, at = f.rows.shows(part, first)
+    wanted = replace(f.rows, rules=REPORT).wanted(role, at) if role == filled else None
+    return first, f.cells(role, at), f.shown(role, wanted)
 
 
 def _named(f: Examination) -> None:
     """A difference for each rule that is not the report's."""
-    rows = replace(f.rows, rules=REPORT)
-    for part, rule in f.rows.rules.others.items():
-        role, at = rows.shows(part, _first_unlike(f, part))
-        wanted = rows.wanted(role, at) if role == PARTS[part][0] else None
-        cells = f.cells(role, at, at if part == "start" else None)
+    for part, rule in f.rows.others.items():
+        _, cells, wanted = _from_first_unlike(f, part)
+        cells = cells[:1] if part == "start" else cells
         if part == "brake" and (area := wrong_area(f)):
             line, rows_off = area
             cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
         text = f"{rule.name}: {rule.says}"
-        f.add("other scheme", cells, f.shown(role, wanted), text, change={part: rule})
+        f.add("other scheme", cells, wanted, text, change={part: rule})
 
 
-def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
+def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     area = wrong_area(f) if part == "brake" else None
-    own = area[0] if area else f.table.lines[role]
+    own = area[0] if area else f.table.lines[f.rows.shows(part, 1)[0]]
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
@@ -422,8 +412,8 @@ def _cause(f: Examination, part: str, role: str) -> tuple[str, str, Line]:
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", own
     for line in (own, *f.table.helpers):
-        formulas = filter(None, map(line.formula, range(line.first, line.last + 1)))
-        numbers = {abs(number) for formula in formulas for number in formula.literals}
+        formulas = [f.calculation.formulas.get(place) for place in line.cells]
+        numbers = {abs(number) for formula in formulas if formula for number in formula.literals}
         if any(near(number / base, ratio) for number in numbers):
             return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
@@ -446,18 +436,18 @@ def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
 def _as_rounded(f: Examination, digits: int) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
-    others = [replace(REPORT, **{part: rule}) for part in parts for rule in KNOWN[part][1:]]
+    others = [REPORT | {part: rule} for part in parts for rule in KNOWN[part][1:]]
+    runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
     # Some rules need another brake to go with them: by themselves they give no rows.
-    runs = {rules: march(f.case, rules, steps=f.table.steps) for rules in (REPORT, *others)}
-    misprints = {
-        rules: list(_misprints(f, run, digits))
-        for rules, run in runs.items()
+    tried = [
+        (list(_misprints(f, run, digits)), rules)
+        for rules, run in runs
         if f.table.steps in run["depth"]
-    }
-    rules = min(misprints, key=lambda rules: len(misprints[rules]))
+    ]
+    misprints, rules = min(tried, key=lambda each: len(each[0]))
     f.rows = replace(f.rows, rules=rules)
     _named(f)
-    for role, k, expected in misprints[rules]:
+    for role, k, expected in misprints:
         text = f"{title(role)} of row {k} is not what the scheme gives"
         f.add("typed number", [f.table.place(role, k)], expected, text)
 
@@ -497,7 +487,7 @@ def _stop(f: Examination) -> None:
     if below is not None:
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
-        f.add("other scheme", cells, None, text, change=OTHER_STOP)
+        f.add("other scheme", cells, None, text, change={})
         return
     run = march(case, rows.rules)["velocity_final"]
     whole = max(run, default=0)
@@ -517,11 +507,12 @@ def _stop(f: Examination) -> None:
     if changed or prepared or (2 * steps < whole and not shown):
         f.add("not calculated", [place], None, text)
     else:
-        f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
+        f.add("other scheme", [place], None, f"other stop: {text}", change={})
 
 
 def _stops_elsewhere(f: Examination) -> bool:
-    return any(difference.change == OTHER_STOP for difference in f.differences)
+    """Whether a difference leaves the rules as they are, and changes the number of rows."""
+    return any(difference.change == {} for difference in f.differences)
 
 
 def _effects(f: Examination) -> None:
@@ -547,12 +538,12 @@ def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
     """The final depth that a difference alone would give, after so many steps."""
     change, fixed = difference.change, {}
     rules, case = REPORT, f.intended
-    if not f.rows.rules.brake.says:
-        rules = replace(rules, brake=f.rows.rules.brake)
+    if not f.rows.rules["brake"].says:
+        rules = rules | {"brake": f.rows.rules["brake"]}
     if callable(change):
         case = change(case)
     elif change is not None:
-        rules, steps = replace(rules, **change), f.table.steps
+        rules, steps = {**rules, **change}, f.table.steps
     elif difference.kind in ("typed number", "odd formula", "typed constant", "other scheme"):
         for place in set(difference.cells) & f.table.places.keys():
             role, k = f.table.places[place]
@@ -578,14 +569,14 @@ def _misread(f: Examination) -> None:
             continue
         what = "the final depth" if kind == "depth" else "the depth over the radius"
         row, power = _row_shown(f, kind, place)
-        named = power_of_ten(float(1 / to_si(unit))) if unit else None
+        named = unit_power(unit)
         if row not in (None, last):
             text = f"{what} reads row {row} of the table, not {last}, its last"
             wanted = address(f.table.place("depth", last))
             f.add("odd formula", [place], wanted, text, f.calculation.book[place].formula)
-        elif row is not None and kind == "ratio" and power != (named or 0):
+        elif row is not None and kind == "ratio" and power != -(named or 0):
             f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
-        elif row is not None and kind == "depth" and named not in (None, power):
+        elif row is not None and kind == "depth" and named not in (None, -power):
             right = unit_text("depth", -power)
             text = f"the label gives {what} in {unit}, but the number is in {right}"
             f.add("unit", [place], right, text, unit)

@@ -83,7 +83,17 @@ class Rows:
 
     columns: Mapping[str, Mapping[int, float]]
     case: Case
-    rules: "Rules"
+    rules: "Mapping[str, Rule]"
+
+    @property
+    def others(self) -> "dict[str, Rule]":
+        """The rules by part that are not the report's."""
+        return {part: rule for part, rule in self.rules.items() if rule.says}
+
+    @property
+    def scheme(self) -> str:
+        """The scheme by name."""
+        return " and ".join({rule.name: 0 for rule in self.others.values()}) or "the report's"
 
     def __getitem__(self, cell: tuple[str, int]) -> float:
         """The number in a role and row. Raises KeyError if there is none."""
@@ -97,7 +107,7 @@ class Rows:
         if k == 0:  # what a row 0 that is not shown would hold
             return self.case.velocity if role.startswith("velocity") else 0.0
         if role not in self.columns and role == "deceleration":
-            return self.rules.brake.formula(self, k)
+            return self.rules["brake"].formula(self, k)
         raise KeyError(cell)
 
     def __call__(self, role: str, k: int) -> float | None:
@@ -137,10 +147,11 @@ class Rows:
             return 0.0
         if role == "velocity_initial":
             shown = "velocity_final" in self.columns
-            return self["velocity_final", k - 1] if shown else self.rules.end.formula(self, k - 1)
+            return (
+                self["velocity_final", k - 1] if shown else self.rules["end"].formula(self, k - 1)
+            )
         part = "start" if role == "depth" and k == 1 else FILLS[role]
-        rule: Rule = getattr(self.rules, part)
-        return rule.formula(self, k)
+        return self.rules[part].formula(self, k)
 
 
 @dataclass(frozen=True)
@@ -150,27 +161,6 @@ class Rule:
     name: str
     formula: Callable[[Rows, int], float]
     says: str = ""
-
-
-@dataclass(frozen=True)
-class Rules:
-    """A whole scheme: how each column is filled."""
-
-    start: Rule
-    advance: Rule
-    brake: Rule
-    end: Rule
-
-    @property
-    def others(self) -> dict[str, Rule]:
-        """The parts that are not the report's."""
-        return {part: rule for part, rule in vars(self).items() if rule.says}
-
-    @property
-    def name(self) -> str:
-        """The scheme by name."""
-        names = dict.fromkeys(rule.name for rule in self.others.values())
-        return " and ".join(names) or "the report's"
 
 
 def deceleration(
@@ -307,13 +297,13 @@ ENDINGS = (
 KNOWN = {"start": STARTS, "advance": ADVANCES, "brake": BRAKES, "end": ENDINGS}
 """The rules for each part, the report's own first."""
 
-REPORT = Rules(**{part: rules[0] for part, rules in KNOWN.items()})
+REPORT = {part: rules[0] for part, rules in KNOWN.items()}
 """The report's own scheme."""
 
 
 def march(
     case: Case,
-    rules: Rules = REPORT,
+    rules: Mapping[str, Rule] = REPORT,
     fixed: Mapping[tuple[str, int], float] | None = None,
     steps: int | None = None,
 ) -> dict[str, dict[int, float]]:

@@ -139,7 +139,7 @@ def _taken(f: Examination) -> Record:
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": f.rows.rules.name,
+        "scheme": f.rows.scheme,
         "columns": {
             role: {"cells": table.area(role), "head": line.head,
                    "unit": unit_text(role, f.powers[role]),

@@ -119,6 +119,11 @@ class Line:
         here, before = self.at(at), self.at(at - 1)
         return None if here is None or before is None else here - before
 
+    @property
+    def cells(self) -> list[Position]:
+        """Every cell of it."""
+        return [self.place(at) for at in range(self.first, self.last + 1)]
+
     def formula(self, at: int) -> Formula | None:
         """The formula in a row, or column, of the sheet."""
         return self.calculation.formulas.get(self.place(at))

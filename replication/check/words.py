@@ -200,6 +200,15 @@ def power_of_ten(ratio: float) -> int | None:
     return round(power) if abs(power - round(power)) < 1e-9 else None
 
 
+def unit_power(unit: str | None) -> int | None:
+    """The power of ten that a unit is of that in SI; None for no unit, or one that is none.
+
+    >>> unit_power("um"), unit_power("ksi"), unit_power(None)
+    (-6, None, None)
+    """
+    return power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
+
+
 def between_units(power: int, role: str, surely: bool = False) -> bool:
     """Whether a power of ten may lie between two units; `surely`: whether it is no mere choice.
 

@@ -150,7 +150,7 @@ def other_digits() -> Iterator[str]:
     report = march(case)
     for part, rules in KNOWN.items():
         f = made("six-digits", BETA_5)
-        rows = march(case, replace(REPORT, **{part: rules[1]}), steps=f.steps)
+        rows = march(case, REPORT | {part: rules[1]}, steps=f.steps)
         for (role, k), place in f.where.items():
             if isinstance(content := f.cells[place], float) and report.get(role, {}).get(k):
                 unit = 10.0 ** round(math.log10(content / report[role][k]))

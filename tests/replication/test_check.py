@@ -2,7 +2,6 @@
 
 import copy
 import json
-from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -18,7 +17,7 @@ from workbooks import usable
 
 from replication.cases import BETA_5
 from replication.check.examination import KINDS
-from replication.check.scheme import BRAKES, REPORT, Case, march
+from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
 from replication.check.show import check_record, text
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
@@ -50,7 +49,7 @@ def spoiled(tmp_path: Path) -> Path:
 )  # fmt: skip
 @settings(max_examples=40, deadline=None)
 def test_the_rules_give_the_sheet_double_for_double(
-    scheme: str, brake: object, velocity: float, radius: float, step: float, beta: float
+    scheme: str, brake: Rule, velocity: float, radius: float, step: float, beta: float
 ) -> None:
     impact = Impact(
         velocity=velocity, radius=radius, particle_density=8900, target_density=7850,
@@ -59,7 +58,7 @@ def test_the_rules_give_the_sheet_double_for_double(
     case = Case(
         velocity, radius, 8900.0, 7850.0, impact.target_resistance, step, impact.stop_velocity
     )
-    run = march(case, replace(REPORT, brake=brake))
+    run = march(case, REPORT | {"brake": brake})
     sheet = midpoint.run(impact, scheme)
     for role in ("velocity_initial", "depth", "deceleration", "velocity_final"):
         column = [getattr(row, role) for row in sheet.rows]
