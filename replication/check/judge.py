@@ -64,7 +64,6 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
         _as_rounded(f, f.table.digits)
     _stop(f)
     _effects(f)
-    _misread(f)
 
 
 # ---- units and inputs: what the workbook says of them, what its formulas make of them
@@ -510,7 +509,7 @@ def _stop(f: Examination) -> None:
         f.add("other scheme", [place], None, f"other stop: {text}", change={})
 
 
-def _stops_elsewhere(f: Examination) -> bool:
+def stops_elsewhere(f: Examination) -> bool:
     """Whether a difference leaves the rules as they are, and changes the number of rows."""
     return any(difference.change == {} for difference in f.differences)
 
@@ -528,7 +527,7 @@ def _effects(f: Examination) -> None:
                 f.differing += k > steps
             else:
                 f.differing += abs(own - right) > 1e-9 * abs(right)
-    if not _stops_elsewhere(f):
+    if not stops_elsewhere(f):
         steps = f.table.steps
     with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)
     f.differences = sorted(with_effects, key=lambda d: d.rank)
@@ -557,41 +556,3 @@ def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
     else:
         return None
     return march(case, rules, fixed, steps=steps)["depth"].get(steps)
-
-
-def _misread(f: Examination) -> None:
-    """Results that are not those of the last row of a table that ends as it should."""
-    last, wrong = f.table.steps, set[Position]()
-    results = f.table.results if f.ends and not _stops_elsewhere(f) else ()
-    for kind, place, unit in sorted(results, key=lambda r: f.calculation.order.get(r.place, -1)):
-        areas = f.calculation.areas(place)
-        if not f.table.gives_depth(place) or any(area.corner in wrong for area in areas):
-            continue
-        what = "the final depth" if kind == "depth" else "the depth over the radius"
-        row, power = _row_shown(f, kind, place)
-        named = unit_power(unit)
-        if row not in (None, last):
-            text = f"{what} reads row {row} of the table, not {last}, its last"
-            wanted = address(f.table.place("depth", last))
-            f.add("odd formula", [place], wanted, text, f.calculation.book[place].formula)
-        elif row is not None and kind == "ratio" and power != -(named or 0):
-            f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
-        elif row is not None and kind == "depth" and named not in (None, -power):
-            right = unit_text("depth", -power)
-            text = f"the label gives {what} in {unit}, but the number is in {right}"
-            f.add("unit", [place], right, text, unit)
-        else:
-            continue
-        wrong.add(place)
-
-
-def _row_shown(f: Examination, kind: str, place: Position) -> tuple[int | None, int]:
-    """The row whose depth, or its ratio to the radius, a cell shows, and times which power of ten.
-
-    No row where the cell is rounded, or computed otherwise.
-    """
-    value, over = f.calculation.number(place) or 0.0, f.case.radius if kind == "ratio" else 1.0
-    for k, depth in sorted(f.rows.columns["depth"].items(), reverse=True):
-        if depth > 0 and (power := power_of_ten(value * over / depth)) is not None:
-            return k, power
-    return None, 0

@@ -11,10 +11,19 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.inputs import find, label_of, numbers_beside, report_inputs
-from replication.check.judge import judge
+from replication.check.judge import judge, stops_elsewhere
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
 from replication.check.twins import meant
-from replication.check.words import COLUMNS, INPUTS, count, input_roles
+from replication.check.words import (
+    COLUMNS,
+    INPUTS,
+    count,
+    input_roles,
+    power_of_ten,
+    times_too,
+    unit_power,
+    unit_text,
+)
 from replication.reading import place as named
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
@@ -84,6 +93,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     other = meant(examinations, beside)
     for number, f in enumerate(examinations):
         judge(f, other.get(number))
+        _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     differences = [
         *(d for v in examinations for d in v.differences),
@@ -252,6 +262,47 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
     claim = load().claims[name]
     return HeldNumber(claim, place, float(value / claim.si), claim.target().contains(value))
+
+
+# ---- results, which show the last row
+
+
+def _misread(f: Examination) -> None:
+    """Results that are not those of the last row of a table that ends as it should."""
+    last, wrong = f.table.steps, set[Position]()
+    results = f.table.results if f.ends and not stops_elsewhere(f) else ()
+    for kind, place, unit in sorted(results, key=lambda r: f.calculation.order.get(r.place, -1)):
+        areas = f.calculation.areas(place)
+        if not f.table.gives_depth(place) or any(area.corner in wrong for area in areas):
+            continue
+        what = "the final depth" if kind == "depth" else "the depth over the radius"
+        row, power = _row_shown(f, kind, place)
+        named = unit_power(unit)
+        if row not in (None, last):
+            text = f"{what} reads row {row} of the table, not {last}, its last"
+            wanted = address(f.table.place("depth", last))
+            f.add("odd formula", [place], wanted, text, f.calculation.book[place].formula)
+        elif row is not None and kind == "ratio" and power != -(named or 0):
+            f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
+        elif row is not None and kind == "depth" and named not in (None, -power):
+            right = unit_text("depth", -power)
+            text = f"the label gives {what} in {unit}, but the number is in {right}"
+            f.add("unit", [place], right, text, unit)
+        else:
+            continue
+        wrong.add(place)
+
+
+def _row_shown(f: Examination, kind: str, place: Position) -> tuple[int | None, int]:
+    """The row whose depth, or its ratio to the radius, a cell shows, and times which power of ten.
+
+    No row where the cell is rounded, or computed otherwise.
+    """
+    value, over = f.calculation.number(place) or 0.0, f.case.radius if kind == "ratio" else 1.0
+    for k, depth in sorted(f.rows.columns["depth"].items(), reverse=True):
+        if depth > 0 and (power := power_of_ten(value * over / depth)) is not None:
+            return k, power
+    return None, 0
 
 
 # ---- stored values
