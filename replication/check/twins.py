@@ -6,7 +6,7 @@ target resistance is read by no table, then one of them reads a cell that is not
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from replication.check.examination import Examination, Input
 from replication.check.inputs import as_role, report_inputs
@@ -32,35 +32,49 @@ def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, t
             alike.setdefault((_source(f), f.case, f.rows("depth", 4)), []).append(number)
     told: dict[int, tuple[float, str]] = {}
     for group in (numbers for numbers in alike.values() if len(numbers) > 1):
-        f, source = tables[group[0]], _source(tables[group[0]])
+        f = tables[group[0]]
         own = f.inputs.get("flow_stress")
         stress = own.si if own else report_inputs()["flow_stress"][0]
-        what, heads = "head", {number: _said(_heads(tables[number].table)) for number in group}
-        if len(set(heads.values())) == 1:
-            what = "sheet's name"
-            heads = {number: _said([tables[number].table.sheet]) for number in group}
-        by_head = {
-            number: (beta * stress, f"its {what} says beta {beta:g}")
-            for number, beta in heads.items()
-            if beta and len(set(heads.values())) > 1 and _differ(beta * stress, f)
-        }
+        by_head = _by_head(tables, group, stress)
         told |= by_head
         for cell in () if by_head else _idle(f, beside):
-            assert cell.place is not None
-            assert source is not None
-            # The table that it stands nearest to, compared with the cell that is read; or the last.
-            off = {
-                number: _apart(cell.place, table) - _apart(source, table)
-                for number in reversed(group)
-                if cell.place[0] in (source[0], (table := tables[number].table).sheet)
-            }
-            number = min(off, key=lambda number: off[number], default=group[0])
             resistance = cell.si * (stress if cell.role == "beta" else 1.0)
-            if off.get(number, math.inf) <= _BLOCK and _differ(resistance, f):
+            # Where two are as near, it is the last that was copied from the first.
+            nearest = _nearest(cell, f, {n: tables[n].table for n in reversed(group)})
+            if cell.place and nearest is not None and _differ(resistance, f):
                 where, value = address(cell.place, True), quantity(cell.si, cell.role)
                 says = f"{title(cell.role)} in {where}, {value}, is read by no table"
-                told.setdefault(number, (resistance, says))
+                told.setdefault(nearest, (resistance, says))
     return told
+
+
+def _by_head(
+    tables: Sequence[Examination], group: Sequence[int], stress: float
+) -> dict[int, tuple[float, str]]:
+    """The tables of a group whose head, or sheet's name, says another beta than their rows have."""
+    for what, texts in (("head", _heads), ("sheet's name", lambda table: [table.sheet])):
+        heads = {number: _said(texts(tables[number].table)) for number in group}
+        if len(set(heads.values())) > 1:
+            return {
+                number: (beta * stress, f"its {what} says beta {beta:g}")
+                for number, beta in heads.items()
+                if beta and _differ(beta * stress, tables[number])
+            }
+    return {}
+
+
+def _nearest(cell: Input, f: Examination, group: Mapping[int, Table]) -> int | None:
+    """The table to which a cell is nearest, compared with the cell that is read; or the first."""
+    source, place = _source(f), cell.place
+    assert source is not None
+    assert place is not None
+    off = {
+        number: _apart(place, table) - _apart(source, table)
+        for number, table in group.items()
+        if place[0] in (source[0], table.sheet)
+    }
+    number = min(off, key=lambda number: off[number], default=None)
+    return None if number is None or off[number] > _BLOCK else number
 
 
 def _source(f: Examination) -> Position | None:
@@ -70,7 +84,8 @@ def _source(f: Examination) -> Position | None:
 
 
 def _differ(resistance: float, f: Examination) -> bool:
-    return not math.isclose(resistance, f.case.resistance, rel_tol=1e-6)
+    """Whether a resistance is possible, and another one than the rows have."""
+    return 0 < resistance < 1e100 and not math.isclose(resistance, f.case.resistance, rel_tol=1e-6)
 
 
 def _said(texts: Sequence[str]) -> float | None:
