@@ -17,14 +17,17 @@ from replication.check.twins import meant
 from replication.check.words import (
     COLUMNS,
     INPUTS,
+    column_roles,
     count,
     input_roles,
+    is_unit,
     power_of_ten,
     times_too,
     unit_power,
     unit_text,
 )
 from replication.reading import place as named
+from replication.reading import quoted
 from replication.text import with_unit
 from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Area, Calculation, calculate, parse
@@ -100,6 +103,8 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         *_stale(calculation, examinations),
         *(number.unmet(examinations[0]) for number in numbers if not number.met),
         *_uncalculated(calculation),
+        *_texts_as_inputs(calculation, examinations),
+        *_without_numbers(calculation),
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
     once = {
@@ -186,12 +191,8 @@ def _nothing(calculation: Calculation) -> str:
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
     wrong = [place for place in calculation.formulas if calculation.error(place)]
     first = min(wrong, key=calculation.order.__getitem__, default=None)
-    corners = {area.corner for formula in calculation.formulas.values() for area in formula.areas}
-    read = (p for p in corners - calculation.formulas.keys() if isinstance(values.get(p), str))
-    # A formula may guard itself against a text, and give no error: then its label tells.
-    inputs = {place for place in read if input_roles(*label_of(place, calculation))}
     spoiling = {calculation.source(area.corner) for area in calculation.areas(first)}
-    instead = sorted(inputs | (spoiling & calculation.spoiling))
+    instead = sorted(_labelled_texts(calculation) | (spoiling & calculation.spoiling))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
     if first:
@@ -201,6 +202,47 @@ def _nothing(calculation: Calculation) -> str:
         return f"{nothing}: type a number there"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
     return f"{nothing}: say where they are, such as {such}"
+
+
+def _labelled_texts(calculation: Calculation) -> set[Position]:
+    """Typed texts that formulas read, and whose label tells that they should be an input.
+
+    A formula may guard itself against a text, and give no error: then only the label tells.
+    """
+    formulas, values = calculation.formulas, calculation.values
+    read = {area.corner for formula in formulas.values() for area in formula.areas}
+    return {
+        place
+        for place in read - formulas.keys()
+        if isinstance(text := values.get(place), str) and not is_unit(text)
+        if input_roles(*label_of(place, calculation))
+    }
+
+
+def _texts_as_inputs(
+    calculation: Calculation, examinations: Sequence[Examination]
+) -> Iterator[Difference]:
+    """Texts in the cells of inputs: a table that reads one is no table, and is not found."""
+    lines = [line for f in examinations for line in f.table.every_line]
+    for place in sorted(_labelled_texts(calculation)):
+        if all(line.index(place) is None for line in lines):  # else it is the head of a column
+            text = "it is a text, not a number: nothing that reads it can be checked"
+            shown, rank = repr(calculation.values[place]), examinations[0].rank(place)
+            yield Difference("typed number", (place,), None, shown, text, rank)
+
+
+def _without_numbers(calculation: Calculation) -> Iterator[Difference]:
+    """Sheets where the formulas below a depth give no numbers, as an input of theirs cannot be."""
+    silent: dict[str, Difference] = {}
+    for (sheet, row, column), text in calculation.values.items():
+        if isinstance(text, str) and not is_unit(text) and column_roles(text) == {"depth"}:
+            below = ((sheet, row + k, column) for k in range(1, 3 * LEAST))
+            cells = [place for place in below if place in calculation.formulas]
+            if len(cells) > LEAST and {*map(calculation.number, cells)} == {None}:
+                says = f"below {quoted(text)} no formula gives a number: no table is found there"
+                own = Difference("not calculated", (cells[0],), None, None, says, (8,))
+                silent.setdefault(sheet, own)
+    yield from silent.values()
 
 
 # ---- the report's printed numbers
