@@ -475,8 +475,8 @@ def _at_rest(impact: Impact) -> dict[str, float]:
 
 def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
-    kinds = doubts_about(sheet)
-    trust = 0 if set(kinds) - {"reversed"} else 1 if kinds else 2
+    kinds = doubts_about(sheet).keys() - {"short"}  # the message is about the time step
+    trust = 0 if kinds - {"reversed"} else 1 if kinds else 2
     message = ("doubtful", "reversed", "complete")[trust]
     return trust, MESSAGES[message if sheet.steps else "no_steps"]
 
