@@ -1,6 +1,7 @@
 r"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
 
-They stand beside the tests in sections, headed `# What`. `⟨5000 x⟩` is an x five thousand times,
+They stand beside the tests in sections, headed `# What`; many are what Python says to a line of it,
+which knows the names that the test gives. `⟨5000 x⟩` is an x five thousand times,
 and `⟨\x1b⟩` a character that no text shows.
 Whoever changes an answer of the program changes it there.
 """

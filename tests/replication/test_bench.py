@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import sys
 import time
 import xml.etree.ElementTree as ET
@@ -115,6 +116,9 @@ FINE = {
     "RK4, Numba": ("400 steps", 1e-10),
     **({"heyoka": ("tol 1e-10", 1e-9)} if find_spec("heyoka") else {}),
 }
+
+INTERPRETED = "closed form|sheet, (published|centered)|Taylor series, plain Python|solve_ivp .*"
+"""What compiles nothing."""
 
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
@@ -253,6 +257,9 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     }
     assert all((point["error"] is None) == bool(point["gap"]) for point in case["points"])
     assert any(point["gap"] for point in case["points"])
+    for point in case["points"]:
+        plain = re.fullmatch(INTERPRETED, point["method"]) is not None
+        assert point["gap"] or (point["compile"] is None) == plain, point["method"]
     assert all(row["method"] for row in case["fastest"] if row["digits"] <= 13)
     assert json.loads((tmp_path / "bench.json").read_text("utf-8")) == record
     with (tmp_path / "bench.csv").open() as file:

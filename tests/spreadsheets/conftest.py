@@ -31,12 +31,6 @@ def build(record: Record) -> Callable[..., Workbook]:
     return partial(workbook.build, record=record)
 
 
-@pytest.fixture(scope="session")
-def book(build: Callable[..., Workbook]) -> Workbook:
-    """The report's workbook."""
-    return build()
-
-
 @dataclass(frozen=True)
 class Emitted:
     """A workbook and its file."""
@@ -93,6 +87,6 @@ def emit_to(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Workbook], Em
 
 
 @pytest.fixture(scope="session")
-def emitted(book: Workbook, emit_to: Callable[[Workbook], Emitted]) -> Emitted:
+def emitted(build: Callable[..., Workbook], emit_to: Callable[[Workbook], Emitted]) -> Emitted:
     """The report's workbook as a file."""
-    return emit_to(book)
+    return emit_to(build())
