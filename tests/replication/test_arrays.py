@@ -289,41 +289,33 @@ def test_a_fork_goes_on_computing() -> None:
     subprocess.run([sys.executable, "-c", FORKED], check=True, timeout=300)
 
 
-def in_a_copy(folder: Path, **environment: str) -> tuple[str, str]:
-    """What a depth of an array is in a copy of the models, and what is said on the way."""
-    copy = folder / "replication" / "models"
-    if not copy.exists():
-        copy.mkdir(parents=True)
-        (copy.parent / "__init__.py").touch()
-        for source in Path(arrays.__file__).parent.glob("*.py"):
-            (copy / source.name).write_bytes(source.read_bytes())
-    program = f"from replication.models.arrays import final_depth as f; print(*f([{CASE[0]}], "
-    program += f"*{CASE[1:]}))"
-    variables = {**os.environ, "PYTHONPATH": str(folder), "PYTHONWARNINGS": "error", **environment}
-    variables.pop("NUMBA_CACHE_DIR", None)
-    command = [sys.executable, "-B", "-c", program]
-    done = subprocess.run(command, capture_output=True, env=variables, text=True, cwd=folder)
-    return done.stdout, done.stderr
+def test_what_is_compiled_is_kept_by_the_source_of_all_models_or_done_again(tmp_path: Path) -> None:
+    copy, home = tmp_path / "replication" / "models", tmp_path / "home"
+    shutil.copytree(Path(arrays.__file__).parent, copy, ignore=lambda *_: ["__pycache__"])
+    (copy.parent / "__init__.py").touch()
+    program = "from replication.models.arrays import final_depth as f; "
+    program += f"print(*f([{CASE[0]}], *{CASE[1:]}))"
 
+    def said(**environment: str) -> tuple[str, str]:
+        variables = {**os.environ, "PYTHONPATH": str(tmp_path), "PYTHONWARNINGS": "error"}
+        variables.pop("NUMBA_CACHE_DIR", None)
+        command = [sys.executable, "-B", "-c", program]
+        done = subprocess.run(
+            command, capture_output=True, env=variables | environment, text=True, cwd=tmp_path
+        )
+        return done.stdout, done.stderr
 
-def test_without_a_place_to_keep_it_only_the_compilation_is_done_again(tmp_path: Path) -> None:
-    in_a_copy(tmp_path)
-    shutil.rmtree(tmp_path / "replication" / "models" / "__pycache__")
-    (tmp_path / "replication" / "models" / "__pycache__").touch()  # not even root can write there
-    (tmp_path / "home").touch()
-    nowhere = str(tmp_path / "home" / "cache")
-    result = in_a_copy(tmp_path, HOME=nowhere, XDG_CACHE_HOME=nowhere)
-    assert result == (f"{depth.final_depth(*CASE)}\n", "")
-
-
-def test_what_is_kept_goes_by_the_source_of_all_models(tmp_path: Path) -> None:
-    first = in_a_copy(tmp_path)
-    copy = tmp_path / "replication" / "models"
+    right = depth.final_depth(*CASE)
+    assert said() == (f"{right}\n", "")
     assert list((copy / "__pycache__").glob("depth.final_depth*.nbc"))
     source = (copy / "crater.py").read_text("utf-8")
     (copy / "crater.py").write_text(source.replace("return 2 * z", "return 4 * z"), "utf-8")
-    twice = f"{2 * float(first[0])}\n"
-    assert in_a_copy(tmp_path) == (twice, "")
+    assert said() == (f"{2 * right}\n", "")
+    shutil.rmtree(copy / "__pycache__")
+    (copy / "__pycache__").touch()  # not even root can write there
+    home.touch()
+    nowhere = str(home / "cache")
+    assert said(HOME=nowhere, XDG_CACHE_HOME=nowhere) == (f"{2 * right}\n", "")
 
 
 TOGETHER = """

@@ -192,16 +192,14 @@ def evil(tmp_path: Path) -> Path:
     return written(f, tmp_path)
 
 
-def test_nothing_in_a_workbook_reaches_the_terminal(evil: Path) -> None:
-    status, out, _ = coldspray("check", evil)
+def test_the_page_draws_the_sheet_and_no_content_reaches_it_or_the_terminal(
+    evil: Path, tmp_path: Path
+) -> None:
+    page, junit = tmp_path / "page.html", tmp_path / "out.xml"
+    status, out, _ = coldspray("check", evil, "--html", page, "--junit", junit)
     assert status == 1
     assert "\\x9b31m\\u202egnp.exe" in out
     assert all(c.isprintable() or c == "\n" for c in out)
-
-
-def test_the_page_draws_the_sheet_and_runs_nothing(evil: Path, tmp_path: Path) -> None:
-    page, junit = tmp_path / "page.html", tmp_path / "out.xml"
-    coldspray("check", evil, "--html", page, "--junit", junit, "--quiet")
     assert [case.get("name") for case in ET.parse(junit).getroot()] == list(KINDS)
     text = page.read_text("utf-8")
     assert "\u202e" not in text

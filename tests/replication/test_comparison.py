@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from reference.ledger import load
 from reference.motion import Trajectory
 from replication.audit import comparison
-from replication.audit.record import Level, Record, Scatter
+from replication.audit.record import Level, Record
 from replication.cases import BETA_5, CASES
 from replication.models import depth
 from replication.models.impact import Impact
@@ -57,12 +57,8 @@ def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str)
     )
 
 
-@pytest.fixture
-def laws(record: Record) -> dict[str, Scatter]:
-    return {law.law.partition(":")[0]: law for law in record.scatter}
-
-
-def test_quantiles_of_each_law(laws: dict[str, Scatter]) -> None:
+def test_quantiles_of_each_law(record: Record) -> None:
+    laws = {law.law.partition(":")[0]: law for law in record.scatter}
     sizes = NormalDist(22, 5.6)
     for law, power in (("Eq. 1", 1.5), ("drag on a sphere", 0.5)):
         points = laws[law]
