@@ -18,6 +18,7 @@ import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kept import kept
 from pages import HTML, SVG, sound
 
 from replication import report
@@ -137,6 +138,12 @@ def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None
         assert not [e for e in root.iter() if "style" in e.attrib or e.tag == f"{SVG}style"]
 
 
+@kept("replication/kept.txt", "Figures, and the words on each")
+def test_what_the_figures_say(question: str, answer: str, files: dict[str, bytes]) -> None:
+    root = ET.fromstring(files[f"figures/{question}.svg"])
+    assert " | ".join(str(text.text) for text in root.iter(f"{SVG}text")) == answer
+
+
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs the browser chromium")
 def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None:
     source, target = tmp_path / "audit.html", tmp_path / "audit.pdf"
@@ -151,8 +158,8 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 
 def test_the_page_in_the_documentation_is_what_the_audit_says(files: dict[str, bytes]) -> None:
     """To keep a new one: run `coldspray audit`, and copy its audit.md up to the provenance."""
-    kept = (Path(__file__).parents[2] / "docs" / "audit.md").read_text("utf-8")
-    assert files["audit.md"].decode().partition("\n## Provenance")[0] == kept
+    document = (Path(__file__).parents[2] / "docs" / "audit.md").read_text("utf-8")
+    assert files["audit.md"].decode().partition("\n## Provenance")[0] == document
 
 
 def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
