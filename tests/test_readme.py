@@ -1,5 +1,6 @@
 """The README's examples: every ```console block is run, every promise about files is true."""
 
+import doctest
 import re
 import shlex
 from pathlib import Path
@@ -20,10 +21,6 @@ EXAMPLES = [
 ]
 
 
-def test_there_are_examples() -> None:
-    assert len(EXAMPLES) >= 4
-
-
 @pytest.mark.parametrize(("command", "output"), EXAMPLES, ids=[c for c, _ in EXAMPLES])
 def test_example_prints_what_the_readme_says(command: str, output: str) -> None:
     status, printed, _ = coldspray(*shlex.split(command))
@@ -33,9 +30,8 @@ def test_example_prints_what_the_readme_says(command: str, output: str) -> None:
     assert printed.endswith(tail)
 
 
-def test_python_examples_run() -> None:
-    import doctest
-
+def test_there_are_examples_and_those_in_python_run() -> None:
+    assert len(EXAMPLES) >= 4
     results = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
     assert results.attempted > 0
     assert results.failed == 0

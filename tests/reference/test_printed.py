@@ -1,5 +1,6 @@
 """Printed text, and the exact interval of the values that print like it."""
 
+import decimal
 from fractions import Fraction as F
 from itertools import pairwise
 
@@ -26,27 +27,13 @@ def test_text_is_a_value_and_the_places_that_its_last_digit_may_have(
     assert said(shown) == answer
 
 
-# A value prints as the text if and only if it lies in the text's interval. The rounding is written
-# out here once more, from its definition.
+# A value prints as the text if and only if it lies in the text's interval.
 
-
-def rounded(value: F, quantum: F, rounding: Rounding) -> F:
-    whole, rest = divmod(abs(value) / quantum, 1)
-    up = {
-        Rounding.AWAY: rest >= F(1, 2),
-        Rounding.EVEN: rest > F(1, 2) or (rest == F(1, 2) and whole % 2 == 1),
-        Rounding.CUT: False,
-    }[rounding]
-    return (whole + up) * quantum * (1 if value >= 0 else -1)
-
-
-def rounded_to_digits(value: F, digits: int, rounding: Rounding) -> F:
-    exponent = 0
-    while abs(value) >= TENS ** (exponent + 1):
-        exponent += 1
-    while 0 < abs(value) < TENS**exponent:
-        exponent -= 1
-    return rounded(value, TENS ** (exponent - digits + 1), rounding)
+MODES = {
+    Rounding.AWAY: decimal.ROUND_HALF_UP,
+    Rounding.EVEN: decimal.ROUND_HALF_EVEN,
+    Rounding.CUT: decimal.ROUND_DOWN,
+}
 
 
 @st.composite
@@ -68,6 +55,7 @@ def texts(draw: st.DrawFn) -> tuple[str, int, int | None]:
     return form.format(mantissa, draw(st.integers(-12, 12))), 0, count
 
 
+EXACT = decimal.Context(99, traps=[decimal.Inexact])
 OFF = st.integers(-20, 20).flatmap(lambda k: st.sampled_from([F(k, 8), F(k, 80)]))
 """How far off a value is, in last digits: ends of intervals and what is between."""
 
@@ -81,11 +69,13 @@ def test_a_value_prints_as_the_text_if_and_only_if_it_lies_in_its_interval(
     printed = parse(text)
     quantum = printed.quanta[place]
     value = printed.value + (off + more) * quantum
+    exact = EXACT.divide(value.numerator, value.denominator)
     if digits is None:
         assert quantum == TENS ** -len(text.partition(".")[2])
-        own = rounded(value, quantum, rounding)
+        last = EXACT.divide(1, quantum.denominator)
+        own = exact.quantize(last, MODES[rounding], decimal.Context(99))
     else:
-        own = rounded_to_digits(value, digits, rounding)
+        own = decimal.Context(digits, MODES[rounding]).create_decimal(exact)
     assert printed.interval(rounding, quantum).contains(value) == (own == printed.value)
     for strict, loose in pairwise(printed.interval(quantum=q) for q in printed.quanta):
         assert loose.encloses(*strict.ends) or loose.ends[1] == strict.ends[1]
