@@ -60,7 +60,6 @@ class Reals(Arithmetic):
 
     def __init__(self, digits: int = 50) -> None:
         self.context = _context(digits)
-        self.log = self.context.log
 
     @property
     def pi(self) -> Number:
@@ -69,12 +68,21 @@ class Reals(Arithmetic):
     def number(self, value: Fraction | int) -> Number:
         return self.context.mpf(value.numerator) / value.denominator
 
+    def log(self, x: Number) -> Number:
+        return self._real(self.context.log(x))
+
     def power(self, x: Number, exponent: Fraction) -> Number:
-        return self.context.root(x, exponent.denominator) ** exponent.numerator
+        root = x if exponent.denominator == 1 else self.context.root(x, exponent.denominator)
+        return self._real(root) ** exponent.numerator
+
+    def _real(self, x: Number) -> Number:
+        if isinstance(x, self.context.mpc):
+            raise ArithmeticError("a negative number has no real logarithm, and no real root")
+        return x
 
     def cap_root(self, c: Number) -> Number:
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
-        root = self.context.sqrt(c)
+        root = self._real(self.context.sqrt(c))
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
 
 

@@ -41,7 +41,7 @@ class Screen:
         try:
             value = Fraction(function(_FLOATS, **values))
         except (ArithmeticError, ValueError, TypeError):
-            return False  # no such input has a result, or only a complex one
+            return False  # no such input has a result, or only a complex one, in doubles
         if target.is_point and target.lower is not None:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
@@ -146,13 +146,10 @@ class Explainer:
             proof=proof,
         )
 
-    def _solutions(
-        self, claim: Claim, reading: str, name: str, centered: bool = False
-    ) -> Solutions:
+    def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
         """The values of an entry (SI), the others as printed, with which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        computed = self.ledger.function(claim, reading=reading, centered=centered)
-        function = holding(computed, others)
+        function = holding(self.ledger.function(claim, reading=reading), others)
         low, high, _ = self.ledger.search(name)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         return solve(function, name, (low, high), claim.target(), budget)

@@ -235,6 +235,15 @@ def test_rationals_are_exact_or_say_that_they_are_not() -> None:
             inexact()
 
 
+def test_a_negative_number_has_no_real_logarithm_and_no_real_root() -> None:
+    for function in (
+        lambda x: REALS.log(x), lambda x: REALS.power(x, F(1, 2)), lambda x: REALS.cap_root(x)
+    ):  # fmt: skip
+        with pytest.raises(ArithmeticError, match="no real"):
+            function(REALS.number(-2))
+    assert REALS.power(REALS.number(-2), F(3)) == -8
+
+
 @pytest.mark.parametrize("ar", [Reals(20), Rationals(), Floats()], ids=lambda ar: type(ar).__name__)
 def test_points_are_below_or_not(ar: Any) -> None:
     pairs = [(1, 2), (2, 1), (1, 1)]

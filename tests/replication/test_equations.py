@@ -6,7 +6,7 @@ import pytest
 
 from reference.ledger import Ledger, load
 from replication.audit.explain import Screen, equation_edits
-from replication.audit.verdict import Verdict, assess_equation, follows
+from replication.audit.verdict import Judge, Verdict, assess_equation, follows
 
 LEDGER = load()
 ASSUMED = {f"inferred:{name}": entry.nominal for name, entry in LEDGER.inferred.items()}
@@ -96,6 +96,13 @@ def test_equation(name: str) -> None:
     said = [check.says for check in assessed.checks]
     assert len(set(said)) == len(said)
     assert said or name == "eq8"
+
+
+def test_a_misprint_that_leaves_a_claim_without_a_value() -> None:
+    changed = LEDGER.misprint("eq12", r"\pi a^2 = \pi(Dx - D^2)")  # the root of a negative number
+    assessment = Judge(changed).assess(changed.claims["contact-diameter-bound"])
+    assert assessment.verdict is Verdict.NOT_REPRODUCED
+    assert "no real root" in assessment.reason
 
 
 def test_two_misprints_in_one_equation_leave_its_constants_undecided() -> None:
