@@ -244,7 +244,7 @@ def _bracket(
 _RESOLUTION = Fraction(1, 2**44)
 """Of a part: how narrow a bracket is made, beyond what any page shows."""
 _STEPS = 80
-"""At most of them, down to a bracket that no printed digit and no double could tell."""
+"""The most by which a bracket is narrowed."""
 
 
 def _merged(parts: list[Ends]) -> tuple[Ends, ...]:

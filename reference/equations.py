@@ -43,7 +43,7 @@ Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 
 
-FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
+NAMED_FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
 """The report has the first two. The others are for formulas of ours: e^x - 1, X/R of a crater's
 CV/PV, the share of a normal distribution below x, and x to three digits."""
 
@@ -55,7 +55,7 @@ def _token(written: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile(
         r"(?P<space>(?:\s|\\quad|&)*)(?:"
         r"(?P<number>\d+(?:\.\d+)?)"
-        rf"|(?P<function>\\(?:{'|'.join(FUNCTIONS)})(?![a-zA-Z]))"
+        rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
         r"|(?P<fraction>\\frac(?![a-zA-Z]))"
         r"|(?P<sign>[-+/^(){}])"
         r"|(?P<end>\Z)"

@@ -16,17 +16,26 @@ from typing import Literal
 import msgspec
 
 from reference.arithmetic import Reals
-from reference.equations import FUNCTIONS, Node, evaluate, read_expression
+from reference.equations import NAMED_FUNCTIONS, Node, evaluate, read_expression
 from reference.formulas import Entry
 from reference.ledger import load as load_ledger
 from reference.ledger import tables
-from reference.printed import decimal_text, parse
+from reference.printed import Rounding, decimal_text, parse
 from reference.units import to_si
 
 _REALS = Reals(30)
 _RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
     "=": operator.eq, ">=": operator.ge, "<=": operator.le, ">": operator.gt, "<": operator.lt,
 }  # fmt: skip
+
+
+class Under(Entry, frozen=True, omit_defaults=True):
+    """What is given of a convention; a verdict is asked under all that have it."""
+
+    rounding: Rounding | None = None
+    choices_exact: bool | None = None
+    header_exact: bool | None = None
+    centered: bool | None = None
 
 
 class Assertion(Entry, frozen=True):
@@ -45,7 +54,7 @@ class Assertion(Entry, frozen=True):
     exact: Mapping[str, str] = {}
     run: Mapping[str, str] = {}
     verdicts: Mapping[str, str] = {}
-    under: Mapping[str, bool | str] = {}
+    under: Under = Under()
     words: str = ""
 
     @property
@@ -158,7 +167,9 @@ def expression(text: str) -> tuple[Node, set[str]]:
 
     def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
         letter = ascii_uppercase[len(names)]
-        return f"\\{match[0]}" if match[0] in FUNCTIONS else names.setdefault(match[0], letter)
+        return (
+            f"\\{match[0]}" if match[0] in NAMED_FUNCTIONS else names.setdefault(match[0], letter)
+        )
 
     line = re.sub(r"(?<![\w.-])(?:\d+-)?[a-z][\w:.-]*", written, text).replace("*", " ").strip()
     symbols = {letter: name for name, letter in names.items()}

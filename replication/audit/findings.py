@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import enclose
+from reference.enclosure import enclose, holding, solve
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
 from reference.printed import Interval
@@ -163,9 +163,8 @@ class Evidence:
             return self._run(**own.run)
         if own.verdicts:
             return all(
-                verdict == stated
+                set(self._verdicts(pattern, to_builtins(own.under))) == {stated}
                 for pattern, stated in own.verdicts.items()
-                for verdict in self._verdicts(pattern, own.under)
             )
         if own.words:
             return Fraction(" ".join(self.known.ledger.text.split()).count(own.words))
@@ -229,7 +228,7 @@ class Evidence:
         own = replace(own, row=int(self.value(row))) if row else own
         return self.known.judge.answer(own, scheme=scheme)
 
-    def _verdicts(self, pattern: str, under: Mapping[str, bool | str]) -> Iterator[str]:
+    def _verdicts(self, pattern: str, under: Mapping[str, object]) -> Iterator[str]:
         """The verdicts on all that is computed with such a name, or those under some conventions.
 
         A part of the name says in which reading.
@@ -252,7 +251,7 @@ class Evidence:
                 for judgement in reading.judgements
                 if under.items() <= to_builtins(judgement.convention).items()
             ]
-            yield from judged if under and judged else [assessment.verdict]
+            yield from judged if under or part else [assessment.verdict]
 
     def record(self) -> r.FindingRecord:
         """The finding with its evidence, as asserted and as computed."""
@@ -364,8 +363,12 @@ def _first_difference(own: Evidence) -> Fraction:
 
 def _middle_density(own: Evidence) -> Fraction:
     """The least target density at which the drag at the middle velocity gives the depth."""
-    claim, explainer = own.known.ledger.claims["depth-beta-5"], own.known.explainer
-    return explainer.solutions(claim, "", DENSITY, centered=True).outer[0][0]
+    ledger = own.known.ledger
+    claim = ledger.claims["depth-beta-5"]
+    printed = {name: ledger.value(name) for name in claim.stated}
+    function = holding(ledger.function(claim, centered=True), printed)
+    admitted = own.known.judge.inference(DENSITY, centered=True).outer.ends
+    return solve(function, DENSITY, admitted, claim.target()).outer[0][0]
 
 
 def _added(own: Evidence) -> float:

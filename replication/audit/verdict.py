@@ -12,7 +12,7 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Reals
-from reference.enclosure import Box, Ends, enclose, satisfying
+from reference.enclosure import Box, Constraint, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
@@ -54,9 +54,9 @@ class Judgement(msgspec.Struct, frozen=True):
 
     `ends`: of a proven range of the value, in the claim's unit: over all admitted values of the
     inferred inputs where the printed inputs give the number, else over all inputs that print like
-    the report's. `witness` holds entries (SI) that give the number where the printed ones do
-    not. `against_evidence`: values in the range print so, but only for inputs that are proven not
-    to give the numbers from which an input is inferred.
+    the report's. `witness` holds entries (SI) that give the number where the printed ones do not,
+    the mass in place of a radius that it tells. `against_evidence`: values in the range print so,
+    but only for inputs that are proven not to give the numbers from which an input is inferred.
     """
 
     convention: Convention
@@ -219,17 +219,35 @@ class Judge:
         judged = partial(_judgement, claim, convention)
         if target.excludes(*ends):
             return judged(Verdict.NOT_REPRODUCED, ends)
-        constraints = [(function, target)]
-        for entry in claim.inferred:
-            inference = self.inference(entry, centered=convention.centered)
-            constraints, box = inference.joint(convention, box, constraints)
-        budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        outcome, witness = satisfying(constraints, box, budget)
+        outcome, witness = self._meeting((function, target), claim, convention)
         if outcome is None:
             return judged(Verdict.UNDECIDED, ends)
         if outcome:
             return judged(Verdict.WITHIN_ROUNDING, ends, witness)
-        return judged(Verdict.NOT_REPRODUCED, ends, None, bool(claim.inferred))
+        alone = satisfying([(function, target)], box, _BUDGET // 10) if claim.inferred else (False,)
+        return judged(Verdict.NOT_REPRODUCED, ends, None, alone[0] is True)
+
+    def _meeting(
+        self, constraint: Constraint, claim: Claim, convention: Convention
+    ) -> tuple[bool | None, dict[str, Fraction] | None]:
+        """Whether some inputs of a claim meet a constraint and give the evidence on inferred ones.
+
+        With such inputs, the mass in place of a radius that it tells.
+        """
+        budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
+        constraints, box, names = [constraint], self.box(claim, convention), set(claim.entries)
+        wide: dict[str, Ends] = {}
+        for name in claim.inferred:
+            inference = self.inference(name, centered=convention.centered)
+            constraints, box = inference.joint(convention, box, constraints)
+            wide[name] = inference.entry.search
+            if inference.entry.radius in names - box.keys():
+                names.add(inference.entry.mass)
+        outcome, point = satisfying(constraints, box, budget)
+        if outcome is None and wide:
+            # In halves of its whole range of search, an inferred input may be narrowed sooner.
+            outcome, point = satisfying(constraints, {**box, **wide}, budget)
+        return outcome, point and {name: x for name, x in point.items() if name in names}
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""

@@ -218,6 +218,8 @@ def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
     [
         # x y in [2, 3] for y in [1, 2]: x from 1 to 3.
         (constraints((lambda ar, x, y: x * y, 2, 3)), (1, 3)),
+        # ... and x - y in [0, 5], which keeps x above y, but bounds it less by itself.
+        (constraints((lambda ar, x, y: x * y, 2, 3), (lambda ar, x, y: x - y, 0, 5)), (1, 3)),
         # What bounds it less, before and after.
         (constraints((lambda ar, x, y: x * y, 1, 9), (lambda ar, x, y: x * y, 2, 3),
                      (lambda ar, x, y: x * y, F(1, 2), 4)), (1, 3)),

@@ -1,13 +1,18 @@
 """Findings: each number in them is computed by the audit, and one that is changed is noticed."""
 
 from functools import cache
+from typing import Any
 
 import pytest
 from kept import pairs
+from msgspec import ValidationError, convert
+from msgspec.structs import replace
 
+from reference.findings import Assertion
 from reference.findings import load as load_findings
 from reference.ledger import Ledger, load
 from replication.audit.audit import audit
+from replication.audit.findings import Evidence, Known
 from replication.audit.record import FindingRecord, Record
 
 FINDINGS = load_findings()
@@ -21,6 +26,27 @@ def test_every_finding_has_evidence_and_all_of_it_is_asserted(record: Record) ->
         assert finding.evidence, finding.id
         assert [part.name for part in finding.evidence if not part.holds] == []
         assert finding.holds
+
+
+@pytest.mark.parametrize(
+    "evidence",
+    [
+        {"verdicts": {"depth-bta-?": "reproduced"}},
+        {"verdicts": {"depth-beta-?": "reproduced", "ratio-bta-?": "reproduced"}},
+        {"verdicts": {"frank-zook-stainless.derived": "reproduced"}},
+        {"verdicts": {"depth-beta-?": "not reproduced"}, "under": {"choices_exact": True}},
+    ],
+)
+def test_verdicts_on_nothing_or_on_another_reading_show_nothing(evidence: dict[str, Any]) -> None:
+    piece = convert({"says": "yes", "means": "-", **evidence}, Assertion)
+    finding = replace(FINDINGS["headline"], evidence={"piece": piece})
+    assert Evidence(Known(load()), finding).value("piece") is False
+
+
+@pytest.mark.parametrize("under", [{"roundnig": "cut off"}, {"rounding": "cut"}])
+def test_a_convention_that_is_none_is_refused(under: dict[str, str]) -> None:
+    with pytest.raises(ValidationError):
+        convert({"says": "yes", "means": "-", "under": under}, Assertion)
 
 
 MISPRINTS = pairs("replication/kept.txt", "Misprints, and the findings that rest on them")
