@@ -164,6 +164,7 @@ class Formualizer(IronCalc):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
+        # It does not tell which cells there are; IronCalc does.
         for sheet, place, _ in super()._cells(path):
             value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error

@@ -364,8 +364,8 @@ def row_formulas(
 ) -> Iterator[tuple[int, str]]:
     """The formulas of a column of `sheets.toml`, with their numbers: those of `count` rows.
 
-    The same for `each`; or one to `start` with, which row `first` of the sheet has, the `first`
-    below it where that is another, and `then` all others. What is no formula by itself, without
+    `each` is that of every row; or `start` that of row `first` of the sheet, `first` that of the
+    row below it (else `then`), and `then` that of all others. What is no formula by itself, without
     "=", is blank where column A is no number; a test for "" fails in two spreadsheet programs.
     """
     then = entry.get("then")

@@ -40,6 +40,9 @@ from replication.check.words import (
 )  # fmt: skip
 from spreadsheets.foreign import Position
 
+OTHER_STOP: Change = {}
+"""The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
+
 
 def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
     """Find every difference between a table and the report's sheet, but for printed numbers.
@@ -486,7 +489,7 @@ def _stop(f: Examination) -> None:
     if below is not None:
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
-        f.add("other scheme", cells, None, text, change={})
+        f.add("other scheme", cells, None, text, change=OTHER_STOP)
         return
     run = march(case, rows.rules)["velocity_final"]
     whole = max(run, default=0)
@@ -506,12 +509,12 @@ def _stop(f: Examination) -> None:
     if changed or prepared or (2 * steps < whole and not shown):
         f.add("not calculated", [place], None, text)
     else:
-        f.add("other scheme", [place], None, f"other stop: {text}", change={})
+        f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
 
 
 def stops_elsewhere(f: Examination) -> bool:
-    """Whether a difference leaves the rules as they are, and changes the number of rows."""
-    return any(difference.change == {} for difference in f.differences)
+    """Whether a difference is a stop in another row."""
+    return any(difference.change == OTHER_STOP for difference in f.differences)
 
 
 def _effects(f: Examination) -> None:

@@ -1,13 +1,13 @@
 """Tables that repeat another one, though a cell of the workbook tells that another beta was meant.
 
-Two equal tables are no fault. But if a cell that is called beta or target resistance is read by no
-table, then one of them reads a cell that is not its own.
+Two equal tables are no fault. But if a cell that is called beta or target resistance has the value
+of the report's other case, and is read by no table, then one reads a cell that is not its own.
 """
 
 import math
 from collections.abc import Iterator, Sequence
 
-from replication.check.examination import Examination, Input
+from replication.check.examination import Examination, Input, near
 from replication.check.inputs import as_role, report_inputs
 from replication.check.scheme import Case
 from replication.check.table import Table, address
@@ -15,7 +15,7 @@ from replication.check.words import quantity, title
 from spreadsheets.foreign import Position
 
 _BLOCK = 3
-"""Cells that are not further from each other may stand in one list of inputs."""
+"""By so many cells an input may be further from its table than the one that is read by mistake."""
 
 
 def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, tuple[float, str]]:
@@ -35,7 +35,7 @@ def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, t
         stress = own.si if own else report_inputs()["flow_stress"][0]
         for cell, place in _idle(f, beside) if len(numbers) > 1 else ():
             resistance = cell.si * (stress if cell.role == "beta" else 1.0)
-            same = math.isclose(resistance, f.case.resistance, rel_tol=1e-6)
+            is_printed = any(near(resistance, own) for own in report_inputs()["resistance"])
             # It belongs to the table to which it is nearest, compared with the cell that is read;
             # of several to the last, which was copied from the first.
             off = {
@@ -44,7 +44,8 @@ def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, t
                 if place[0] in (source[0], tables[number].table.sheet)
             }
             number = min(off, key=off.__getitem__, default=0)
-            if 0 < resistance < 1e100 and not same and off.get(number, math.inf) <= _BLOCK:
+            is_own = off.get(number, math.inf) <= _BLOCK
+            if is_printed and is_own and not near(resistance, f.case.resistance):
                 where, value = address(place, True), quantity(cell.si, cell.role)
                 says = f"{title(cell.role)} in {where}, {value}, is read by no table"
                 told.setdefault(number, (resistance, says))

@@ -98,13 +98,14 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         judge(f, other.get(number))
         _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
+    silent = list(_without_numbers(calculation))
     differences = [
         *(d for v in examinations for d in v.differences),
         *_stale(calculation, examinations),
         *(number.unmet(examinations[0]) for number in numbers if not number.met),
         *_uncalculated(calculation),
-        *_texts_as_inputs(calculation, examinations),
-        *_without_numbers(calculation),
+        *_texts_as_inputs(calculation, examinations, silent),
+        *silent,
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
     once = {
@@ -220,11 +221,11 @@ def _labelled_texts(calculation: Calculation) -> set[Position]:
 
 
 def _texts_as_inputs(
-    calculation: Calculation, examinations: Sequence[Examination]
+    calculation: Calculation, examinations: Sequence[Examination], silent: Sequence[Difference]
 ) -> Iterator[Difference]:
-    """Texts in the cells of inputs: a table that reads one is no table, and is not found."""
+    """Texts in the cells of inputs, where some tables are silent: one that reads a text is."""
     lines = [line for f in examinations for line in f.table.every_line]
-    for place in sorted(_labelled_texts(calculation)):
+    for place in sorted(_labelled_texts(calculation)) if silent else ():
         if all(line.index(place) is None for line in lines):  # else it is the head of a column
             text = "it is a text, not a number: nothing that reads it can be checked"
             shown, rank = repr(calculation.values[place]), examinations[0].rank(place)
