@@ -10,6 +10,7 @@ a cell holds stands there as the value stored.
 
 import math
 import re
+from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -32,13 +33,13 @@ _TOO_MUCH = "the formulas before it read too many cells already"
 
 FUNCTIONS = frozenset((
     "ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN",
-    "COLUMNS", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS", "EXP",
-    "FALSE", "FLOOR", "HLOOKUP", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT", "ISBLANK",
-    "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP", "MATCH",
-    "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "PI",
-    "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN", "SIN", "SINH",
-    "SMALL", "SQRT", "STDEV", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT", "SUMSQ", "TAN", "TANH",
-    "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
+    "COLUMNS", "CONVERT", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS",
+    "EXP", "FALSE", "FLOOR", "HLOOKUP", "IF", "IFERROR", "IFNA", "IFS", "INDEX", "INT",
+    "ISBLANK", "ISERROR", "ISNA", "ISNUMBER", "ISTEXT", "LARGE", "LN", "LOG", "LOG10", "LOOKUP",
+    "MATCH", "MAX", "MAXIFS", "MEDIAN", "MIN", "MINIFS", "MOD", "N", "NA", "NOT", "OFFSET",
+    "OR", "PI", "POWER", "PRODUCT", "ROUND", "ROUNDDOWN", "ROUNDUP", "ROW", "ROWS", "SIGN",
+    "SIN", "SINH", "SMALL", "SQRT", "STDEV", "SUBTOTAL", "SUM", "SUMIF", "SUMIFS", "SUMPRODUCT",
+    "SUMSQ", "TAN", "TANH", "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
 ))  # fmt: skip
 """What an engine may be asked for: functions of bounded cost that reach nothing outside."""
 
@@ -346,6 +347,7 @@ def calculate(book: Book) -> Calculation:
     """Compute a book's formulas, all but those that are refused."""
     formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
     reasons = _refused(book, formulas)
+    reasons |= _unknown(book, formulas, reasons)
     typed = _numbers_as_text(book, formulas)
     computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
@@ -397,6 +399,30 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
         elif formula.obstacle:
             refused[place] = formula.obstacle
     return refused
+
+
+def _unknown(
+    book: Book, formulas: Mapping[Position, Formula], refused: Mapping[Position, str]
+) -> dict[Position, str]:
+    """Formulas that read one that is not computed and has no stored value, with the reason."""
+    readers: dict[Position, list[Position]] = {}
+    ranges = [(area, p) for p, f in formulas.items() for area in f.areas if area.cells > 1]
+    for place, formula in formulas.items():
+        for area in formula.areas:
+            readers.setdefault(area.corner, []).append(place)
+    unknown: dict[Position, str] = {}
+    waiting = deque((place, place) for place in refused if book[place].value is None)
+    while waiting:
+        place, source = waiting.popleft()
+        sheet, row, column = source
+        cell = f"{sheet}!{get_column_letter(column)}{row}"
+        over = (reader for area, reader in ranges if area.covers(place))
+        for reader in (*readers.get(place, ()), *over):
+            if reader not in unknown and reader not in refused:
+                unknown[reader] = f"it needs {cell}, which is not computed: {refused[source]}"
+                if book[reader].value is None:
+                    waiting.append((reader, source))
+    return unknown
 
 
 def _filled(area: Area, book: Book) -> Area:

@@ -294,12 +294,22 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
         value = f.calculation.number(place) or 0.0
         if not f.ends and place in f.calculation.formulas:
             continue  # it is not the final depth that the formulas give so far
+        if kind == "ratio" and not f.table.gives_depth(place) and _is_another_ratio(f, place):
+            continue
         if kind == "ratio" or unit:
             factor = to_si(unit or "1")
             yield _judged(f"{kind}-{case}", place, Fraction(value) * factor)
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
+
+
+def _is_another_ratio(f: Examination, place: Position) -> bool:
+    """Whether an X/R that does not follow from a table may be another one that the report has."""
+    value = Fraction(f.calculation.number(place) or 0.0)
+    numbers = (own for own in load().claims.values() if own.printed and own.unit == "1")
+    printed = [own for own in numbers if "X/R" in own.title]
+    return place in f.calculation.formulas or any(own.target().contains(value) for own in printed)
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
