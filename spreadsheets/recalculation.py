@@ -10,7 +10,6 @@ a cell holds stands there as the value stored.
 
 import math
 import re
-from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -304,6 +303,24 @@ class Calculation:
         return place
 
     @cached_property
+    def unknown(self) -> set[Position]:
+        """Formulas that are not computed and have no stored value, and those that need them."""
+        readers: dict[Position, list[Position]] = {}
+        ranges = [(area, p) for p, f in self.formulas.items() for area in f.areas if area.cells > 1]
+        for place, formula in self.formulas.items():
+            for area in formula.areas:
+                readers.setdefault(area.corner, []).append(place)
+        waiting = [place for place in self.uncomputed if self.book[place].value is None]
+        unknown = set(waiting)
+        while waiting:
+            place = waiting.pop()
+            over = (reader for area, reader in ranges if area.covers(place))
+            new = {*readers.get(place, ()), *over} - unknown
+            unknown |= new
+            waiting += new
+        return unknown
+
+    @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a name, with it."""
         unnamed, here = replace(self.book, names={}), (next(iter(self.book.sheets)), 1, 1)
@@ -347,7 +364,6 @@ def calculate(book: Book) -> Calculation:
     """Compute a book's formulas, all but those that are refused."""
     formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
     reasons = _refused(book, formulas)
-    reasons |= _unknown(book, formulas, reasons)
     typed = _numbers_as_text(book, formulas)
     computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
@@ -399,30 +415,6 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
         elif formula.obstacle:
             refused[place] = formula.obstacle
     return refused
-
-
-def _unknown(
-    book: Book, formulas: Mapping[Position, Formula], refused: Mapping[Position, str]
-) -> dict[Position, str]:
-    """Formulas that read one that is not computed and has no stored value, with the reason."""
-    readers: dict[Position, list[Position]] = {}
-    ranges = [(area, p) for p, f in formulas.items() for area in f.areas if area.cells > 1]
-    for place, formula in formulas.items():
-        for area in formula.areas:
-            readers.setdefault(area.corner, []).append(place)
-    unknown: dict[Position, str] = {}
-    waiting = deque((place, place) for place in refused if book[place].value is None)
-    while waiting:
-        place, source = waiting.popleft()
-        sheet, row, column = source
-        cell = f"{sheet}!{get_column_letter(column)}{row}"
-        over = (reader for area, reader in ranges if area.covers(place))
-        for reader in (*readers.get(place, ()), *over):
-            if reader not in unknown and reader not in refused:
-                unknown[reader] = f"it needs {cell}, which is not computed: {refused[source]}"
-                if book[reader].value is None:
-                    waiting.append((reader, source))
-    return unknown
 
 
 def _filled(area: Area, book: Book) -> Area:

@@ -204,6 +204,8 @@ def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool
         size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
     if abs(value - expected) <= NEAR * size:
         return False
+    if role == "velocity_final" and value == 0 and expected < f.case.stop_velocity:
+        return False  # it comes to rest, instead of being reversed
     # A first row that is the report's may be unlike the others, which follow another rule.
     part = FILLS.get(role, "advance")
     return k != 1 or part == "advance" or not f.follows(part, REPORT[part], 1)
@@ -282,4 +284,6 @@ def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
     if role == "deceleration":
         return set() if x is None or v is None else orders(case, x, v)
     value = f.rows.wanted(role, k)
-    return set() if value is None else {value}
+    if value is None:
+        return set()
+    return {value, 0.0} if role == "velocity_final" and value < f.case.stop_velocity else {value}

@@ -232,6 +232,8 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             usable = value if isinstance(value, float) and math.isfinite(value) else None
             # An error is part of a line that has gone wrong, and so is the text that it comes from.
             place = places[number, at]
+            if _sums_up(calculation, place, across):
+                continue
             if usable is not None or calculation.error(place) or place in calculation.spoiling:
                 at -= sum(before < at for before in blank)
                 numbers.setdefault(number, {})[at] = usable
@@ -241,6 +243,15 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             for first, last in _runs(sorted(own), filled, line):
                 run = tuple(own.get(at) for at in range(first, last + 1))
                 yield replace(line, first=first, values=run).headed()
+
+
+def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
+    """Whether a cell gives one number for many of its own column (or row), such as the largest."""
+    areas = calculation.areas(place)
+    if len(areas) != 1 or areas[0].cells < LEAST or areas[0].sheet != place[0]:
+        return False
+    ends = {(row, column)[not across] for _, row, column in areas[0].ends}
+    return ends == {place[1 if across else 2]}
 
 
 def _left_out(
@@ -542,5 +553,7 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
         if x is None or v is None or not (stays or x == v == 0):
             fastest = max(map(abs, speed.numbers))
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
-            return at if at < last - 1 and ended else last
+            if at >= last - 1 or not ended:
+                return last
+            return at - (x == depth.at(at - 1))  # the velocity that ends the motion may stand here
     return last

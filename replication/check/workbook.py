@@ -196,6 +196,8 @@ def _nothing(calculation: Calculation) -> str:
     instead = sorted(_labelled_texts(calculation) | (spoiling & calculation.spoiling))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+    for place in sorted(calculation.unknown & calculation.uncomputed.keys())[:1]:
+        nothing += f"; {address(place, True)} is not computed: {calculation.uncomputed[place]}"
     if first:
         errors = f"{count(len(wrong), 'formula')} give errors, {address(first, True)} first"
         return f"{nothing}; {errors}: {calculation.error(first)}"
@@ -294,6 +296,8 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
         value = f.calculation.number(place) or 0.0
         if not f.ends and place in f.calculation.formulas:
             continue  # it is not the final depth that the formulas give so far
+        if place in f.calculation.unknown:
+            continue
         if kind == "ratio" and not f.table.gives_depth(place) and _is_another_ratio(f, place):
             continue
         if kind == "ratio" or unit:
