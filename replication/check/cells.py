@@ -73,7 +73,7 @@ def wrong_area(f: Examination) -> tuple[Line, set[int]] | None:
 
 def each_cell(f: Examination) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
-    odd = {p: why for line in f.table.every_line for p, why in _irregular(line, f.table)}
+    odd = _unlike(f)
     areas = (area for place in f.table.places for area in f.calculation.areas(place))
     read = {area.corner for area in areas if area.cells == 1}
     spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
@@ -129,7 +129,7 @@ def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
 _WHAT = {str: "a text", bool: "a truth value"}
 
 
-def _irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
+def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
     """Cells of a line, from row 2 on, that are unlike most of it: place, kind and explanation.
 
     Rows 0 and 1 start the scheme, so theirs are unlike the others by right.
@@ -185,6 +185,24 @@ def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
     with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
         text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
     return text
+
+
+def _unlike(f: Examination) -> dict[Position, tuple[str, str]]:
+    """Cells unlike their column, with kind and explanation; but not right ones among wrong ones."""
+    odd = {p: why for line in f.table.every_line for p, why in irregular(line, f.table)}
+    for role in f.table.lines:
+        cells = [place for place in f.cells(role, 1) if place in f.calculation.formulas]
+        fails = {place: _fails_at(f, place) for place in cells}
+        if any(fails[place] for place in cells if place not in odd):
+            odd = {place: why for place, why in odd.items() if fails.get(place) is not False}
+    return odd
+
+
+def _fails_at(f: Examination, place: Position) -> bool | None:
+    """Whether a cell is not what the cells before it give; None where they give nothing."""
+    role, k = f.table.places[place]
+    expected = f.rows.wanted(role, k)
+    return None if expected is None else _fails(f, role, k, expected, False)
 
 
 def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:

@@ -12,7 +12,14 @@ from functools import partial
 from itertools import pairwise, product
 from statistics import median
 
-from replication.check.cells import NO_CONTACT, drifting, each_cell, order, wrong_area
+from replication.check.cells import (
+    NO_CONTACT,
+    drifting,
+    each_cell,
+    irregular,
+    order,
+    wrong_area,
+)
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import RESTS_ON, report_inputs
 from replication.check.scheme import (
@@ -40,6 +47,8 @@ from replication.check.words import (
 )  # fmt: skip
 from spreadsheets.foreign import Position
 
+_MIXED = 0.2
+"""With so many rows by the report's rule, another one is no scheme, but wrong cells."""
 OTHER_STOP: Change = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
@@ -352,7 +361,10 @@ def _scheme(f: Examination) -> None:
         if shares[own] < 0.9:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
-        if (best != own or shares[best] < 0.5) and _is_explained(f, part):
+        # Where formulas of some rows are right, those that are not are found one by one.
+        line = f.table.lines[f.rows.shows(part, 1)[0]]
+        is_mixed = _MIXED <= shares[own] < shares[best] and any(irregular(line, f.table))
+        if is_mixed or ((best != own or shares[best] < 0.5) and _is_explained(f, part)):
             continue
         if shares[best] < 0.5:
             unknown.append(part)
