@@ -262,14 +262,12 @@ def read_source(name: str, value: Any) -> Source:
         items = value if isinstance(value, list) else [value]
         if not items:
             raise ValueError("the list is empty: give one value or more")
-        source = _listed(np.array([read_number(str(item), INPUTS[name]) for item in items]))
-    elif "distribution" in value:
-        source = _drawn(value, INPUTS[name])
-    elif "from" in value:
-        source = _listed(_spaced(value, INPUTS[name]))
-    else:
-        raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
-    return source
+        return _listed(np.array([read_number(str(item), INPUTS[name]) for item in items]))
+    if "distribution" in value:
+        return _drawn(value, INPUTS[name])
+    if "from" in value:
+        return _listed(_spaced(value, INPUTS[name]))
+    raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
 
 
 def _listed(values: Floats) -> Source:

@@ -305,19 +305,12 @@ class Calculation:
     @cached_property
     def unknown(self) -> set[Position]:
         """Formulas that are not computed and have no stored value, and those that need them."""
-        readers: dict[Position, list[Position]] = {}
-        ranges = [(area, p) for p, f in self.formulas.items() for area in f.areas if area.cells > 1]
-        for place, formula in self.formulas.items():
-            for area in formula.areas:
-                readers.setdefault(area.corner, []).append(place)
-        waiting = [place for place in self.uncomputed if self.book[place].value is None]
-        unknown = set(waiting)
-        while waiting:
-            place = waiting.pop()
-            over = (reader for area, reader in ranges if area.covers(place))
-            new = {*readers.get(place, ()), *over} - unknown
-            unknown |= new
-            waiting += new
+        unknown = {place for place in self.uncomputed if self.book[place].value is None}
+        computed = self.formulas.keys() - self.uncomputed.keys() if unknown else ()
+        for place in sorted(computed, key=self.order.__getitem__):
+            read = (p for area in self.areas(place) for p in _filled(area, self.book).places())
+            if not unknown.isdisjoint(read):
+                unknown.add(place)
         return unknown
 
     @cached_property

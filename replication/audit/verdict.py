@@ -224,8 +224,8 @@ class Judge:
             return judged(Verdict.UNDECIDED, ends)
         if outcome:
             return judged(Verdict.WITHIN_ROUNDING, ends, witness)
-        alone = satisfying([(function, target)], box, _BUDGET // 10) if claim.inferred else (False,)
-        return judged(Verdict.NOT_REPRODUCED, ends, None, alone[0] is True)
+        alone = bool(claim.inferred) and satisfying([(function, target)], box, _BUDGET // 10)[0]
+        return judged(Verdict.NOT_REPRODUCED, ends, None, alone is True)
 
     def _meeting(
         self, constraint: Constraint, claim: Claim, convention: Convention

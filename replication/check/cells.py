@@ -190,7 +190,7 @@ def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
 def _unlike(f: Examination) -> dict[Position, tuple[str, str]]:
     """Cells unlike their column, with kind and explanation; but not right ones among wrong ones."""
     odd = {p: why for line in f.table.every_line for p, why in irregular(line, f.table)}
-    for role in f.table.lines:
+    for role in {f.table.places[place][0] for place in odd.keys() & f.table.places.keys()}:
         cells = [place for place in f.cells(role, 1) if place in f.calculation.formulas]
         fails = {place: _fails_at(f, place) for place in cells}
         if any(fails[place] for place in cells if place not in odd):
@@ -222,11 +222,16 @@ def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool
         size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
     if abs(value - expected) <= NEAR * size:
         return False
-    if role == "velocity_final" and value == 0 and expected < f.case.stop_velocity:
-        return False  # it comes to rest, instead of being reversed
+    if _rests(f, role, value, expected):
+        return False
     # A first row that is the report's may be unlike the others, which follow another rule.
     part = FILLS.get(role, "advance")
     return k != 1 or part == "advance" or not f.follows(part, REPORT[part], 1)
+
+
+def _rests(f: Examination, role: str, value: float | None, expected: float) -> bool:
+    """Whether a last velocity is 0 instead of below the stop: the particle is not thrown back."""
+    return role == "velocity_final" and value == 0 and expected < f.case.stop_velocity
 
 
 def _text(f: Examination, place: Position) -> bool:
@@ -302,6 +307,4 @@ def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
     if role == "deceleration":
         return set() if x is None or v is None else orders(case, x, v)
     value = f.rows.wanted(role, k)
-    if value is None:
-        return set()
-    return {value, 0.0} if role == "velocity_final" and value < f.case.stop_velocity else {value}
+    return set() if value is None or _rests(f, role, f.rows(role, k), value) else {value}

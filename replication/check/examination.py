@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule
-from replication.check.table import Table, address, span
+from replication.check.table import Line, Table, address, span
 from replication.check.words import COLUMNS, count, scaled
 from spreadsheets.foreign import Position, Value
 
@@ -195,6 +195,10 @@ class Examination:
             kind, tuple(cells), expected, held, text, self.rank(cells[0]), change
         )
         self.differences.append(difference)
+
+    def line(self, part: str) -> Line:
+        """The column that shows a part of the scheme."""
+        return self.table.lines[self.rows.shows(part, 1)[0]]
 
     def cells(self, role: str, first: int) -> list[Position]:
         """The cells of a column from a row on."""

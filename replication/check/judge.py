@@ -362,7 +362,7 @@ def _scheme(f: Examination) -> None:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         # Where formulas of some rows are right, those that are not are found one by one.
-        line = f.table.lines[f.rows.shows(part, 1)[0]]
+        line = f.line(part)
         is_mixed = _MIXED <= shares[own] < shares[best] and any(irregular(line, f.table))
         if is_mixed or ((best != own or shares[best] < 0.5) and _is_explained(f, part)):
             continue
@@ -413,7 +413,7 @@ def _named(f: Examination) -> None:
 def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     area = wrong_area(f) if part == "brake" else None
-    own = area[0] if area else f.table.lines[f.rows.shows(part, 1)[0]]
+    own = area[0] if area else f.line(part)
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0

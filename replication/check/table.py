@@ -247,11 +247,10 @@ def lines(calculation: Calculation) -> Iterator[Line]:
 
 def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
     """Whether a cell gives one number for many of its own column (or row), such as the largest."""
-    areas = calculation.areas(place)
-    if len(areas) != 1 or areas[0].cells < LEAST or areas[0].sheet != place[0]:
+    areas, line = calculation.areas(place), 1 if across else 2
+    if len(areas) != 1 or areas[0].cells < LEAST:
         return False
-    ends = {(row, column)[not across] for _, row, column in areas[0].ends}
-    return ends == {place[1 if across else 2]}
+    return {(end[0], end[line]) for end in areas[0].ends} == {(place[0], place[line])}
 
 
 def _left_out(

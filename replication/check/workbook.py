@@ -93,9 +93,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
         examinations = [find(table, beside, cells) for table in read_tables]
-    other = meant(examinations, beside)
+    resistances = meant(examinations, beside)
     for number, f in enumerate(examinations):
-        judge(f, other.get(number))
+        judge(f, resistances.get(number))
         _misread(f)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     silent = list(_without_numbers(calculation))
@@ -294,10 +294,8 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
         yield _judged(f"depth-{case}", last, Fraction(depth))
     for kind, place, unit in results:
         value = f.calculation.number(place) or 0.0
-        if not f.ends and place in f.calculation.formulas:
-            continue  # it is not the final depth that the formulas give so far
-        if place in f.calculation.unknown:
-            continue
+        if place in f.calculation.unknown or (not f.ends and place in f.calculation.formulas):
+            continue  # it is not the final depth that the formulas give so far, if anything
         if kind == "ratio" and not f.table.gives_depth(place) and _is_another_ratio(f, place):
             continue
         if kind == "ratio" or unit:

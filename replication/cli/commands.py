@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from replication.cases import inputs_of
+from replication.cli import COMMANDS
 from replication.cli.options import case_of, given, times_of
 from replication.reading import one_line, place, quoted, read_number
 from replication.text import aligned, columns, json_text, number, numbers, quantity, rows_csv
@@ -237,8 +238,10 @@ def run_depth(options: argparse.Namespace) -> int:
     return _put(options, record, lambda: text)
 
 
-MOST_TIMES, MOST_STEPS = 1_000_000, 40
-"""What `--times` and `--steps` may list: as many as `--points` and `--levels` may ask for."""
+def _most(command: str, option: str) -> int:
+    """The most that a whole number of a command may be."""
+    most: int = COMMANDS[command][option]["within"][1]
+    return most
 
 
 def run_history(options: argparse.Namespace) -> int:
@@ -249,7 +252,7 @@ def run_history(options: argparse.Namespace) -> int:
     if options.times is None:
         times = [stop * (k / (options.points - 1)) for k in range(options.points)]
     else:
-        times = times_of("--times", options.times, MOST_TIMES)
+        times = times_of("--times", options.times, _most("history", "--points N"))
     depth, velocity = [0.0] * len(times), [0.0] * len(times)
     history(times, **case.motion, depth=depth, speed=velocity)
     lists = {"time": times, "depth": depth, "velocity": velocity}
@@ -272,7 +275,7 @@ def run_converge(options: argparse.Namespace) -> int:
     if options.steps is None:
         steps = ladder(case.step, options.levels)
     else:
-        steps = times_of("--steps", options.steps, MOST_STEPS)
+        steps = times_of("--steps", options.steps, _most("converge", "--levels N"))
     record = converge(case, steps, scheme)
     record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
     warnings = (f"{x['step']!r} s: {said}" for x in record["levels"] for said in x["warnings"])
