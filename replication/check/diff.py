@@ -19,9 +19,9 @@ from replication.check.examination import Difference
 from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
-from spreadsheets.recalculation import Calculation, Piece, calculate
+from spreadsheets.recalculation import Calculation, Formula, Piece, calculate, parse
 
-KINDS = ("added", "removed", "moved", "formula", "value")
+KINDS = ("added", "removed", "moved", "name", "formula", "value")
 """What `diff` calls the differences that it finds."""
 
 LAST = "only the last digits of the values differ"
@@ -71,6 +71,7 @@ def diff(
     where = comparison.where
     pairs = sorted(where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
     if not values_only:
+        comparison.names()
         comparison.group(pairs, comparison.formulas, "formula")
     comparison.group(pairs, comparison.values, "value")
     comparison.differences.sort(key=lambda d: d.rank)
@@ -174,7 +175,23 @@ class Comparison:
                 place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
                 self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
 
-    # ---- what the cells hold
+    # ---- what names stand for, and what the cells hold
+
+    def names(self) -> None:
+        """Names that are new, gone, or stand for something else."""
+        books = self.before.book, self.after.book
+        first = [(next(iter(book.sheets)), 1, 1) for book in books]
+        for name, shown in {n.upper(): n for book in books for n in book.names}.items():
+            was, now = (book.meanings.get(name) for book in books)
+            meanings = zip((was, now), first, books, strict=True)
+            a, b = (parse(f"={text}", place, book) for text, place, book in meanings)
+            what = "stands for something else"
+            if was is None or now is None:
+                what = "is new" if was is None else "is gone"
+            elif self.alike(a, b):
+                continue
+            place = b.areas[0].corner if b.areas else first[1]
+            self.add("name", [place], was, now, f"the name {shown} {what}")
 
     def group(
         self,
@@ -196,14 +213,19 @@ class Comparison:
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
-            pairs = zip(a.pieces, b.pieces, strict=False)
-            same = len(a.pieces) == len(b.pieces) and all(self.same(p, q) for p, q in pairs)
-            return None if same else (*texts, "the formulas differ")
+            text = "the text is the same, but means something else"
+            text = text if texts[0] == texts[1] else "the formulas differ"
+            return None if self.alike(a, b) else (*texts, text)
         if b:
             return self.before.values.get(old), texts[1], "a formula stands in place of a value"
         if a:
             return texts[0], self.after.values.get(new), "a value stands in place of a formula"
         return None
+
+    def alike(self, a: Formula, b: Formula) -> bool:
+        """Whether two formulas are the same, piece by piece."""
+        pairs = zip(a.pieces, b.pieces, strict=False)
+        return len(a.pieces) == len(b.pieces) and all(self.same(p, q) for p, q in pairs)
 
     def same(self, p: Piece, q: Piece) -> bool:
         """Whether two pieces are the same, and read the same cells, wherever they are now."""

@@ -101,7 +101,7 @@ def _changed(role: str, value: float, by: float) -> Change:
 def _calibrate(f: Examination) -> None:
     """An input that the rows take in another unit than its label says."""
     drifts = any(difference.kind == "odd formula" for difference in f.differences)
-    if drifts or f.agreement(BRAKES) >= 0.5:
+    if drifts or f.agreement(BRAKES) >= 0.5 or _has_power(f):
         return  # rows whose references drift do not tell
     powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
     for (role, own), power in product(f.inputs.items(), powers):
@@ -128,6 +128,23 @@ def _calibrate(f: Examination) -> None:
             change = _changed(role, value, float(factor))
             f.add("unit", [own.place], expected, text, change=change)
         return
+
+
+def _has_power(f: Examination) -> bool:
+    """Whether mass, diameter or resistance has a power of ten though its inputs are in SI units."""
+    for role, of in RESTS_ON.items():
+        cell, sources = f.derived.get(role), [f.inputs[name] for name in of if name in f.inputs]
+        if cell is None or cell.unit or any(s.place is None or s.factor != 1 for s in sources):
+            continue
+        number, wanted = f.calculation.number(cell.place) or 0.0, getattr(f.intended, role)
+        power, changed = power_of_ten(number / wanted), f.following(f.case.holding(role, number))
+        if sources and cell.place and power and changed.agreement(BRAKES) >= 0.9:
+            f.rows = changed.rows
+            text = f"{title(role)} is {times_too(power)} for {titles(of)}"
+            change = partial(Case.holding, role=role, value=number)
+            f.add("unit", [cell.place], wanted, text, change=change)
+            return True
+    return False
 
 
 def _derived(f: Examination) -> None:

@@ -107,7 +107,8 @@ def _verdict(check: Check) -> str:
             own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
             return f"{sentence}; the final depth is {own}, and should be {right}."
     if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
-        return f"{sentence}; the final depth is right all the same."
+        tables = "the table ends" if len(check.examinations) == 1 else "every table ends"
+        return f"{sentence}; {tables} at the right depth all the same."
     return f"{sentence}."
 
 

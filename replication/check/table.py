@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import groupby, pairwise, product
+from itertools import count, groupby, pairwise, product, takewhile
 from statistics import median
 from typing import Literal, NamedTuple
 
@@ -290,11 +290,15 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 
 
 class Result(NamedTuple):
-    """A cell that is called the final depth, or the `ratio` of it to the radius."""
+    """A cell that is called the final depth, or the `ratio` of it to the radius.
+
+    Or one `beyond` it in its row, which may also be what it differs by from another number.
+    """
 
     kind: Literal["depth", "ratio"]
     place: Position
     unit: str | None
+    beyond: bool = False
 
 
 @dataclass
@@ -334,22 +338,32 @@ class Table:
         """Cells beside or below a label that says final depth, or depth over radius.
 
         A cell below it that numbers follow is the first of a list, not a result. What is only
-        called a depth is a result if its formula reads the table's.
+        called a depth, and what stands beyond the first number, is one if it reads the table's.
         """
         number, labelled = self.calculation.number, []
         for (sheet, row, column), text in self.calculation.values.items():
             kind = result_of(text) if isinstance(text, str) else None
             for down, right in ((0, 1), (0, 2), (1, 0)) if kind else ():
-                place = (sheet, row + down, column + right)
-                inside = any(line.covers(place) for line in self.every_line)
+                first = (sheet, row + down, column + right)
                 is_listed = down and number((sheet, row + 2, column)) is not None
-                if number(place) is not None and not is_listed and not inside:
-                    if kind != "any depth" or self.gives_depth(place):
-                        labelled.append(self._result(str(kind), place, str(text)))
-                    break
+                if is_listed or not self._is_beside(first):
+                    continue
+                if kind != "any depth" or self.gives_depth(first):
+                    labelled.append(self._result(str(kind), first, str(text)))
+                beyond = ((sheet, row, at) for at in count(column + right + 1))
+                more = () if down else takewhile(self._is_beside, beyond)
+                # A label's unit need not be that of all numbers.
+                results = (self._result(str(kind), p) for p in more if self.gives_depth(p))
+                labelled += [result._replace(beyond=True) for result in results]
+                break
         return tuple(labelled)
 
-    def _result(self, kind: str, place: Position, label: str) -> Result:
+    def _is_beside(self, place: Position) -> bool:
+        """Whether a cell holds a number and is in no line of the table."""
+        is_number = self.calculation.number(place) is not None
+        return is_number and not any(line.covers(place) for line in self.every_line)
+
+    def _result(self, kind: str, place: Position, label: str = "") -> Result:
         """A result, with the unit that its label or a cell beside it gives."""
         sheet, row, column = place
         near = (self.calculation.values.get((sheet, row, column + side)) for side in (1, -1))

@@ -229,10 +229,11 @@ def between_units(power: int, role: str, surely: bool = False) -> bool:
 def times_too(power: int) -> str:
     """By which power of ten something is too large or too small.
 
-    >>> times_too(-3)
-    '1e3 times too small'
+    >>> times_too(-3), times_too(1)
+    ('1e3 times too small', '10 times too large')
     """
-    return f"1e{abs(power)} times too {'large' if power > 0 else 'small'}"
+    size = f"1e{abs(power)}" if abs(power) > 2 else str(10 ** abs(power))
+    return f"{size} times too {'large' if power > 0 else 'small'}"
 
 
 def scaled(value: float, factor: Fraction) -> float:

@@ -74,8 +74,12 @@ class Check:
 
     @property
     def first(self) -> Difference | None:
-        """The fault from which, in order of calculation, the rest follow."""
-        return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
+        """The fault from which, in order of calculation, the rest follow: not from last digits."""
+        return min(
+            self.causes or self.faults,
+            key=lambda d: (d.kind == "operation order", d.rank),
+            default=None,
+        )
 
 
 def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
@@ -292,7 +296,7 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
     last, depth = f.table.place("depth", f.table.steps), f.final_depth
     if f.ends and depth is not None and all(result.kind != "depth" for result in results):
         yield _judged(f"depth-{case}", last, Fraction(depth))
-    for kind, place, unit in results:
+    for kind, place, unit in (result[:3] for result in results if not result.beyond):
         value = f.calculation.number(place) or 0.0
         if place in f.calculation.unknown or (not f.ends and place in f.calculation.formulas):
             continue  # it is not the final depth that the formulas give so far, if anything
@@ -326,7 +330,7 @@ def _misread(f: Examination) -> None:
     """Results that are not those of the last row of a table that ends as it should."""
     last, wrong = f.table.steps, set[Position]()
     results = f.table.results if f.ends and not stops_elsewhere(f) else ()
-    for kind, place, unit in sorted(results, key=lambda r: f.calculation.order.get(r.place, -1)):
+    for kind, place, unit, _ in sorted(results, key=lambda r: f.calculation.order.get(r.place, -1)):
         areas = f.calculation.areas(place)
         if not f.table.gives_depth(place) or any(area.corner in wrong for area in areas):
             continue
