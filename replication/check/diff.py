@@ -143,15 +143,9 @@ class Comparison:
         for block in _blocks(left)[:_MAX_BLOCKS]:
             # It stands elsewhere if the same cells are there at the same distances.
             new_block = by_form.pop(_form(block, left), None)
-            if new_block is not None:
-                for cell, there in zip(block, new_block, strict=True):
-                    put(cell, there)
-                was, now = span(block), span(new_block)
-                if was != now:  # else only its rows or columns were not known again
-                    cells = [(partner, *cell) for cell in new_block]
-                    self.add("moved", cells, was, now, f"{was} now stands at {now}")
-        self.shifts(name, partner, rows, "rows", str)
-        self.shifts(name, partner, columns, "columns", get_column_letter)
+            for cell, there in zip(block, new_block or (), strict=False):
+                put(cell, there)
+        self.moves(name, partner)
         self.left_over("removed", name, left, "gone")
         self.left_over("added", partner, free, "new")
 
@@ -163,17 +157,51 @@ class Comparison:
             text = f"{count(len(block), 'cell')} {are} {what}"
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
 
+    def moves(self, name: str, sheet: str) -> None:
+        """Cells that stand elsewhere: whole rows and columns of a sheet, or blocks."""
+        groups: dict[Cell, list[Cell]] = {}  # by how far they moved
+        ways: dict[tuple[int, int], set[int]] = {}  # of all cells in a row (0) or column (1)
+        for (own, *old), (_, *new) in self.where.items():
+            if own == name:
+                distance = (new[0] - old[0], new[1] - old[1])
+                groups.setdefault(distance, []).append((old[0], old[1]))
+                for axis in (0, 1):
+                    ways.setdefault((axis, old[axis]), set()).add(distance[axis])
+        whole = {
+            distance: cells
+            for distance, cells in groups.items()
+            if all(len(ways[axis, cell[axis]]) == 1 for cell in cells for axis in (0, 1))
+        }
+        for axis, what, show in ((0, "rows", str), (1, "columns", get_column_letter)):
+            lines = {cell[axis]: by[axis] for by, cells in whole.items() for cell in cells}
+            self.shifts(name, sheet, lines, what, show)
+        for distance in sorted(groups.keys() - whole.keys() - {(0, 0)}):
+            self.blocks(name, sheet, sorted(groups[distance]), distance)
+
     def shifts(
         self, name: str, sheet: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
     ) -> None:
-        """Rows or columns that stand further down or right, each run of them once."""
-        for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1] - pair[0]):
+        """Rows or columns that stand so much further down or right, each run of them once."""
+        for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1]):
             if by:
                 run = [old for old, _ in pairs]
                 was, now = (f"{show(run[0] + d)} to {show(run[-1] + d)}" for d in (0, by))
                 at = run[0] + by
                 place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
                 self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
+
+    def blocks(self, name: str, sheet: str, cells: Sequence[Cell], distance: Cell) -> None:
+        """Cells that moved together: one block, if nothing else stood among them."""
+        rows, columns = ((min(each), max(each)) for each in zip(*cells, strict=True))
+        among = [
+            (row, column)
+            for row, column in self.before.book.sheets[name]
+            if rows[0] <= row <= rows[1] and columns[0] <= column <= columns[1]
+        ]
+        for block in [cells] if len(among) == len(cells) else _blocks(dict.fromkeys(cells, "")):
+            moved = [(row + distance[0], column + distance[1]) for row, column in block]
+            was, now = span(block), span(moved)
+            self.add("moved", [(sheet, *c) for c in moved], was, now, f"{was} now stands at {now}")
 
     # ---- what names stand for, and what the cells hold
 

@@ -6,7 +6,7 @@ the workbooks, `writers.py` makes files of them.
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -159,15 +159,24 @@ def filled(text: str, **values: object) -> Content:
 
 
 def insert(f: Foreign, at: str, count: int) -> None:
-    """Move every cell of a lone sheet as a spreadsheet does when rows, or columns, are inserted."""
+    """Insert rows before a row, or columns before a column."""
     rows = int(at) if at.isdigit() else 10**9
     columns = 10**9 if at.isdigit() else column_index_from_string(at)
+    relocate(
+        f, lambda row, column: (row + count * (row >= rows), column + count * (column >= columns))
+    )
 
-    def shifted(row: int, column: int) -> tuple[int, int]:
-        return row + count * (row >= rows), column + count * (column >= columns)
+
+def move(f: Foreign, rows: int, down: int, right: int) -> None:
+    """Cut all cells from a row on, and paste them elsewhere."""
+    relocate(f, lambda row, column: (row + down * (row >= rows), column + right * (row >= rows)))
+
+
+def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:
+    """Move every cell of a lone sheet as a spreadsheet does, with what refers to it."""
 
     def address(match: re.Match[str]) -> str:
-        row, column = shifted(*place("", f"{match[2]}{match[4]}")[1:])
+        row, column = to(*place("", f"{match[2]}{match[4]}")[1:])
         return f"{match[1]}{letters(column)}{match[3]}{row}"
 
     def content(c: str | float) -> str | float:
@@ -175,7 +184,7 @@ def insert(f: Foreign, at: str, count: int) -> None:
             return re.sub(r"(\$?)\b([A-Z]{1,2})(\$?)(\d+)\b(?!\()", address, c)
         return c
 
-    f.cells = {(s, *shifted(r, c)): content(v) for (s, r, c), v in f.cells.items()}
+    f.cells = {(s, *to(r, c)): content(v) for (s, r, c), v in f.cells.items()}
 
 
 def change(f: Foreign, address: str, text: str) -> None:
