@@ -16,7 +16,7 @@ from reference.ledger import Ledger, load
 from reference.printed import Interval, Printed, Rounding
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS
+from replication.error import COARSE, DIGITS, SHALLOW
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
@@ -262,6 +262,8 @@ def _inputs(
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
         "from": "yours",
+        "taken": "yours",
+        "choice": "",
         "unusable": 0,
         "changed": len(changed),
         "message": MESSAGES["changed" if changed else "unchanged"],
@@ -271,6 +273,7 @@ def _inputs(
         "mean_radius": si["D_mean"] / 2 * 1e6,
         "travel_most": COARSE,
         "excess_most": DIGITS,
+        "shortfall_most": SHALLOW,
     }
     for entry, number in typed.items():
         name = entry.name
@@ -285,7 +288,7 @@ def _inputs(
 def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     impact, final = sheet.impact, sheet.rows[-1]
     trust, message = _state(sheet)
-    v, at_rest = impact.velocity, _at_rest(impact)
+    v, at_rest, at_stop = impact.velocity, _at_rest(impact), _at_stop(impact)
     label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
     return {
         **impact.motion,
@@ -304,6 +307,11 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
         "travel": impact.step * v / impact.radius,
         "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
+        **{f"stop_{name}": at_stop[name] for name in ("pressure", "c", "normalized_depth")},
+        "stop_share": at_stop["normalized_depth"] / at_rest["normalized_depth"],
+        "over_stop": sheet.normalized_depth / at_stop["normalized_depth"]
+        if at_stop["normalized_depth"]
+        else 1.0,
     }
 
 
@@ -327,8 +335,7 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
     """The ladder of the cases as written, with inputs that are as yet those in use."""
-    of_runs = {name: si[name] for name in sheets.RUN_INPUTS}
-    of_runs |= {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
+    of_runs = {name: si[name] for name in sheets.run_inputs([page for page, _ in runs])}
     time_steps = ladder(si["dt_s"], sheets.LEVELS)
     return {
         "message": MESSAGES["current"],
@@ -358,8 +365,9 @@ def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
-    volume = crater.volume(impact.radius)
-    contact = crater.contact_diameter(third, impact.diameter)
+    radius = si["D_mean"] / 2
+    volume = crater.volume(radius)
+    contact = crater.contact_diameter(third, si["D_mean"])
     values: Tree = {
         **_volume("particle_volume", volume),
         "on_line": si["CV_PV_line"] * (volume * 1e6 * 1e6 * 1e6),
@@ -369,13 +377,13 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     }
     for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
         y = crater.depth_from_volume_ratio(si[name])
-        x = y * impact.radius
+        x = y * radius
         values[which] = {
             "normalized_depth": y,
             "over_diameter": y / 2,
             "depth": x,
             "depth_um": x * 1e6,
-            **_volume("volume", crater.cap_volume(x, impact.radius)),
+            **_volume("volume", crater.cap_volume(x, radius)),
             "ratio": crater.volume_ratio(y),
         }
     sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
@@ -453,7 +461,12 @@ def live_verdicts(
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
             value = values[plan.cell(("Table A-1", claim.place.cell)).key]
-            live |= _checked(claim.place.cell, value, claim.printed, exact=claim.is_exact)
+            checked = {
+                "computed": value,
+                "difference": _difference(value, claim.printed, exact=claim.is_exact),
+                "verdict": live[f"audit.{claim.id}.verdict"],
+            }
+            live |= {f"table_check.{claim.place.cell}.{what}": x for what, x in checked.items()}
     return live
 
 
@@ -473,11 +486,25 @@ def _at_rest(impact: Impact) -> dict[str, float]:
     }
 
 
+def _at_stop(impact: Impact) -> dict[str, float]:
+    """The same at the stop velocity; 0 where the impact is no faster than that."""
+    v, radius, particle, target, r_t = impact.motion.values()
+    stop, pressure, reached = impact.stop_velocity, 0.0, 0.0
+    if stop < v:
+        pressure = target * (v - stop) * (v + stop) / (2 * r_t + target * stop * stop)
+        reached = depth.depth_at_velocity(stop, v, radius, particle, target, r_t) / radius
+    return {
+        "pressure": pressure,
+        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "normalized_depth": reached,
+    }
+
+
 def _state(sheet: Sheet) -> tuple[int, str]:
     """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
-    kinds = doubts_about(sheet).keys() - {"short"}  # the message is about the time step
-    trust = 0 if kinds - {"reversed"} else 1 if kinds else 2
-    message = ("doubtful", "reversed", "complete")[trust]
+    kinds = doubts_about(sheet).keys()
+    trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
+    message = ("doubtful", "reversed", "early" if "short" in kinds else "complete")[trust]
     return trust, MESSAGES[message if sheet.steps else "no_steps"]
 
 
@@ -534,14 +561,12 @@ def _verdict(value: Value, interval: Interval) -> str:
     return sheets.AS_PRINTED if inside else sheets.OTHERWISE
 
 
-def _checked(address: str, value: Value, printed: Printed, *, exact: bool) -> dict[str, Value]:
-    """The check of one number of Table A-1; blank where the table has fewer rows."""
-    checked: dict[str, Value] = {"computed": value, "difference": "–", "verdict": NOT_COMPUTED}
-    if isinstance(value, float):
-        difference = value - float(printed.value)
-        if not exact:
-            difference = round(difference / float(printed.quantum), cases.DIGITS)
-        same = difference == 0 if exact else abs(difference) <= 0.5
-        verdict = cases.SAME_TEXT if same else cases.OTHER_TEXT
-        checked |= {"difference": difference, "verdict": verdict}
-    return {f"table_check.{address}.{what}": number for what, number in checked.items()}
+def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
+    """A number of Table A-1 minus the printed one, in units of the last digit unless exact.
+
+    A dash where the table has fewer rows.
+    """
+    if not isinstance(value, float):
+        return "–"
+    difference = value - float(printed.value)
+    return difference if exact else round(difference / float(printed.quantum), sheets.DIGITS)

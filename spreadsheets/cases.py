@@ -19,7 +19,6 @@ from reference.units import to_si
 from spreadsheets.plan import (
     FIRST_ROW,
     HOME,
-    NOT_COMPUTED,
     Cell,
     Rule,
     SheetPlan,
@@ -101,6 +100,7 @@ class CaseSheet:
             "slug": self.slug, "part": self.part, "of": self.of, "suffix": self.suffix,
             "sheet": self.name, "label": self.label, "beta": self.beta,
             "dt": "dt_coarse" if self.coarse else "dt_s",
+            "not_longer": "IF(ISNUMBER(dt_s),dt_coarse<=dt_s,1=0)" if self.coarse else "1=0",
             **{column: f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}" for column in "ABDF"},
             "first": f"A{FIRST_ROW}",
             "depth_claim": self.claim("depth") if own else "",
@@ -198,7 +198,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     for name, entry in tables()["constants"].items():
         number = recorded(f"inputs.{name}", name=name, unit=entry["unit"])
         named = text(name, "unit")
-        page.put(B=text(entry["meaning"]), F=number, G=unit_text(entry["unit"]), M=named)
+        page.put(B=text(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     page.rules = [
@@ -284,7 +284,7 @@ ABOVE_TABLE: Mapping[str, Sequence[str]] = tables()["table_a1"]["above"]
 _FIRST = 8
 
 
-def _claims(ledger: Ledger) -> dict[str, Claim]:
+def claims_in_table(ledger: Ledger) -> dict[str, Claim]:
     """Address in the table -> the claim that is printed there."""
     return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
 
@@ -294,7 +294,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 
     report: with the printed text beside it, in columns H to M.
     """
-    claims, centered = _claims(ledger), case.scheme == "centered"
+    claims, centered = claims_in_table(ledger), case.scheme == "centered"
     page = SheetPlan.begun("Table A-1")
     page.widths = {**page.widths, "G": 13.0 if centered else page.widths["G"]}
     entries, heads, cells = tables()["rows"], tables()["table_a1"]["heads"], page.cells
@@ -346,44 +346,3 @@ def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
-
-
-DIGITS = 4
-"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
-
-SAME_TEXT, OTHER_TEXT = "prints the same", "prints otherwise"
-
-
-def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
-    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
-    page = SheetPlan.begun("Table A-1 check")
-    page.row = 6
-    page.table("DEFH", "B")
-    first = page.row
-    for address, claim in _claims(ledger).items():
-        assert claim.printed is not None
-        row, key, computed = page.row, f"table_check.{address}", f"='{table.name}'!{address}"
-        difference, same = f"ROUND((E{row}-D{row})/H{row},{DIGITS})", f"ABS(F{row})<=0.5"
-        if claim.is_exact:
-            difference, same = f"E{row}-D{row}", f"F{row}=0"
-        difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
-        verdict = f'IF({same},"{SAME_TEXT}","{OTHER_TEXT}")'
-        verdict = f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
-        page.put(
-            A=text(address, "link", link=(table.name, address)),
-            B=text(claim.title),
-            C=unit_text(claim.unit),
-            D=recorded(
-                float(claim.printed.value), claim=claim.id, shown=table.cells[address].shown
-            ),
-            E=formula(f"{key}.computed", computed, shown="0.0000000000000000E+00", unit=claim.unit),
-            # Rounding is done by each program in its own way: it may cost a last digit.
-            F=formula(
-                f"{key}.difference", difference, "result", shown="0.0000", transcendental=True
-            ),
-            G=formula(f"{key}.verdict", verdict, "text"),
-            H=recorded(float(claim.printed.quantum), shown="0E+00"),
-        )
-    verdicts = f"G{first}:G{page.row - 1}"
-    page.color(verdicts, {SAME_TEXT: "good", OTHER_TEXT: "warning"})
-    return page

@@ -16,9 +16,9 @@ from spreadsheets.cases import (
     SCHEMES,
     CaseSheet,
     case_sheet,
+    claims_in_table,
     inputs_sheet,
     table_a1,
-    table_a1_check,
 )
 from spreadsheets.plan import (
     HOME,
@@ -75,7 +75,7 @@ def workbook_plan(
     report, cases = findings is not None, [page for page in pages if not page.coarse]
     table = table_a1(ledger, cases[-1], report)
     sheets = [inputs_sheet(ledger, cases, report), table]
-    sheets += [table_a1_check(ledger, table)] if report else []
+    sheets += [_table_a1_check(ledger, table)] if report else []
     sheets += [case_sheet(ledger, page) for page in pages]
     sheets += [_figure_3(cases), _figure_5(cases[-1]), _convergence(cases)]
     words = [{**case.words, "third": ledger.value("observed-third")} for case in cases]
@@ -191,9 +191,14 @@ def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) 
     return page
 
 
-# Audit
+# Audit, and the check of Table A-1, which has its verdicts
 
 _HEAD_ROW = 11
+
+DIGITS = 4
+"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
+
+_COLORS = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
 
 
 def computed_claims(ledger: Ledger) -> list[Claim]:
@@ -217,7 +222,38 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     page.table("CEHI", "B")
     for claim in ledger.claims.values():
         page.put(**_row(ledger, claim, findings, page.row))
-    page.color(verdicts, {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"})
+    page.color(verdicts, _COLORS)
+    return page
+
+
+def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
+    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
+    page = SheetPlan.begun("Table A-1 check")
+    page.row = 6
+    page.table("DEFH", "B")
+    first, in_audit = page.row, {name: _HEAD_ROW + 1 + k for k, name in enumerate(ledger.claims)}
+    for address, claim in claims_in_table(ledger).items():
+        assert claim.printed is not None
+        row, key, computed = page.row, f"table_check.{address}", f"='{table.name}'!{address}"
+        difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"
+        if claim.is_exact:
+            difference = f"E{row}-D{row}"
+        difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
+        shown, live = table.cells[address].shown, f"='Audit'!F{in_audit[claim.id]}"
+        page.put(
+            A=text(address, "link", link=(table.name, address)),
+            B=text(claim.title),
+            C=unit_text(claim.unit),
+            D=recorded(float(claim.printed.value), claim=claim.id, shown=shown),
+            E=formula(f"{key}.computed", computed, shown="0.0000000000000000E+00", unit=claim.unit),
+            # Rounding is done by each program in its own way: it may cost a last digit.
+            F=formula(
+                f"{key}.difference", difference, "result", shown="0.0000", transcendental=True
+            ),
+            G=formula(f"{key}.verdict", live, "text"),
+            H=recorded(float(claim.printed.quantum), shown="0E+00"),
+        )
+    page.color(f"G{first}:G{page.row - 1}", _COLORS)
     return page
 
 
@@ -318,8 +354,12 @@ def _figure_5(case: CaseSheet) -> SheetPlan:
 LEVELS = 8
 """Steps of the ladder, each half of the one before; the fifth is the step dt_s as written."""
 
-RUN_INPUTS = ("V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop")
-"""The inputs, besides the target resistance, that the ladder's runs were made with."""
+
+def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
+    """The names of the inputs that the ladder's runs are made with."""
+    target = ["R_t"] if cases[0].resistance_given else ["Y_t", *(f"beta{x.of}" for x in cases)]
+    return ["V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop", *target]
+
 
 NO_ORDER = "–"
 
@@ -351,7 +391,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         size = f"{columns[3]}{first}:{columns[3]}{last}"
         curves.append(Curve(("Convergence", whose), f"B{first}:B{last}", size))
     page.row = last + 4
-    _same_inputs(page, [*RUN_INPUTS, *(f"R_t{case.of}" for case in cases)])
+    _same_inputs(page, run_inputs(cases))
     page.draw(curves, ", ".join(written))
     return page
 

@@ -8,6 +8,10 @@ COARSE = 0.1
 published scheme is then 1 % short of the exact depth, and as it is of first order, further with
 every longer step."""
 
+SHALLOW = 0.01
+"""By so much of itself may a depth fall short of the exact one at the stop velocity. The published
+scheme does where a step passes `COARSE` R; a slow impact of few steps does with shorter ones."""
+
 DIGITS = 5e-4
 """By so much of itself may the exact depth be exceeded, or the stop velocity leave it short: the
 report prints three digits, and half a unit of the third is at least that much."""
@@ -19,7 +23,8 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
     "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
     more than `COARSE` R; "deep": its depth is more than `DIGITS` beyond the exact one at rest;
-    "short": the exact depth at the stop velocity is more than `DIGITS` short of that at rest.
+    "shallow": it is more than `SHALLOW` short of the exact one at the stop velocity; "short": this
+    is more than `DIGITS` short of that at rest.
 
     >>> from dataclasses import replace
     >>> from replication.cases import BETA_5
@@ -44,7 +49,13 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
         said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
-    short = 1 - depth_at_velocity(impact.stop_velocity, **impact.motion) / rest
+    at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
+    if last.depth < at_stop * (1 - SHALLOW):
+        text = f"the depth falls short of the exact one at the stop velocity, {at_stop:.6g} m"
+        said["shallow"] = (
+            f"{text}, by {100 * (1 - last.depth / at_stop):.3g} %: take a shorter step"
+        )
+    short = 1 - at_stop / rest
     if short > DIGITS:
         text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"
         said["short"] = f"{text}: {100 * short:.3g} % of the exact depth is still to come"

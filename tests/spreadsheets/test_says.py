@@ -113,18 +113,22 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
     # The switch brings the report's inputs back.
     switched = pages[FOR_ALL[-1]]
     another = {f"inputs.{name}.typed" for name in ("V_impact", "rho_t", "beta_high")}
-    for key in report.emitted.book.values.keys() - another - {"inputs.from", "inputs.message"}:
+    of_switch = {"inputs.from", "inputs.taken", "inputs.message"}
+    for key in report.emitted.book.values.keys() - another - of_switch:
         assert switched[key] == report[key], key
 
 
 def test_doubts_are_those_of_the_command() -> None:
     """Where the workbook, above, doubts its run: as it reverses, or for more."""
-    for step, kinds in (
-        (0.2e-9, ["reversed"]),
-        (12e-9, ["reversed", "coarse"]),  # though the depth is not beyond
-        (40e-9, ["reversed", "coarse", "deep"]),
+    slow = replace(BETA_5, velocity=20.0, particle_density=2700.0, radius=2.5e-6)
+    for impact, step, kinds in (
+        (BETA_5, 0.2e-9, ["reversed"]),
+        (BETA_5, 12e-9, ["reversed", "coarse", "shallow"]),  # the depth is not beyond
+        (BETA_5, 40e-9, ["reversed", "coarse", "deep"]),
+        (slow, 2.5e-9, ["shallow", "short"]),  # one step of it
+        (replace(BETA_5, stop_velocity=100.0), 0.2e-9, ["short"]),
     ):
-        assert list(warnings(run(replace(BETA_5, step=step)))) == kinds
+        assert list(warnings(run(replace(impact, step=step)))) == kinds
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
