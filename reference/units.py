@@ -62,6 +62,7 @@ _BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
     "in": (_INCH, _LENGTH, ""),
     "inch": (_INCH, _LENGTH, ""),
     "ft": (12 * _INCH, _LENGTH, ""),
+    "cc": (Fraction(1, 10**6), (0, 3, 0), ""),
     "s": (Fraction(1), _TIME, "p n u m"),
     "N": (Fraction(1), _FORCE, "m k"),
     "gf": (_GRAVITY / 1000, _FORCE, "k"),

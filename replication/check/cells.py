@@ -21,6 +21,10 @@ from spreadsheets.recalculation import Calculation, Formula
 # ---- references and areas: what beside the columns of the scheme spoils them
 
 
+_BLOCK = 12
+"""Inputs that stand below one another, at most; more numbers are a column."""
+
+
 def drifting(f: Examination) -> None:
     """References to a cell beside the table that move on from row to row, as no $ fixes them."""
     lines, number = f.table.every_line, f.calculation.number
@@ -33,7 +37,8 @@ def drifting(f: Examination) -> None:
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
             beside = [p for p in read if not any(each.covers(p) for each in lines)]
             moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
-            strays = None in map(number, beside) or inputs & set(beside[1:])
+            # Soon it reads a blank, a text or an input; else it reads a column of numbers.
+            strays = None in map(number, beside[:_BLOCK]) or inputs & set(beside[1:])
             if moves and strays and number(read[0]) is not None:
                 cells = [formula.place for formula in alike[1:]]
                 cell, here = (address(p, p[0] != line.sheet) for p in read[:2])

@@ -78,11 +78,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
     }
-    choices = {
-        role: [cell for cell in cells if not calculation.areas(cell.place)] or cells
-        for role, cells in nearest.items()
-        if role not in RESTS_ON or any(not calculation.areas(cell.place) for cell in cells)
-    }
+    choices = _typed_first(nearest, reads, calculation)
     for role, place in mapped.items():
         value = calculation.number(place)
         if value is None:
@@ -115,6 +111,26 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
+
+
+def _typed_first(
+    nearest: Mapping[str, list[Input]], reads: Sequence[Input], calculation: Calculation
+) -> dict[str, list[Input]]:
+    """Of the cells for each role those that are typed, or that take over a typed one of that role.
+
+    Where there are none, all; but what rests on other inputs is then left to them.
+    """
+    called = {(cell.place, role) for cell in reads for role in cell.roles}
+
+    def is_typed(cell: Input) -> bool:
+        areas = calculation.areas(cell.place)
+        return not areas or any((area.corner, cell.role) in called for area in areas)
+
+    return {
+        role: list(filter(is_typed, cells)) or cells
+        for role, cells in nearest.items()
+        if role not in RESTS_ON or any(map(is_typed, cells))
+    }
 
 
 def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
@@ -266,28 +282,57 @@ def _settled(
     pi: float,
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
+    choices = dict(choices)
+    if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
+        # It is in the unit of the time column, or in that which gives it the report's size.
+        typed = replace(step, si=scaled(step.si, 1 / step.factor))
+        choices["step"] = [*choices["step"], as_role(typed, "step", report_inputs())]
     several = {
         role: cells
         for role, cells in choices.items()
         if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
     }
     chosen = {role: cells[0] for role, cells in choices.items()}
-    tried: list[tuple[float, Examination]] = []
+    tried: list[tuple[float, float, Examination]] = []
     for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
-        examination = _solved_back(_with_inputs(table, inputs, pi), feeding)
-        tried.append((examination.agreement(), examination))
-    tried.sort(key=lambda entry: -entry[0])
-    if len(tried) > 1 and tried[0][0] - tried[1][0] < 0.2:
+        examination = _examined(table, inputs, pi, feeding)
+        advances = examination.share("advance", REPORT["advance"])
+        tried.append((examination.agreement(), advances, examination))
+    tried.sort(key=lambda entry: entry[:2], reverse=True)
+    best, _, examination = tried[0]
+    places = {own.place for own in examination.inputs.values()}
+    rivals = [rival for agreement, _, rival in tried if best - agreement < 0.2]
+    if any({own.place for own in rival.inputs.values()} != places for rival in rivals):
         role, cells = next(iter(several.items()))
-        where = " and ".join(address(c.place, True) for c in cells[:3] if c.place)
+        alike = dict.fromkeys(address(c.place, True) for c in cells if c.place)
+        where = " and ".join(list(alike)[:3])
         raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
-    return tried[0][1]
+    return examination
 
 
-def _with_inputs(table: Table, chosen: Mapping[str, Input], pi: float) -> Examination:
-    """A table with these cells as inputs, and the report's where there are none."""
+def _examined(
+    table: Table, chosen: Mapping[str, Input], pi: float, feeding: Mapping[str, Input]
+) -> Examination:
+    """A table with these cells as inputs, its columns in the units that tie them together.
+
+    If the deceleration is not what depth and velocity give in that unit, but in the one that its
+    head names, or in SI, then it is the velocities that are wrong.
+    """
     powers = _powers(table, chosen)
+    tied = _solved_back(_with_inputs(table, chosen, pi, powers), feeding)
+    if "deceleration" in powers and tied.agreement(BRAKES) < 0.5:
+        powers = powers | {"deceleration": unit_power(table.lines["deceleration"].unit) or 0}
+        named = _solved_back(_with_inputs(table, chosen, pi, powers), feeding)
+        if named.agreement() >= 0.9:
+            return named
+    return tied
+
+
+def _with_inputs(
+    table: Table, chosen: Mapping[str, Input], pi: float, powers: dict[str, int]
+) -> Examination:
+    """A table with these cells as inputs, and the report's where there are none."""
     columns = {
         role: {
             k: scaled(value, Fraction(10) ** powers[role])

@@ -12,6 +12,7 @@ from functools import partial
 from itertools import pairwise, product
 from statistics import median
 
+from reference.units import to_si
 from replication.check.cells import (
     NO_CONTACT,
     drifting,
@@ -21,7 +22,7 @@ from replication.check.cells import (
     wrong_area,
 )
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
-from replication.check.inputs import RESTS_ON, report_inputs
+from replication.check.inputs import RESTS_ON, label_of, report_inputs
 from replication.check.scheme import (
     BEYOND,
     BRAKES,
@@ -62,6 +63,7 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
     if f.table.digits is None:
         drifting(f)
         _calibrate(f)
+        _calibrate_step(f)
         _derived(f)
     if meant:
         _repeated(f, *meant)
@@ -119,15 +121,60 @@ def _calibrate(f: Examination) -> None:
             f.inputs = {**f.inputs, role: taken}
             f.intended = f.intended.with_input(role, value, float(factor))
             if not chosen:
-                right = unit_text(role, power_of_ten(float(taken.factor)) or 0)
-                text = f"the label gives {title(role)} in {own.unit}, but the number is in {right}"
-                f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+                _mislabelled(f, own, -power)
         else:
-            expected = scaled(own.si, 1 / factor / own.factor)
-            text = f"the formulas take {title(role)} as {quantity(value, role)}, {times_too(power)}"
-            change = _changed(role, value, float(factor))
-            f.add("unit", [own.place], expected, text, change=change)
+            _unconverted(f, own, value, power)
         return
+
+
+def _mislabelled(f: Examination, own: Input, power: int) -> None:
+    """That a label gives another unit than the formulas take: by a power of ten too large."""
+    right = unit_text(own.role, (power_of_ten(float(own.factor)) or 0) - power)
+    text = f"the label gives {title(own.role)} in {own.unit}, but the number is in {right}"
+    assert own.place is not None
+    f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+
+
+def _calibrate_step(f: Examination) -> None:
+    """A time step that the rows take in another unit than its label says."""
+    own, times = f.inputs["step"], f.rows.columns.get("time", {})
+    value = times.get(3, math.nan) - times.get(2, math.nan)
+    power, by_report = power_of_ten(value / own.si), REPORT["advance"]
+    if own.unit and own.place and power and f.share("advance", by_report) < 0.5:
+        value = scaled(own.si, Fraction(10) ** power)
+        changed = f.following(f.case.with_input("step", value))
+        if changed.share("advance", by_report) >= 0.9:
+            f.rows = changed.rows
+            _unconverted(f, own, value, power)
+
+
+def _unconverted(f: Examination, own: Input, value: float, power: int) -> None:
+    """That the formulas take an input as a value that is so many powers of ten off.
+
+    If its label has a unit, accused is the cell that should convert it, or the formulas that read
+    it; else the input itself.
+    """
+    assert own.place is not None
+    expected: float | None = scaled(own.si, Fraction(10) ** -power / own.factor)
+    cells, text = [own.place], f"the formulas take {title(own.role)} as {quantity(value, own.role)}"
+    text = f"{text}, {times_too(power)}"
+    readers = [
+        place
+        for place in sorted(f.read | f.table.places.keys(), key=f.rank)
+        if own.place in (area.corner for area in f.calculation.areas(place))
+    ]
+    if own.unit and readers:
+        text = f"{text}: {address(own.place)} is in {own.unit}"
+        number, lone = (
+            f.calculation.number,
+            [p for p in readers if len(f.calculation.areas(p)) == 1],
+        )
+        converting = [place for place in lone if near(number(place) or 0.0, value)][:1]
+        line = f.table.places.get(readers[0], ("",))[0]
+        alike = [place for place in readers if f.table.places.get(place, ("",))[0] == line]
+        cells, expected = (converting, own.si) if converting else (alike, None)
+    change = _changed(own.role, value, 10.0**power)
+    f.add("unit", cells, expected, text, change=change)
 
 
 def _has_power(f: Examination) -> bool:
@@ -155,14 +202,55 @@ def _derived(f: Examination) -> None:
     if "beta" in known and "flow_stress" in known:
         stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
         _product(f, known["beta"], known["flow_stress"], stated.resistance)
+    halved = _halved(f, known["radius"])
     for role, of in RESTS_ON.items():
         cell = f.derived.get(role)
         sources = [known[name] for name in of if name in known]
+        if role == "diameter" and halved:
+            continue
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
         if cell and spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
             continue
         if cell and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, getattr(stated, role), sources)
+    if halved:
+        _judge_radius(f, halved)
+
+
+def _halved(f: Examination, radius: Input) -> list[Position]:
+    """The cells from that of the radius down to the diameter's, if it is computed from that."""
+    cells, diameter = list[Position](), f.derived.get("diameter")
+    place = radius.place if diameter and diameter.place else None
+    while place and place not in cells:
+        cells.append(place)
+        if diameter and place == diameter.place:
+            return cells if len(cells) > 1 else []
+        place = next((area.corner for area in f.calculation.areas(place)), None)
+    return []
+
+
+def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
+    """A radius that is computed from the diameter, through cells, against half of that."""
+    radius, diameter = f.inputs["radius"], f.derived["diameter"]
+    wanted, power = diameter.si / 2, power_of_ten(radius.si / diameter.si * 2)
+    if math.isclose(radius.si, wanted, rel_tol=NEAR):
+        return
+    place, factor = cells[0], radius.factor * 2
+    for between in cells[-2:0:-1]:  # which may have the diameter in another unit
+        unit = to_si(label_of(between, f.calculation)[1] or "1")
+        if not near(scaled(f.calculation.number(between) or 0.0, unit), diameter.si):
+            place, factor = between, unit
+            break
+    rows = (f.case, f.case.holding("diameter", diameter.si))
+    f.rows = replace(f.rows, case=max(rows, key=lambda case: f.following(case).agreement()))
+    f.intended = f.intended.with_input("radius", wanted)
+    kind, text = "odd formula", "does not follow from"
+    if power:
+        kind, text = "unit", f"is {times_too(power)} for"
+    named = title("radius") if place == cells[0] else "this diameter"
+    text = f"{named} {text} {title('diameter')} in {address(cells[-1])}"
+    change = _changed("radius", radius.si, 1.0)
+    f.add(kind, [place], scaled(diameter.si, 1 / factor), text, change=change)
 
 
 def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
@@ -209,11 +297,15 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         for number in _as_typed(f, place, constant)
         if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR)
     ]
-    # Tables print such factors with seven digits.
-    right = exact or any(n != "pi" and math.isclose(c, t, rel_tol=1e-7) for n, c, t in typed)
+    # Tables print the factors of units with four digits and more.
+    right = exact or any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
     rests, kind = titles(source.role for source in sources), ""
+    power = power_of_ten(in_si / wanted)
+    if power and cell.unit and f.agreement(BRAKES) >= 0.5:  # the formulas take it rightly
+        _mislabelled(f, cell, power)
+        return
     if place in f.calculation.formulas:
-        if power := power_of_ten(in_si / wanted):
+        if power:
             kind = "unit"
             text = f"is {times_too(power)} for {rests}: a unit is not converted"
         elif typed and not right:
@@ -238,11 +330,13 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
 def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[float]:
     """Numbers of a cell's formula that are a constant rounded to three digits or more.
 
-    A power of ten that converts another unit may be in them.
+    Or of the formulas of cells that it reads. A power of ten that converts another unit may be in
+    them.
     """
-    formula = f.calculation.formulas.get(place)
     cells = [area.corner for area in f.calculation.areas(place) if area.cells == 1]
-    numbers = [*(formula.literals if formula else ()), *map(f.calculation.number, cells)]
+    formulas = filter(None, map(f.calculation.formulas.get, (place, *cells)))
+    typed = (number for formula in formulas for number in formula.literals)
+    numbers = [*typed, *map(f.calculation.number, cells)]
     for number in numbers if power_of_ten(constant) is None else ():
         if number is None or number <= 0:
             continue
@@ -291,6 +385,8 @@ def _typed_inputs(f: Examination) -> None:
         used = f.inputs.get(own.role)
         if used is None or used.place or own.place is None or min(used.si, own.si) <= 0:
             continue
+        if own.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
+            continue  # which may have none
         if not math.isclose(used.si, own.si, rel_tol=1e-6):
             here, there = (quantity(value, own.role) for value in (own.si, used.si))
             text = f"{title(own.role)} is {here} here, but the rows take {there}"

@@ -568,5 +568,6 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
             ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
             if at >= last - 1 or not ended:
                 return last
-            return at - (x == depth.at(at - 1))  # the velocity that ends the motion may stand here
+            # Velocities that end the motion may stand in rows where the depth stays.
+            return next(k for k in range(at, zero, -1) if depth.at(k) != depth.at(k - 1))
     return last
