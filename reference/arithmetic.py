@@ -126,7 +126,8 @@ class Floats(Arithmetic):
     '0.2980'
     """
 
-    pi, number = math.pi, float
+    pi = math.pi
+    number: Callable[[Any], Number] = float
     log, power = staticmethod(math.log), staticmethod(math.pow)
 
     def cap_root(self, c: Number) -> Number:

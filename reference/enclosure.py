@@ -213,38 +213,24 @@ def _crossings(
 def _bracket(
     value: Callable[[Fraction], Ends], part: Ends, ends: tuple[Ends, Ends], goal: Fraction
 ) -> Ends:
-    """Where a function that rises or falls all over the part takes a value, between proven ends.
-
-    By the secant through the ends of the bracket, of which one that stays is halved in weight
-    (the Illinois method), and by halving where that does not help.
-    """
+    """Where a function that rises or falls all over the part takes a value, between proven ends."""
     (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
-    at_low, at_high = (0.0 if a <= goal <= b else float((a + b) / 2 - goal) for a, b in ends)
-    rises, last = at_low < at_high, 0
-    for count in range(_STEPS):
-        if high - low <= width or at_low == at_high or at_low * at_high > 0:
-            break
-        share = Fraction(at_low / (at_low - at_high)) if count % 4 != 3 else Fraction(1, 2)
-        # A little beyond the guess, so that the bracket closes from both sides.
-        nudge = _RESOLUTION if share < Fraction(1, 2) else -_RESOLUTION
-        x = low + (high - low) * min(max(share + nudge, Fraction(1, 10**6)), 1 - Fraction(1, 10**6))
-        x = x.limit_denominator(10**30)
+    rises = ends[0][0] < ends[1][0]
+    while high - low > width:
+        # Not in the middle: a goal that is hit exactly cannot be decided.
+        x = (low + (high - low) * Fraction(49, 100)).limit_denominator(10**30)
         below, above = value(x)
         if below <= goal <= above:
             break
         if (above < goal) == rises:
-            low, at_low = x, float((below + above) / 2 - goal)
-            at_high, last = (at_high / 2, 1) if last == 1 else (at_high, 1)
+            low = x
         else:
-            high, at_high = x, float((below + above) / 2 - goal)
-            at_low, last = (at_low / 2, -1) if last == -1 else (at_low, -1)
+            high = x
     return low, high
 
 
 _RESOLUTION = Fraction(1, 2**44)
 """Of a part: how narrow a bracket is made, beyond what any page shows."""
-_STEPS = 80
-"""The most by which a bracket is narrowed."""
 
 
 def _merged(parts: list[Ends]) -> tuple[Ends, ...]:

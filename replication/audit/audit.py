@@ -306,7 +306,7 @@ def _down(value: Fraction) -> float:
     return nextafter(double, -inf) if Fraction(double) > value else double
 
 
-_LIBRARIES = ("coldspray", "msgspec", "mpmath", "numpy", "python-flint", "XlsxWriter")
+_LIBRARIES = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
 
 
 def _provenance() -> dict[str, object]:

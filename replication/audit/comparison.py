@@ -15,7 +15,7 @@ from replication.audit.findings import (
     exact_ratio,
 )  # fmt: skip
 from replication.models import depth, motion, sheet
-from replication.models.crater import depth_from_volume_ratio
+from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import Impact
 from replication.text import with_unit
 
@@ -69,7 +69,7 @@ def constant_pressure_ratio(impact: Impact) -> float:
     half a sphere the crater goes on as a cylinder.
     """
     ratio = impact.particle_density * impact.velocity**2 / (2 * impact.target_resistance)
-    return depth_from_volume_ratio(ratio) if ratio <= 0.5 else (1 + 4 * ratio) / 3
+    return crater_depth(ratio)
 
 
 # What the depth depends on

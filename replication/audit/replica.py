@@ -38,6 +38,11 @@ def _deceleration_at_start(depth: float, velocity: float, **inputs: float) -> fl
     )
 
 
+def _resisting_force(radius: float) -> float:
+    """The force on a sphere of this radius, as deep as that, at a target resistance of 1."""
+    return sheet.deceleration(radius, 0.0, radius, 1.0, 0.0, 1.0)
+
+
 _crater = crater.depth_from_volume_ratio
 
 REPLICA: Mapping[str, Callable[..., float]] = {
@@ -46,7 +51,7 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "half": lambda value: value / 2,
     "radius_of": lambda diameter: diameter / 2,
     "diameter_of": lambda radius: 2 * radius,
-    "sphere_length_ratio": lambda length_ratio: length_ratio * estimates.sphere_length_ratio(),
+    "sphere_length_ratio": estimates.sphere_length_ratio,
     "sphere_volume": lambda diameter: crater.volume(diameter / 2),
     "crater_normalized_depth": lambda volume_ratio: _crater(volume_ratio),
     "crater_depth": lambda volume_ratio, diameter: _crater(volume_ratio) * diameter / 2,
@@ -54,7 +59,7 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "contact_diameter": crater.contact_diameter,
     "target_resistance": estimates.target_resistance,
     # A stress times a length to this power is a force: log2 of what doubling the length does.
-    "force_power": lambda: math.log2(crater.contact_diameter(1.0, 2.0) ** 2),
+    "force_power": lambda: math.log2(_resisting_force(2.0) / _resisting_force(1.0)),
     "goodier_beta": lambda q, power: estimates.goodier_beta(q) * 2 ** (power - 2),
     "walker_anderson_alpha": estimates.walker_anderson_alpha,
     "walker_anderson_beta": lambda **steel: estimates.walker_anderson_beta(

@@ -4,13 +4,14 @@ from replication.models.depth import depth_at_velocity, final_depth
 from replication.models.sheet import Sheet
 
 COARSE = 0.1
-"""Share of the radius R that a step at the impact velocity V may pass: dt V / R. At beta = 5 the
-published scheme is then 1 % short of the exact depth, and as it is of first order, further with
-every longer step."""
+"""Share of the radius R that a step at the impact velocity V may pass: dt V / R. In the
+report's cases the published scheme is then some 1 % short of the exact depth, and as it is of first
+order, further with longer steps."""
 
 SHALLOW = 0.01
-"""By so much of itself may a depth fall short of the exact one at the stop velocity. The published
-scheme does where a step passes `COARSE` R; a slow impact of few steps does with shorter ones."""
+"""By so much of itself may a depth fall short of the exact one at the stop velocity. In the
+report's cases the published scheme does where a step passes about `COARSE` R; a slow impact of few
+steps does with shorter ones."""
 
 DIGITS = 5e-4
 """By so much of itself may the exact depth be exceeded, or the stop velocity leave it short: the

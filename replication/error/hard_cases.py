@@ -7,7 +7,6 @@ import math
 import random
 import sys
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from typing import Any
 
 from flint import arb, ctx
@@ -110,7 +109,7 @@ def outcome(name: str) -> Outcome:
     motion, depth = exact_motion(impact), final_depth(**impact.motion)
     exact = motion.final_depth
     result |= {"closed_form": depth, "reference": motion.context.nstr(exact, 20)}
-    result["ulps"] = float((motion.reals.number(Fraction(depth)) - exact) / math.ulp(depth))
+    result["ulps"] = _ulps(depth, impact.motion)
     try:
         sheet = run(impact)
     except ValueError as error:

@@ -78,9 +78,9 @@ def history(
 ) -> Any:  # fmt: skip
     """Depth [m] and velocity [m/s] of Eqs. 12-13 at times [s] after touch.
 
-    Inputs are those of `final_depth`; time broadcasts against them. Both are within 1e-14 of
-    the final depth and of the impact velocity; from the stop time on they are the final depth and
-    0. Raises ValueError naming the first element that is out of range.
+    Inputs are those of `final_depth`; time broadcasts against them. Errors are below 1e-14
+    of the final depth and of the impact velocity; from the stop time on the results are the final
+    depth and 0. Raises ValueError naming the first element that is out of range.
 
     >>> depth, speed = history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
     >>> [f"{x * 1e6:.4f}" for x in depth], [f"{v:.2f}" for v in speed]
@@ -177,8 +177,8 @@ def _real(name: str, value: Any) -> Any:
     if isinstance(value, np.ma.MaskedArray):
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
     array = np.asarray(value)
-    if array.dtype.kind == "c":
-        raise TypeError(f"{name} is complex: it must be real")
+    if array.dtype.kind not in "biufO":
+        raise TypeError(f"{name} holds {array.dtype}: it must hold real numbers, in SI units")
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 

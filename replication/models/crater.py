@@ -52,6 +52,15 @@ def depth_from_volume_ratio(ratio: float) -> float:
 SQRT_3 = math.sqrt(3)
 
 
+def crater_depth(ratio: float) -> float:
+    """Normalized depth X/R [1] of a crater of CV/PV [1] that goes on as a cylinder beyond X = R.
+
+    >>> crater_depth(0.5), crater_depth(2.0)
+    (1.0, 3.0)
+    """
+    return (1 + 4 * ratio) / 3 if ratio > 0.5 else depth_from_volume_ratio(ratio)
+
+
 def contact_diameter(normalized_depth: float, diameter: float) -> float:
     """Diameter 2a [m] of the contact circle at normalized depth y [1]: a^2 = Dx - x^2 (Eq. 12).
 

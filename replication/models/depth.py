@@ -1,13 +1,13 @@
 """Depth and velocity without time: Eq. 13 separated and integrated once.
 
-M v dv/dx = -(rho_t v^2 / 2 + R_t) A(x), so 2 b W(y) = ln((v^2 + v_r^2) / v_r^2), of V less that of
-v, with y = x/R, b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t. W(y) = y^2 - y^3/3 up to y = 1, and
+M v dv/dx = -(rho_t v^2 / 2 + R_t) A(x), so 2 b W(y) = ln((V^2 + v_r^2) / (v^2 + v_r^2))
+with y = x/R, b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t. W(y) = y^2 - y^3/3 up to y = 1, and
 beyond, where the contact area stays pi R^2, y - 1/3.
 """
 
 import math
 
-from replication.models.crater import depth_from_volume_ratio
+from replication.models.crater import crater_depth
 
 
 def normalized_depth(
@@ -22,14 +22,8 @@ def normalized_depth(
     '0.6977'
     """
     V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
-    return _depth_of_work(rho_p / rho_t * math.log1p(rho_t * V * V / (2 * R_t)))
-
-
-def _depth_of_work(three_quarters: float) -> float:
-    """y for 3/4 of the work W(y): up to y = 1 that is the crater's volume over the particle's."""
-    if three_quarters > 0.5:
-        return (1 + 4 * three_quarters) / 3
-    return depth_from_volume_ratio(three_quarters)
+    # Up to y = 1 three quarters of W are the crater's volume over the particle's.
+    return crater_depth(rho_p / rho_t * math.log1p(rho_t * V * V / (2 * R_t)))
 
 
 def final_depth(
@@ -50,6 +44,9 @@ def depth_at_velocity(
 ) -> float:  # fmt: skip
     """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s]; NaN above V.
 
+    It solves W(x/R) = (4 rho_p / 3 rho_t) ln((rho_t V^2 + 2 R_t) / (rho_t v^2 + 2 R_t)), from
+    Eqs. 12-13.
+
     >>> f"{depth_at_velocity(250.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e6:.4f}"
     '6.3777'
     """
@@ -57,7 +54,7 @@ def depth_at_velocity(
     if v > V:
         return math.nan
     lost = rho_t * (V - v) * (V + v) / (2 * R_t + rho_t * v * v)
-    return radius * _depth_of_work(rho_p / rho_t * math.log1p(lost))
+    return radius * crater_depth(rho_p / rho_t * math.log1p(lost))
 
 
 def velocity_at_depth(
@@ -65,6 +62,8 @@ def velocity_at_depth(
     resistance: float,
 ) -> float:  # fmt: skip
     """Velocity [m/s] at a depth [m]; NaN beyond the final one.
+
+    v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13.
 
     Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.
 

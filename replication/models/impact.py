@@ -28,7 +28,7 @@ class InputError(ValueError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Impact:
-    """One case of the report's sections 3 and A: what a row of its spreadsheet depends on.
+    """One case of section 3 and the appendix: what a run of the spreadsheet depends on.
 
     velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], target_density rho_t [kg/m^3],
     step dt [s], stop_velocity [m/s]; the target resistance R_t [Pa] either as `resistance` or as

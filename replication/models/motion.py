@@ -29,8 +29,8 @@ def history(
 ) -> None:  # fmt: skip
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
-    Both are within 1e-14 of the final depth and of the impact velocity; from the stop time on they
-    are the final depth and 0. NaN at times that are negative or not finite.
+    Errors are below 1e-14 of the final depth and of the impact velocity; from the stop time on the
+    results are the final depth and 0. NaN at times that are negative or not finite.
 
     >>> depth, speed = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     >>> history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9, depth, speed)

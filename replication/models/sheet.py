@@ -1,11 +1,11 @@
 """The report's Excel sheet, row by row (appendix, Eqs. A-1 to A-3; both branches of Eq. 13).
 
 Two schemes: "published" takes a row's deceleration at the row's middle depth but at its *initial*
-velocity, which makes it first order for all its name; "centered" takes it at the middle velocity
-too, predicted by half a step, and is second order.
+velocity, which makes it first order, though the report calls it a mid-point approximation;
+"centered" takes it at the middle velocity too, predicted by half a step, and is second order.
 
 The order of every operation is part of the result: the workbook's formulas use the same one, so
-that both give the same double in every cell. Products of three are written out (`x * x`, never a
+that both give the same double in every cell. Squares and cubes are written out (`x * x`, never a
 power), and a row's time is `k * dt`, not a running sum.
 """
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 SCHEMES = ("published", "centered")
 
 MAX_STEPS = 1_000_000
-"""More steps than this do not fit an Excel worksheet (1,048,576 rows) with its head."""
+"""Beyond this a sheet is refused; Excel has 1,048,576 rows."""
 
 
 class Row(NamedTuple):

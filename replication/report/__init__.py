@@ -24,7 +24,7 @@ from replication.power import measured
 from replication.report import words as told
 from replication.report.figures import draw
 from replication.report.words import Named, Prose, quoted
-from replication.text import Table, columns, json_text, number, quantity, rows_csv
+from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
 from spreadsheets.safely import check_folder, write_folder
 
 
@@ -134,6 +134,7 @@ def _parts(record: Record) -> dict[str, Any]:
         "quantity": quantity,
         "facts": lambda claim: told.facts(claim, names),
         "tables": told,
+        "between": between,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
         "sources": {name: own for name, own in sources.items() if own},
