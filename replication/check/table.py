@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import count, groupby, pairwise, product, takewhile
+from itertools import groupby, pairwise, product, takewhile
 from statistics import median
 from typing import Literal, NamedTuple
 
@@ -289,16 +289,21 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 # ---- tables
 
 
-class Result(NamedTuple):
-    """A cell that is called the final depth, or the `ratio` of it to the radius.
+_Where = Literal["first", "beyond", "listed"]
 
-    Or one `beyond` it in its row, which may also be what it differs by from another number.
+
+class Result(NamedTuple):
+    """A cell that is called the final depth, or the `ratio` of it to the radius, by a `label`.
+
+    Or one `beyond` it in its row, which may also be what it differs by from another number; or one
+    of a list below the label, where each may be of its own table, or of any row.
     """
 
     kind: Literal["depth", "ratio"]
     place: Position
     unit: str | None
-    beyond: bool = False
+    label: Position
+    where: _Where
 
 
 @dataclass
@@ -333,59 +338,78 @@ class Table:
         rows = [k for k in every if self.number(role, k) is not None] or every
         return span(self.place(role, k)[1:] for k in (rows[0], rows[-1]))
 
-    @cached_property
-    def results(self) -> tuple[Result, ...]:
-        """Cells beside or below a label that says final depth, or depth over radius.
+    @property
+    def results(self) -> list[Result]:
+        """Cells beside or below a label that says final depth, or depth over radius."""
+        return [result for result in self.labelled if result.where != "listed"]
 
-        A cell below it that numbers follow is the first of a list, not a result. What is only
+    @cached_property
+    def labelled(self) -> list[Result]:
+        """Results, and cells of lists below their labels.
+
+        A cell below a label that numbers follow is the first of a list, not a result. What is only
         called a depth, and what stands beyond the first number, is one if it reads the table's.
         """
-        number, labelled = self.calculation.number, []
-        for (sheet, row, column), text in self.calculation.values.items():
+        labelled: list[Result] = []
+        for label, text in self.calculation.values.items():
+            sheet, row, column = label
             kind = result_of(text) if isinstance(text, str) else None
+            if kind == "any depth" and str(text)[0] == (self.lines["depth"].head or "")[:1] == "X":
+                continue  # where the column is called X, it may be that of any row
             for down, right in ((0, 1), (0, 2), (1, 0)) if kind else ():
-                first = (sheet, row + down, column + right)
-                is_listed = down and number((sheet, row + 2, column)) is not None
-                if is_listed or not self._is_beside(first):
-                    continue
-                if kind != "any depth" or self.gives_depth(first):
-                    labelled.append(self._result(str(kind), first, str(text)))
-                beyond = ((sheet, row, at) for at in count(column + right + 1))
-                more = () if down else takewhile(self._is_beside, beyond)
-                # A label's unit need not be that of all numbers.
-                results = (self._result(str(kind), p) for p in more if self.gives_depth(p))
-                labelled += [result._replace(beyond=True) for result in results]
-                break
-        return tuple(labelled)
+                along = ((k, 0) if down else (0, k) for k in range(FEW))
+                places = ((sheet, row + down + k, column + right + n) for k, n in along)
+                cells = list(takewhile(self._is_beside, places))
+                is_list = down and self.calculation.number((sheet, row + 2, column)) is not None
+                for cell in cells:
+                    where: _Where = "first" if cell == cells[0] else "beyond"
+                    where = "listed" if is_list else where
+                    if self.gives_depth(cell) or (where == "first" and kind != "any depth"):
+                        labelled.append(self._result(str(kind), cell, label, where))
+                if cells:
+                    break
+        return labelled
 
     def _is_beside(self, place: Position) -> bool:
         """Whether a cell holds a number and is in no line of the table."""
         is_number = self.calculation.number(place) is not None
         return is_number and not any(line.covers(place) for line in self.every_line)
 
-    def _result(self, kind: str, place: Position, label: str = "") -> Result:
+    def _result(self, kind: str, place: Position, label: Position, where: _Where) -> Result:
         """A result, with the unit that its label or a cell beside it gives."""
         sheet, row, column = place
         near = (self.calculation.values.get((sheet, row, column + side)) for side in (1, -1))
         texts = [text for text in near if isinstance(text, str)]
-        unit = unit_in(label) or next(filter(None, map(is_unit, texts)), None)
+        # A label's unit need not be that of all numbers in its row.
+        named = unit_in(str(self.calculation.values[label])) if where != "beyond" else None
+        unit = named or next(filter(None, map(is_unit, texts)), None)
         measure = "1" if kind == "ratio" else "m"
         fits = unit is not None and same_dimension(unit, measure)
-        return Result("ratio" if kind == "ratio" else "depth", place, unit if fits else None)
+        own = unit if fits else None
+        return Result("ratio" if kind == "ratio" else "depth", place, own, label, where)
 
     def gives_depth(self, place: Position) -> bool:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
         (sheet, *first), (_, *last) = (self.place("depth", k) for k in (0, self.steps))
-        depths = Area(sheet, *first, *last)
+        return any(map(Area(sheet, *first, *last).overlaps, self.sources(place)))
+
+    def reads_last(self, place: Position) -> bool:
+        """Whether what a cell's formula reads has the last depth of the table in it."""
+        last = self.place("depth", self.steps)
+        return any(area.covers(last) for area in self.sources(place))
+
+    def sources(self, place: Position) -> Iterator[Area]:
+        """All that a cell's formula reads, itself or through cells beside the table.
+
+        Of a long column beside it, such as X/R of every row, the first cell and the last.
+        """
         edge, seen = [place], {place}
         while edge:
             areas = [area for cell in edge for area in self.calculation.areas(cell)]
-            if any(map(depths.overlaps, areas)):
-                return True
-            near = {p for area in areas if area.cells <= FEW for p in area.places()}
+            yield from areas
+            near = {p for a in areas for p in (a.places() if a.cells <= FEW else a.ends)}
             edge = [cell for cell in near - seen if cell not in self.places]
             seen.update(edge)
-        return False
 
     @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:

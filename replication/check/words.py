@@ -150,9 +150,34 @@ def result_of(label: str) -> str | None:
 
     >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("Depth [m]"), result_of("radius")
     ('depth', 'ratio', 'any depth', None)
+    >>> result_of("X (beta 3), um"), result_of("x [m]")
+    ('any depth', None)
     """
-    named = _words("results", _plain(label)) or _symbols("result_symbols", label)
-    return next(iter(named), None)
+    beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
+    bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
+    named = _words("results", _plain(bare)) or _symbols("result_symbols", bare)
+    # The report calls the final depth X, and that of every row x.
+    final = bare.startswith("X") and _symbol(bare) == "x"
+    return next(iter(named), "any depth" if final else None)
+
+
+_BETA = r"(?:(?:\bb[eê]ta|[βΒ])[\s_]*[=:]?|\bb\s*=)\s*"
+_NUMBER = r"\d+(?:[.,]\d+)?"
+
+
+@cache
+def number_in(text: str) -> tuple[str | None, float]:
+    """The beta that a text names, or the number that it begins with, of no known role; NaN if none.
+
+    >>> number_in("X/R (β = 5)"), number_in("Final depth, b=3"), number_in("0.2 ns")
+    (('beta', 5.0), ('beta', 3.0), (None, 0.2))
+    >>> number_in("X (B3)")
+    (None, nan)
+    """
+    text = text[:_MAX_LABEL]
+    beta = re.search(f"{_BETA}({_NUMBER})", text, re.IGNORECASE)
+    number = beta or re.match(rf"\s*({_NUMBER})", text)
+    return "beta" if beta else None, float(number[1].replace(",", ".")) if number else math.nan
 
 
 # What this program calls them, and numbers in their units.
