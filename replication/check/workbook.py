@@ -1,9 +1,7 @@
 """A whole workbook against the report's sheet: every table in it, and what goes beyond tables."""
 
 import math
-import re
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import dropwhile
@@ -13,7 +11,8 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.inputs import find, label_of, numbers_beside, report_inputs
-from replication.check.judge import judge, stops_elsewhere
+from replication.check.judge import judge
+from replication.check.results import misread
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
 from replication.check.twins import meant
 from replication.check.words import (
@@ -23,18 +22,11 @@ from replication.check.words import (
     count,
     input_roles,
     is_unit,
-    number_in,
-    power_of_ten,
-    quantity,
-    times_too,
-    title,
-    unit_power,
-    unit_text,
 )
 from replication.reading import place as named
 from replication.reading import quoted
 from replication.text import with_unit
-from spreadsheets.foreign import Position, Value, read
+from spreadsheets.foreign import Position, read
 from spreadsheets.recalculation import Area, Calculation, calculate, parse
 
 _STALE = 1e-14
@@ -105,7 +97,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     resistances = meant(examinations, beside)
     for number, f in enumerate(examinations):
         judge(f, resistances.get(number))
-    _misread(examinations)
+    misread(examinations)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     silent = list(_without_numbers(calculation))
     differences = [
@@ -326,148 +318,6 @@ def _is_another_ratio(f: Examination, place: Position) -> bool:
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
     claim = load().claims[name]
     return HeldNumber(claim, place, float(value / claim.si), claim.target().contains(value))
-
-
-# ---- results, which show the last row of their table
-
-_NEARBY = 10
-"""So many cells from a result at most, a number may say of which table it is."""
-
-
-def _misread(tables: Sequence[Examination]) -> None:
-    """Results that are not those of the last row of their table, if that ends as it should.
-
-    One that reads two tables is a difference, and a list whose cells are not said to be of one
-    table each may be of all rows.
-    """
-    order, wrong = tables[0].calculation.order, set[Position]()
-    results = {result.place: result for f in tables for result in f.table.labelled}
-    said = _said(tables, results.values()) if len(tables) > 1 else {}
-    for place, result in sorted(results.items(), key=lambda each: order.get(each[0], -1)):
-        read = [f for f in tables if f.table.gives_depth(place)]
-        if len(read) != 1 or (result.where == "listed" and place not in said):
-            continue
-        f, own = read[0], said.get(place, {})
-        follows = any(area.corner in wrong for area in f.table.sources(place))
-        if f.ends and not stops_elsewhere(f) and not follows:
-            meant = [g for g in tables if all(_has(g, *each) for each in own.items())]
-            unlike = next((role for role, number in own.items() if not _has(f, role, number)), None)
-            if _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f):
-                wrong.add(place)
-
-
-def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examination) -> bool:
-    """Accuse a result of its row, of its unit, or of its table `f` if that is not the one `meant`.
-
-    `unlike` is an input in which the two tables differ. False where there is nothing to accuse.
-    """
-    kind, place, unit, label, where = result
-    what = "the final depth" if kind == "depth" else "the depth over the radius"
-    depths, last, named = f.rows.columns["depth"], f.table.steps, unit_power(unit)
-    value, formula = f.calculation.number(place) or 0.0, f.calculation.book[place].formula
-    says = str(f.calculation.values[label]) if kind == "ratio" and where != "beyond" else ""
-    says_radius = re.search(r"/ *r\b|radi", says, re.IGNORECASE)
-    row, power = _row_shown(f, kind, value)
-    if row is not None and depths[row] == max(depths.values()) and f.table.reads_last(place):
-        row = last  # the largest depth is that of another row only where the table has gone wrong
-    wanted = meant.table.place("depth", meant.table.steps)
-    shown = address(wanted, wanted[0] != place[0])
-    if row is not None and unlike and meant is not f:
-        own, right = (quantity(_number(g, unlike), unlike) for g in (f, meant))
-        text = f"{what} reads the table where {title(unlike)} is {own}; its label says {right}"
-        f.add("odd formula", [place], shown, text, formula)
-    elif row not in (None, last):
-        text = f"{what} reads row {row} of the table, not {last}, its last"
-        f.add("odd formula", [place], shown, text, formula)
-    elif row is not None and kind == "ratio" and power != -(named or 0):
-        f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
-    elif row is not None and kind == "depth" and named not in (None, -power):
-        in_unit = unit_text("depth", -power)
-        text = f"the label gives {what} in {unit}, but the number is in {in_unit}"
-        f.add("unit", [place], in_unit, text, unit)
-    elif says_radius and value and near(value * 2 * f.case.radius, f.final_depth or 0.0):
-        text = "the number is the depth over the diameter, not over the radius"
-        f.add("odd formula", [place], 2 * value, text)
-    else:
-        return False
-    return True
-
-
-def _row_shown(f: Examination, kind: str, value: float) -> tuple[int | None, int]:
-    """The row whose depth, or its ratio to the radius, a cell shows, and times which power of ten.
-
-    No row where the cell is rounded, or computed otherwise.
-    """
-    over = f.case.radius if kind == "ratio" else 1.0
-    for k, depth in sorted(f.rows.columns["depth"].items(), reverse=True):
-        if depth > 0 and (power := power_of_ten(value * over / depth)) is not None:
-            return k, power
-    return None, 0
-
-
-def _said(
-    tables: Sequence[Examination], results: Iterable[Result]
-) -> dict[Position, dict[str, float]]:
-    """What is said of the tables that results are of: inputs by role, by the result's cell.
-
-    A label says it itself ("X/R, beta = 3"), or each result of a list, or of a row, has a number in
-    a column, or a row, of an input: numbers that tables have, each its own.
-    """
-    values, said = tables[0].calculation.values, defaultdict[Position, dict[str, float]](dict)
-    groups = defaultdict[Position, list[Result]](list)
-    for result in results:
-        groups[result.label].append(result)
-    for label, group in groups.items():
-        beside = {result.place: _numbers_beside(values, result) for result in group}
-        for role in sorted({role for numbers in beside.values() for role in numbers}):
-            own = {place: numbers[role] for place, numbers in beside.items() if role in numbers}
-            if all(any(_has(f, role, number) for f in tables) for number in own.values()):
-                for place, number in own.items():
-                    said[place][role] = number
-        listed = [tuple(said[place].items()) for place in beside if place in said]
-        if len(set(listed)) < max(len(listed), 2):
-            for place in beside:
-                said.pop(place, None)
-        named, number = number_in(str(values[label]))
-        for result in group:
-            if named and (result.where == "first" or result.place in said):
-                said[result.place][named] = number
-    return said
-
-
-def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[str, float]:
-    """Numbers in the row of a listed result under heads of inputs; else in its column."""
-    (sheet, row, column), (_, label_row, label_column) = result.place, result.label
-    numbers, is_over = defaultdict[str, set[float]](set), False
-    for k in (*range(-1, -_NEARBY, -1), 0, *range(1, _NEARBY)):
-        head, cell = (sheet, row + k, label_column), (sheet, row + k, column)
-        if label_row < row:
-            head, cell = (sheet, label_row, column + k), (sheet, row, column + k)
-        name, value = values.get(head), values.get(cell)
-        is_over = (is_over and k != 0) or (name is None and value is None)
-        if is_over or k == 0:
-            continue  # beyond a blank stands something else
-        roles = input_roles(name, None) if isinstance(name, str) else frozenset[str]()
-        if isinstance(value, str):
-            role, value = number_in(value)
-            roles = frozenset({role}) if role else roles
-        if len(roles) == 1 and isinstance(value, float) and math.isfinite(value):
-            numbers[next(iter(roles))].add(value)
-    return {role: own.pop() for role, own in numbers.items() if len(own) == 1}
-
-
-def _has(f: Examination, role: str, number: float) -> bool:
-    """Whether a number is an input of a table, in any unit."""
-    own = _number(f, role)
-    return own > 0 and power_of_ten(number / own) is not None
-
-
-def _number(f: Examination, role: str) -> float:
-    """An input of the case that a table should follow, or beta by its resistance; else zero."""
-    if role == "beta":
-        stress = f.inputs.get("flow_stress")
-        return f.intended.resistance / (stress.si if stress else report_inputs()["flow_stress"][0])
-    return float(getattr(f.intended, role, 0.0))
 
 
 # ---- stored values
