@@ -320,7 +320,7 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         text = f"is typed as a number, though it rests on {rests}: a change there changes nothing"
     if kind:
         change = None if exact else partial(Case.holding, role=role, value=in_si)
-        expected = scaled(wanted, 1 / factor)
+        expected = None if exact else scaled(wanted, 1 / factor)
         f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
     if not exact or (role == "mass" and factor == 1):
         f.rows = replace(f.rows, case=f.case.holding(role, in_si))
@@ -383,7 +383,9 @@ def _typed_inputs(f: Examination) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
     for own in f.unread:
         used = f.inputs.get(own.role)
-        if used is None or used.place or own.place is None or min(used.si, own.si) <= 0:
+        if used is None or used.place or used.how == "follows":
+            continue  # its cell, or those that it follows from, are known
+        if own.place is None or min(used.si, own.si) <= 0:
             continue
         if own.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
