@@ -28,6 +28,7 @@ from replication.check.scheme import (
     BRAKES,
     KNOWN,
     MOST_ROWS,
+    ORDER,
     PARTS,
     REPORT,
     Case,
@@ -72,6 +73,7 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
         _scheme(f)
         each_cell(f)
         _typed_inputs(f)
+        _typed_columns(f)
         _texts(f)
         order(f)
     else:
@@ -411,6 +413,18 @@ def _typed_inputs(f: Examination) -> None:
             where = address(own.place, with_sheet=own.place[0] != cells[0][0])
             text = f"{title(own.role)} is typed into {column}: a change of {where} is lost"
             f.add("typed constant", cells, where, text, formula)
+
+
+def _typed_columns(f: Examination) -> None:
+    """Columns of the scheme that are typed as a whole, where another one calculates."""
+    cells = {role: f.cells(role, 1) for role in ORDER if role in f.table.lines}
+    typed = [role for role in cells if not f.calculation.formulas.keys() & set(cells[role][1:])]
+    for role in typed if len(typed) < len(cells) else ():
+        if not f.accused.intersection(cells[role]):
+            text = (
+                f"{title(role)} is typed in every row: a change of an input changes nothing there"
+            )
+            f.add("typed number", cells[role], None, text)
 
 
 def _texts(f: Examination) -> None:
