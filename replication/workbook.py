@@ -85,8 +85,8 @@ def build(
     typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases with the numbers that their cells hold; they share all but the beta.
-    held = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
-    computed = [run(replace(impact, **held), scheme) for impact in impacts.values()]
+    in_cells = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
+    computed = [run(replace(impact, **in_cells), scheme) for impact in impacts.values()]
     count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
         from replication.audit.audit import audit

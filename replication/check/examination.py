@@ -190,9 +190,9 @@ class Examination:
 
         What is `found` is what that cell holds, unless something else is given.
         """
-        held = self.calculation.values.get(cells[0]) if found is None else found
+        shown = self.calculation.values.get(cells[0]) if found is None else found
         difference = Difference(
-            kind, tuple(cells), expected, held, text, self.rank(cells[0]), change
+            kind, tuple(cells), expected, shown, text, self.rank(cells[0]), change
         )
         self.differences.append(difference)
 
