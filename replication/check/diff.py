@@ -2,20 +2,22 @@
 
 Rows and columns are aligned by what their cells are, not by what they hold: a heading by its text,
 a formula by its operations, a number by being one. So a changed input is one difference, an
-inserted row is one, and each formula is compared with where its references have gone.
+inserted row is one, and each formula is compared with where its references have gone. Where cells
+can be matched in several ways, the one that leaves the fewest differences is told.
 """
 
 import math
-from collections.abc import Callable, Container, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from difflib import SequenceMatcher
-from itertools import groupby, takewhile
+from itertools import groupby, product
 from pathlib import Path
 
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.examination import Difference
+from replication.check.matching import Cell, pairings, same_sheets, touching
 from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
@@ -27,11 +29,6 @@ KINDS = ("added", "removed", "moved", "name", "formula", "value")
 LAST = "only the last digits of the values differ"
 _LAST_DIGITS = 1e-14
 """Relative distance within which that is said: files may keep 15 of them."""
-
-_MAX_BLOCKS = 200
-"""Blocks to look for elsewhere."""
-
-Cell = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -68,12 +65,9 @@ def diff(
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
     comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
     comparison.layout()
-    where = comparison.where
-    pairs = sorted(where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
     if not values_only:
         comparison.names()
-        comparison.group(pairs, comparison.formulas, "formula")
-    comparison.group(pairs, comparison.values, "value")
+    comparison.contents(values_only)
     comparison.differences.sort(key=lambda d: d.rank)
     return comparison
 
@@ -106,8 +100,8 @@ class Comparison:
     # ---- where each cell has gone
 
     def layout(self) -> None:
-        """Match the sheets, then the rows and columns of each."""
-        sheets = _same_sheets(self.before, self.after)
+        """Match the sheets, then the cells of each."""
+        sheets = same_sheets(self.before, self.after)
         for name in self.before.book.sheets:
             if name not in sheets:
                 self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
@@ -118,40 +112,40 @@ class Comparison:
             if name != partner:
                 self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
             self.align(name, partner)
+        self.there = set(self.where.values())
 
     def align(self, name: str, partner: str) -> None:
-        """Match the rows and columns of two sheets, then what was moved elsewhere."""
-        old, new = _skeletons(self.before, name), _skeletons(self.after, partner)
-        columns = _matched(_profiles(old), _profiles(new))
-        rows = _matched(_lines(old, 0, columns.keys()), _lines(new, 0, set(columns.values())))
-        left, free = dict(old), dict(new)
+        """Match the cells of two sheets in the way that leaves the fewest that differ."""
+        ways = pairings(self.before, name, self.after, partner)
+        trials = [self.trial(name, partner, pairs) for pairs in ways]
+        best = min(trials, key=Comparison.size) if len(trials) > 1 else trials[0]
+        self.where |= best.where
+        self.differences += [d for d in best.differences if d.kind not in ("formula", "value")]
 
-        def put(cell: Cell, there: Cell) -> None:
-            self.where[name, *cell] = (partner, *there)
-            self.there.add((partner, *there))
-            del left[cell], free[there]
+    def trial(self, name: str, partner: str, pairs: Mapping[Cell, Cell]) -> "Comparison":
+        """A comparison that takes these cells as the same, the rest as gone or new."""
+        trial = Comparison(self.before, self.after, self.tolerance)
+        trial.where = {(name, *cell): (partner, *there) for cell, there in pairs.items()}
+        trial.there = set(trial.where.values())
+        old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
+        trial.moves(name, partner)
+        trial.left_over("removed", name, old.keys() - pairs.keys())
+        trial.left_over("added", partner, new.keys() - set(pairs.values()))
+        return trial
 
-        for row, column in old:
-            there = (rows.get(row, 0), columns.get(column, 0))
-            kinds = old[row, column][0], new.get(there, "")[:1]
-            # It may be the same cell, changed; but texts stay texts.
-            if there in new and (kinds[0] == kinds[1] or "'" not in kinds):
-                put((row, column), there)
-        by_form: dict[frozenset[tuple[int, int, str]], list[Cell]] = {}
-        for block in _blocks(free)[:_MAX_BLOCKS]:
-            by_form.setdefault(_form(block, free), block)
-        for block in _blocks(left)[:_MAX_BLOCKS]:
-            # It stands elsewhere if the same cells are there at the same distances.
-            new_block = by_form.pop(_form(block, left), None)
-            for cell, there in zip(block, new_block or (), strict=False):
-                put(cell, there)
-        self.moves(name, partner)
-        self.left_over("removed", name, left, "gone")
-        self.left_over("added", partner, free, "new")
+    def size(self) -> int:
+        """How many cells differ, but for numbers; a text for another is one gone and one new."""
+        self.contents(values_only=False)
+        return sum(
+            1 if d.kind == "moved" else len(d.cells) * (2 if d.kind == "value" else 1)
+            for d in self.differences
+            if d.kind != "value" or not isinstance(d.found, float)
+        )
 
-    def left_over(self, kind: str, sheet: str, cells: Mapping[Cell, str], what: str) -> None:
+    def left_over(self, kind: str, sheet: str, cells: Iterable[Cell]) -> None:
         """Cells that only one of two sheets has, block by block."""
-        for block in _blocks(cells):
+        what = "new" if kind == "added" else "gone"
+        for block in touching(cells):
             was, now = (None, span(block)) if kind == "added" else (span(block), None)
             are = "is" if len(block) == 1 else "are"
             text = f"{count(len(block), 'cell')} {are} {what}"
@@ -160,17 +154,22 @@ class Comparison:
     def moves(self, name: str, sheet: str) -> None:
         """Cells that stand elsewhere: whole rows and columns of a sheet, or blocks."""
         groups: dict[Cell, list[Cell]] = {}  # by how far they moved
-        ways: dict[tuple[int, int], set[int]] = {}  # of all cells in a row (0) or column (1)
+        ways: dict[tuple[int, int], set[int]] = {}  # of a row (0) or column (1), and of a new one
         for (own, *old), (_, *new) in self.where.items():
             if own == name:
                 distance = (new[0] - old[0], new[1] - old[1])
                 groups.setdefault(distance, []).append((old[0], old[1]))
                 for axis in (0, 1):
                     ways.setdefault((axis, old[axis]), set()).add(distance[axis])
+                    ways.setdefault((axis + 2, new[axis]), set()).add(distance[axis])
         whole = {
             distance: cells
             for distance, cells in groups.items()
-            if all(len(ways[axis, cell[axis]]) == 1 for cell in cells for axis in (0, 1))
+            if all(
+                len(ways[axis, cell[axis]]) == len(ways[axis + 2, cell[axis] + distance[axis]]) == 1
+                for cell in cells
+                for axis in (0, 1)
+            )
         }
         for axis, what, show in ((0, "rows", str), (1, "columns", get_column_letter)):
             lines = {cell[axis]: by[axis] for by, cells in whole.items() for cell in cells}
@@ -192,16 +191,19 @@ class Comparison:
 
     def blocks(self, name: str, sheet: str, cells: Sequence[Cell], distance: Cell) -> None:
         """Cells that moved together: one block, if nothing else stood among them."""
-        rows, columns = ((min(each), max(each)) for each in zip(*cells, strict=True))
-        among = [
-            (row, column)
-            for row, column in self.before.book.sheets[name]
-            if rows[0] <= row <= rows[1] and columns[0] <= column <= columns[1]
-        ]
-        for block in [cells] if len(among) == len(cells) else _blocks(dict.fromkeys(cells, "")):
+        for block in [cells] if self.alone(name, cells) else touching(cells):
             moved = [(row + distance[0], column + distance[1]) for row, column in block]
             was, now = span(block), span(moved)
-            self.add("moved", [(sheet, *c) for c in moved], was, now, f"{was} now stands at {now}")
+            some = "" if self.alone(name, block) else f"{count(len(block), 'cell')} of "
+            text = f"{some}{was} now stand{'' if some else 's'} at {now}"
+            self.add("moved", [(sheet, *c) for c in moved], was, now, text)
+
+    def alone(self, name: str, cells: Sequence[Cell]) -> bool:
+        """Whether all that stood in the area of some cells is these cells."""
+        sheet = self.before.book.sheets[name]
+        rows, columns = (range(min(each), max(each) + 1) for each in zip(*cells, strict=True))
+        area = product(rows, columns) if len(rows) * len(columns) < len(sheet) else sheet
+        return len(cells) == sum(r in rows and c in columns and (r, c) in sheet for r, c in area)
 
     # ---- what names stand for, and what the cells hold
 
@@ -216,10 +218,17 @@ class Comparison:
             what = "stands for something else"
             if was is None or now is None:
                 what = "is new" if was is None else "is gone"
-            elif self.alike(a, b):
+            elif self.alike(a, b) and _fixed(a) == _fixed(b):
                 continue
             place = b.areas[0].corner if b.areas else first[1]
             self.add("name", [place], was, now, f"the name {shown} {what}")
+
+    def contents(self, values_only: bool) -> None:
+        """Formulas and values that differ, of cells that both workbooks have."""
+        order = sorted(self.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+        if not values_only:
+            self.group(order, self.formulas, "formula")
+        self.group(order, self.values, "value")
 
     def group(
         self,
@@ -241,9 +250,11 @@ class Comparison:
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
+            if self.alike(a, b):
+                text = "the formulas read the same cells, but $ fixes others of their references"
+                return None if _fixed(a) == _fixed(b) else (*texts, text)
             text = "the text is the same, but means something else"
-            text = text if texts[0] == texts[1] else "the formulas differ"
-            return None if self.alike(a, b) else (*texts, text)
+            return (*texts, text if texts[0] == texts[1] else "the formulas differ")
         if b:
             return self.before.values.get(old), texts[1], "a formula stands in place of a value"
         if a:
@@ -289,92 +300,6 @@ def _value(calculation: Calculation, place: Position) -> Value | None:
     return None if value == "" else value
 
 
-def _same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
-    """Sheets by name; the ones left over by what they hold."""
-    same = {name: name for name in before.book.sheets if name in after.book.sheets}
-    for name in [name for name in before.book.sheets if name not in same]:
-        own = _skeletons(before, name)
-        free = (left for left in after.book.sheets if left not in same.values())
-        if own and (like := next((o for o in free if _skeletons(after, o) == own), None)):
-            same[name] = like
-    return same
-
-
-def _skeletons(calculation: Calculation, sheet: str) -> dict[Cell, str]:
-    """What each cell is: its text, its operations, or that it is a number."""
-    skeletons = {}
-    for (row, column), cell in calculation.book.sheets[sheet].items():
-        formula = calculation.formulas.get((sheet, row, column))
-        if formula is not None:
-            pieces = (
-                "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
-            )
-            skeletons[row, column] = "=" + "".join(pieces)
-        elif isinstance(cell.value, str):
-            skeletons[row, column] = f"'{cell.value}"
-        else:
-            skeletons[row, column] = "n"
-    return skeletons
-
-
-def _lines(
-    cells: Mapping[Cell, str], axis: int, kept: Container[int]
-) -> dict[int, tuple[str, ...]]:
-    """Each row (axis 0) or column (axis 1) as what stands in some columns."""
-    lines: dict[int, list[str]] = {}
-    for cell in sorted(cells):
-        line = lines.setdefault(cell[axis], [])
-        if cell[1] in kept:
-            line.append(cells[cell])
-    return {i: tuple(line) for i, line in sorted(lines.items())}
-
-
-def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
-    """Each column as what stands in it, repetitions left out."""
-    columns = _lines(cells, 1, {column for _, column in cells})
-    return {i: tuple(what for what, _ in groupby(line)) for i, line in columns.items()}
-
-
-def _matched(
-    old: Mapping[int, tuple[str, ...]], new: Mapping[int, tuple[str, ...]]
-) -> dict[int, int]:
-    """Which line became which. What is not found again but stands between the same is the same."""
-    a, b = list(old), list(new)
-    lines = [old[i] for i in a], [new[i] for i in b]
-    start = _alike_first(*lines)
-    end = min(_alike_first(*(own[::-1] for own in lines)), min(len(a), len(b)) - start)
-    pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
-    gone, come = (own[start : len(own) - end] for own in lines)
-    for tag, i1, i2, j1, j2 in SequenceMatcher(None, gone, come).get_opcodes():
-        if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
-            pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
-    return {a[i]: b[j] for i, j in sorted(pairs)}
-
-
-def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
-    """How many entries two lists have in common before the first that differs."""
-    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
-
-
-def _blocks(cells: Mapping[Cell, str]) -> list[list[Cell]]:
-    """Cells that touch each other, block by block."""
-    left, blocks = set(cells), []
-    while left:
-        start = min(left)
-        left.remove(start)
-        block, edge = [start], [start]
-        while edge:
-            row, column = edge.pop()
-            for near in ((row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
-                if near in left:
-                    left.remove(near)
-                    block.append(near)
-                    edge.append(near)
-        blocks.append(sorted(block))
-    return sorted(blocks)
-
-
-def _form(block: Sequence[Cell], cells: Mapping[Cell, str]) -> frozenset[tuple[int, int, str]]:
-    """A block by its cells' distances from its corner and what they are."""
-    top, left = block[0][0], min(column for _, column in block)
-    return frozenset((row - top, column - left, cells[row, column]) for row, column in block)
+def _fixed(formula: Formula) -> list[str]:
+    """Which of its references $ fixes: in R1C1 notation these are the ones without brackets."""
+    return [re.sub(r"-?\d+", "", p.shape.rpartition("!")[2]) for p in formula.pieces if p.area]

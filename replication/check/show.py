@@ -176,9 +176,16 @@ def contents(difference: Record) -> str:
 
     >>> contents({"kind": "value", "expected": 500.0, "found": None})
     'was 500.0, is blank'
+    >>> contents({"kind": "value", "expected": 11.0, "found": "11"})
+    "was 11.0, is '11'"
     """
     values = difference["expected"], difference["found"]
     expected, found = ("blank" if value is None else safe(value, 120) for value in values)
+    if {type(value) for value in values} == {float, str} and difference["kind"] == "value":
+        expected, found = (
+            f"'{shown}'" if isinstance(value, str) and value[:1] != "#" else shown
+            for value, shown in zip(values, (expected, found), strict=True)
+        )
     if difference["kind"] not in KINDS:
         if difference["kind"] in ("added", "removed"):
             return found if values[0] is None else expected

@@ -167,9 +167,20 @@ def insert(f: Foreign, at: str, count: int) -> None:
     )
 
 
-def move(f: Foreign, rows: int, down: int, right: int) -> None:
-    """Cut all cells from a row on, and paste them elsewhere."""
-    relocate(f, lambda row, column: (row + down * (row >= rows), column + right * (row >= rows)))
+def move(f: Foreign, cells: str, down: int, right: int) -> None:
+    """Cut an area, or all cells from a row on, and paste them elsewhere, over what is there."""
+    ends = [
+        place("", end) for end in (f"A{cells}:ZZ99999" if cells.isdigit() else cells).split(":")
+    ]
+    (_, top, left), (_, bottom, last) = ends[0], ends[-1]
+
+    def to(row: int, column: int) -> tuple[int, int]:
+        inside = top <= row <= bottom and left <= column <= last
+        return (row + down, column + right) if inside else (row, column)
+
+    over = {to(r, c) for _, r, c in f.cells if to(r, c) != (r, c)}
+    f.cells = {p: v for p, v in f.cells.items() if p[1:] not in over or to(*p[1:]) != p[1:]}
+    relocate(f, to)
 
 
 def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:

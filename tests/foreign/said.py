@@ -94,7 +94,7 @@ def edited(f: Foreign, edits: Edits) -> Foreign:
         elif word == "insert":
             layouts.insert(f, here, int(many))
         elif word == "move":
-            layouts.move(f, int(here), *map(int, many.split()))
+            layouts.move(f, here, *map(int, many.split()))
         elif word == "rename":
             f.cells = {(here, r, c): content for (_, r, c), content in f.cells.items()}
         elif word == "copy":

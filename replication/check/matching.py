@@ -1,0 +1,204 @@
+"""Which sheets and which cells of two workbooks are the same, wherever they stand.
+
+Cells are matched by what they are: a text, the operations of a formula, a number.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
+from difflib import SequenceMatcher
+from itertools import groupby, takewhile
+from operator import itemgetter
+from typing import TypeVar
+
+from spreadsheets.recalculation import Calculation
+
+_MAX_BLOCKS, _MAX_TRIES = 200, 8
+"""Blocks to look for elsewhere; distances that are tried for each."""
+_MAX_LINES, _MAX_SHEETS = 4_000, 100
+"""Changed lines, and sheets of other names, that are compared each with each."""
+
+Cell = tuple[int, int]
+T = TypeVar("T")
+
+
+def same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
+    """Sheets by name; the ones left over by what they hold, if most of it is the same."""
+    same = {name: name for name in before.book.sheets if name in after.book.sheets}
+    left, free = ([n for n in each.book.sheets if n not in same] for each in (before, after))
+    gone = {name: _likeness(before, name) for name in left[:_MAX_SHEETS]}
+    come = {name: _likeness(after, name) for name in free[:_MAX_SHEETS]}
+    shares = (
+        ((gone[a] & come[b]).total() / max(gone[a].total(), come[b].total(), 1), a, b)
+        for a in gone
+        for b in come
+    )
+    for share, a, b in sorted(shares, key=lambda entry: -entry[0]):
+        if share > 1 / 2 and a not in same and b not in same.values():
+            same[a] = b
+    return same
+
+
+def _likeness(calculation: Calculation, sheet: str) -> Counter[str]:
+    """What a sheet holds, and what its cells are."""
+    cells = _cells(calculation, sheet).values()
+    return Counter([*cells, *map(_kind, cells)])
+
+
+def _cells(calculation: Calculation, sheet: str) -> dict[Cell, str]:
+    """What each cell is: its text, its operations, or its number."""
+    cells = {}
+    for (row, column), cell in calculation.book.sheets[sheet].items():
+        formula = calculation.formulas.get((sheet, row, column))
+        if formula is not None:
+            pieces = (
+                "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
+            )
+            cells[row, column] = "=" + "".join(pieces)
+        else:
+            text = isinstance(cell.value, str)
+            cells[row, column] = f"'{cell.value}" if text else f"n{cell.value}"
+    return cells
+
+
+def _kind(cell: str) -> str:
+    """What a cell is, whichever number it may be."""
+    return "n" if cell.startswith("n") else cell
+
+
+def pairings(
+    before: Calculation, name: str, after: Calculation, partner: str
+) -> Iterator[dict[Cell, Cell]]:
+    """In which ways the cells of two sheets may be the same: old places and new ones."""
+    old, new = _cells(before, name), _cells(after, partner)
+    ways = list(_ways(old, new))
+    return (_paired(old, new, way) for i, way in enumerate(ways) if way not in ways[:i])
+
+
+def _ways(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> Iterator[dict[Cell, Cell]]:
+    """Where each cell may be now: with its row and column, in place, or along one of them."""
+    a, b = ({cell: _kind(what) for cell, what in cells.items()} for cells in (old, new))
+    columns = _matched(_profiles(a), _profiles(b))
+    rows = _matched(_lines(a, 0, columns.keys()), _lines(b, 0, set(columns.values())))
+    yield {(r, c): (rows[r], columns[c]) for r, c in a if r in rows and c in columns}
+    yield {cell: cell for cell in a}
+    for axis in (1, 0):
+        own, lines = (_by(cells, itemgetter(axis)) for cells in (a, b))
+        yield {
+            cell: there
+            for line in own.keys() & lines.keys()
+            for cell, there in _matched(
+                {c: a[c] for c in own[line]}, {c: b[c] for c in lines[line]}, 0
+            ).items()
+        }
+
+
+def _by(cells: Iterable[Cell], key: Callable[[Cell], T]) -> dict[T, list[Cell]]:
+    """Cells in their order, by what they have in common."""
+    by: dict[T, list[Cell]] = {}
+    for cell in sorted(cells):
+        by.setdefault(key(cell), []).append(cell)
+    return by
+
+
+def _paired(
+    old: Mapping[Cell, str], new: Mapping[Cell, str], way: Mapping[Cell, Cell]
+) -> dict[Cell, Cell]:
+    """Where each cell is now: where it may be, if it is the same; in a block elsewhere; changed."""
+    pairs = {cell: there for cell, there in way.items() if new.get(there) == old[cell]}
+    taken = set(pairs.values())
+    left = {cell: what for cell, what in old.items() if cell not in pairs}
+    free = {cell: what for cell, what in new.items() if cell not in taken}
+    changed = {cell: there for cell, there in way.items() if cell in left and there in free}
+    numbers = {c: to for c, to in changed.items() if left[c][0] == free[to][0] == "n"}
+    pairs |= _elsewhere(left, free, numbers)
+    return pairs | {c: to for c, to in changed.items() if c in left and to in free}
+
+
+def _elsewhere(
+    left: dict[Cell, str], free: dict[Cell, str], numbers: Mapping[Cell, Cell]
+) -> dict[Cell, Cell]:
+    """Blocks that stand elsewhere: where half of a block is found again, or more, all of it is.
+
+    They are taken out of what is `left` and `free`. Some `numbers` may only have changed where
+    they are: they go along with texts and formulas.
+    """
+    blocks, reserved = touching(left)[:_MAX_BLOCKS], set(numbers.values())
+    number = {cell: k for k, block in enumerate(blocks) for cell in block}
+    own, new = _by(number.keys() - numbers.keys(), left.__getitem__), _by(free, free.__getitem__)
+    votes: Counter[tuple[int, Cell]] = Counter()  # for a block and how far it moved
+    for what in own.keys() & new.keys():
+        a, b = own[what], new[what]
+        for old, there in (*zip(a, b, strict=False), *zip(a[::-1], b[::-1], strict=False)):
+            votes[number[old], (there[0] - old[0], there[1] - old[1])] += old != there
+    pairs, tries = dict[Cell, Cell](), Counter[int]()
+    for (k, (down, right)), _ in sorted((+votes).items(), key=lambda entry: (-entry[1], entry[0])):
+        tries[k] += 1
+        if tries[k] > _MAX_TRIES:
+            continue
+        to = {c: (c[0] + down, c[1] + right) for c in blocks[k]}
+        to = {c: there for c, there in to.items() if c in left and there in free}
+        if all(left[c][0] == "n" for c in to if left[c] == free[to[c]]):
+            to = {c: there for c, there in to.items() if there not in reserved}
+        same = {c for c in to if left[c] == free[to[c]]}
+        telling = to.keys() - numbers.keys()
+        others = [left[c][0] for c in telling - same]
+        if len(others) - others.count("n") < len(telling & same) >= len(others):
+            for cell in same | telling:
+                pairs[cell] = to[cell]
+                del left[cell], free[to[cell]]
+    return pairs
+
+
+def _lines(
+    cells: Mapping[Cell, str], axis: int, kept: Container[int]
+) -> dict[int, tuple[str, ...]]:
+    """Each row (axis 0) or column (axis 1) as what stands in some columns."""
+    lines = sorted(_by(cells, itemgetter(axis)).items())
+    return {i: tuple(cells[cell] for cell in line if cell[1] in kept) for i, line in lines}
+
+
+def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
+    """Each column as what stands in it, repetitions left out."""
+    columns = _lines(cells, 1, {column for _, column in cells})
+    return {i: tuple(what for what, _ in groupby(line)) for i, line in columns.items()}
+
+
+def _matched(
+    old: Mapping[T, Hashable], new: Mapping[T, Hashable], most: int = _MAX_LINES
+) -> dict[T, T]:
+    """Which line became which. What is not found again but stands between the same is the same."""
+    a, b = list(old), list(new)
+    lines = [old[i] for i in a], [new[i] for i in b]
+    start = _alike_first(*lines)
+    end = min(_alike_first(*(own[::-1] for own in lines)), min(len(a), len(b)) - start)
+    pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
+    gone, come = (own[start : len(own) - end] for own in lines)
+    between: Iterable[tuple[str, int, int, int, int]] = [("replace", 0, len(gone), 0, len(come))]
+    if len(gone) + len(come) <= most:
+        between = SequenceMatcher(None, gone, come).get_opcodes()
+    for tag, i1, i2, j1, j2 in between:
+        if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
+            pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
+    return {a[i]: b[j] for i, j in sorted(pairs)}
+
+
+def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
+    """How many entries two lists have in common before the first that differs."""
+    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
+
+
+def touching(cells: Iterable[Cell]) -> list[list[Cell]]:
+    """Cells that touch each other, block by block."""
+    left, blocks = set(cells), list[list[Cell]]()
+    for start in sorted(left):
+        block, edge = set(), {start} & left
+        left -= edge
+        while edge:
+            row, column = edge.pop()
+            block.add((row, column))
+            near = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
+            left -= near
+            edge |= near
+        if block:
+            blocks.append(sorted(block))
+    return blocks
