@@ -204,23 +204,20 @@ def _crossings(
         # At the end of the part the target may be entered or left already.
         if goal is None or (least > goal if at_lower else greatest < goal):
             return part[place], part[place]
-        return _bracket(value, part, ends, goal)
+        return _bracket(value, part, goal, rises)
 
     ends = value(part[0]), value(part[1])
     return crossing(0), crossing(1)
 
 
-def _bracket(
-    value: Callable[[Fraction], Ends], part: Ends, ends: tuple[Ends, Ends], goal: Fraction
-) -> Ends:
+def _bracket(value: Callable[[Fraction], Ends], part: Ends, goal: Fraction, rises: bool) -> Ends:
     """Where a function that rises or falls all over the part takes a value, between proven ends."""
     (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
-    rises = ends[0][0] < ends[1][0]
     while high - low > width:
         # Not in the middle: a goal that is hit exactly cannot be decided.
         x = (low + (high - low) * Fraction(49, 100)).limit_denominator(10**30)
         below, above = value(x)
-        if below <= goal <= above:
+        if below <= goal <= above or not low < x < high:
             break
         if (above < goal) == rises:
             low = x

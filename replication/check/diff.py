@@ -280,7 +280,9 @@ class Comparison:
 
     def replaced(self, old: Position, new: Position) -> bool:
         """Whether a cell that is gone, or was blank, is where another is read now."""
-        return old not in self.before.values or (old == new and new not in self.there)
+        if old == new:
+            return old not in self.before.values or new not in self.there
+        return old not in self.before.values and new not in self.after.values
 
     def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)

@@ -344,7 +344,11 @@ def _with_inputs(
     brakes = columns.get("deceleration", {})
     # By the first rows: where a motion goes wrong, its deceleration may change its sign. If there
     # the velocity rises, the sign is wrong.
-    speeds = columns.get("velocity_initial") or columns["velocity_final"]
+    speeds = columns.get("velocity_initial") or columns.get("velocity_final") or {}
+    if len(speeds) < 2:
+        raise ValueError(
+            f"the table on {table.sheet!r} has no velocities: give --map velocity=RANGE"
+        )
     first, *_, last = islice(speeds.values(), 4)
     negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
@@ -402,7 +406,7 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
         }
         against = sum(named[role] not in (None, power) for role, power in powers.items())
         untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
-        if step and named.get("time") is not None and "step" in inputs:
+        if step and named.get("time") is not None and "step" in inputs and inputs["step"].si > 0:
             against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
         options.append(((against, untied, slower + faster), powers))

@@ -147,7 +147,12 @@ def _calibrate_step(f: Examination) -> None:
         changed = f.following(f.case.with_input("step", value))
         if changed.share("advance", by_report) >= 0.9:
             f.rows = changed.rows
-            _unconverted(f, own, value, power)
+            if any(near(value, step) for step in report_inputs()["step"]):
+                f.inputs = {**f.inputs, "step": replace(own, si=value)}
+                f.intended = f.intended.with_input("step", value)
+                _mislabelled(f, own, -power)
+            else:
+                _unconverted(f, own, value, power)
 
 
 def _unconverted(f: Examination, own: Input, value: float, power: int) -> None:
@@ -201,7 +206,8 @@ def _derived(f: Examination) -> None:
     known = {own.role: own for own in (*f.unread, *f.inputs.values())}
     spoilt = any(difference.change for difference in f.differences)
     rows, stated = replace(f.case, own_mass=None, own_diameter=None), f.intended
-    if "beta" in known and "flow_stress" in known:
+    factors = [known[name].si for name in RESTS_ON["resistance"] if name in known]
+    if len(factors) == 2 and min(factors) > 0:
         stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
         _product(f, known["beta"], known["flow_stress"], stated.resistance)
     halved = _halved(f, known["radius"])
@@ -213,6 +219,8 @@ def _derived(f: Examination) -> None:
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
         if cell and spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
             continue
+        if min((s.si for s in sources), default=1.0) <= 0:
+            continue  # nothing follows from such a number
         if cell and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, getattr(stated, role), sources)
     if halved:
@@ -222,7 +230,7 @@ def _derived(f: Examination) -> None:
 def _halved(f: Examination, radius: Input) -> list[Position]:
     """The cells from that of the radius down to the diameter's, if it is computed from that."""
     cells, diameter = list[Position](), f.derived.get("diameter")
-    place = radius.place if diameter and diameter.place else None
+    place = radius.place if diameter and diameter.place and diameter.si > 0 else None
     while place and place not in cells:
         cells.append(place)
         if diameter and place == diameter.place:
@@ -234,8 +242,15 @@ def _halved(f: Examination, radius: Input) -> list[Position]:
 def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
     """A radius that is computed from the diameter, through cells, against half of that."""
     radius, diameter = f.inputs["radius"], f.derived["diameter"]
-    wanted, power = diameter.si / 2, power_of_ten(radius.si / diameter.si * 2)
-    if math.isclose(radius.si, wanted, rel_tol=NEAR):
+    wanted, ratio = diameter.si / 2, radius.si / diameter.si * 2
+    power = power_of_ten(ratio)
+    simple = all(len(f.calculation.areas(place)) == 1 for place in cells[:-1])
+    slips = (ratio, ratio / 2, ratio * 2)  # the diameter itself, or a quarter of it
+    if (
+        math.isclose(ratio, 1.0, rel_tol=NEAR)
+        or not simple
+        or not any(power_of_ten(slip) is not None for slip in slips)
+    ):
         return
     place, factor = cells[0], radius.factor * 2
     for between in cells[-2:0:-1]:  # which may have the diameter in another unit
@@ -324,7 +339,7 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         change = None if exact else partial(Case.holding, role=role, value=in_si)
         expected = None if exact else scaled(wanted, 1 / factor)
         f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
-    if not exact or (role == "mass" and factor == 1):
+    if in_si > 0 and (not exact or (role == "mass" and factor == 1)):
         f.rows = replace(f.rows, case=f.case.holding(role, in_si))
         f.intended = f.intended.holding(role, wanted if kind and not exact else in_si)
 

@@ -14,12 +14,24 @@ from replication.check.words import (
     number_in,
     power_of_ten,
     quantity,
+    result_of,
     times_too,
     title,
     unit_power,
     unit_text,
 )
 from spreadsheets.foreign import Position, Value
+
+_ANOTHER_ROW = re.compile(
+    r"\d *(?:[nµu]?s|sec\w*)\b|\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous)\b",
+    re.IGNORECASE,
+)
+"""What the label of a depth has that may be that of another row than the last."""
+_RADIUS = re.compile(r"/ *r\b|radi", re.IGNORECASE)
+_DIAMETER = re.compile(r"diam|durchm|/ *\(?(?:2|d\b)|twice", re.IGNORECASE)
+
+_NEAR_END = 2
+"""What is only called a depth may be that of any row; so near the end it should be the last."""
 
 _NEARBY = 10
 """So many cells from a result at most, a number may say of which table it is."""
@@ -38,6 +50,8 @@ def misread(tables: Sequence[Examination]) -> None:
         read = [f for f in tables if f.table.gives_depth(place)]
         if len(read) != 1 or (result.where == "listed" and place not in said):
             continue
+        if result.where == "beyond" and len(tables) == 1:
+            continue  # it may be another number on purpose
         f, own = read[0], said.get(place, {})
         follows = any(area.corner in wrong for area in f.table.sources(place))
         if f.ends and not stops_elsewhere(f) and not follows:
@@ -56,9 +70,14 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     what = "the final depth" if kind == "depth" else "the depth over the radius"
     depths, last, named = f.rows.columns["depth"], f.table.steps, unit_power(unit)
     value, formula = f.calculation.number(place) or 0.0, f.calculation.book[place].formula
-    says = str(f.calculation.values[label]) if kind == "ratio" and where != "beyond" else ""
-    says_radius = re.search(r"/ *r\b|radi", says, re.IGNORECASE)
+    says = str(f.calculation.values[label])
+    is_ratio = kind == "ratio" and where != "beyond"
+    says_radius = is_ratio and _RADIUS.search(says) and not _DIAMETER.search(says)
     row, power = _row_shown(f, kind, value)
+    is_near = (row or 0) >= last - _NEAR_END or "MAX(" in (formula or "").upper()
+    is_near = is_near or result_of(says) != "any depth"
+    if row not in (None, last) and (_ANOTHER_ROW.search(says) or not is_near):
+        return False
     if row is not None and depths[row] == max(depths.values()) and f.table.reads_last(place):
         row = last  # the largest depth is that of another row only where the table has gone wrong
     wanted = meant.table.place("depth", meant.table.steps)

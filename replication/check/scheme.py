@@ -174,7 +174,7 @@ def deceleration(
     """
     area = contact(case, x) if area is None else area
     stress = factor * case.target_density * v * v + case.resistance
-    return stress * case.pi * area / case.mass
+    return stress * case.pi * area / case.mass if case.mass else math.inf
 
 
 def contact(case: Case, x: float) -> float:

@@ -390,8 +390,19 @@ class Table:
 
     def gives_depth(self, place: Position) -> bool:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
+        return place in self._of_depth
+
+    @cached_property
+    def _of_depth(self) -> set[Position]:
+        """The cells beside the table whose formulas read a depth of it, directly or not."""
         (sheet, *first), (_, *last) = (self.place("depth", k) for k in (0, self.steps))
-        return any(map(Area(sheet, *first, *last).overlaps, self.sources(place)))
+        depths, readers = Area(sheet, *first, *last), set[Position]()
+        for place in sorted(self.calculation.formulas, key=self.calculation.order.__getitem__):
+            areas = self.calculation.areas(place)
+            read = (p for a in areas for p in (a.places() if a.cells <= FEW else a.ends))
+            if any(map(depths.overlaps, areas)) or not readers.isdisjoint(read):
+                readers |= {place} - self.places.keys()
+        return readers
 
     def reads_last(self, place: Position) -> bool:
         """Whether what a cell's formula reads has the last depth of the table in it."""
@@ -593,5 +604,6 @@ def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
             if at >= last - 1 or not ended:
                 return last
             # Velocities that end the motion may stand in rows where the depth stays.
-            return next(k for k in range(at, zero, -1) if depth.at(k) != depth.at(k - 1))
+            moves = (k for k in range(at, zero, -1) if depth.at(k) != depth.at(k - 1))
+            return next(moves, last)
     return last
