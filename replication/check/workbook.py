@@ -1,6 +1,7 @@
 """A whole workbook against the report's sheet: every table in it, and what goes beyond tables."""
 
 import math
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -257,6 +258,7 @@ _HEADER = {
 }  # fmt: skip
 _CASES = ("beta-5", "beta-3")
 """The cases by their claims, in the order of the report's inputs; Table A-1 is the first."""
+_GREATEST = Fraction(sys.float_info.max)
 _ROWS = 5
 """Rows that Table A-1 prints, the impact among them."""
 
@@ -317,7 +319,9 @@ def _is_another_ratio(f: Examination, place: Position) -> bool:
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
     claim = load().claims[name]
-    return HeldNumber(claim, place, float(value / claim.si), claim.target().contains(value))
+    # In the claim's unit a number may be beyond doubles.
+    shown = max(-_GREATEST, min(value / claim.si, _GREATEST))
+    return HeldNumber(claim, place, float(shown), claim.target().contains(value))
 
 
 # ---- stored values
