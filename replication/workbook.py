@@ -474,13 +474,18 @@ def _of(thing: object, *names: str) -> dict[str, Any]:
     return {name: getattr(thing, name) for name in names}
 
 
+def _work(impact: Impact, pressure: float) -> float:
+    """c = (4 rho_p / 3 rho_t) ln(1 + p) [1] of the closed form."""
+    return 4 * impact.particle_density / (3 * impact.target_density) * math.log1p(pressure)
+
+
 def _at_rest(impact: Impact) -> dict[str, float]:
     """Depth at rest without steps, from p = rho_t V^2 / 2 R_t [1] and c of the closed form."""
     v, radius, particle, target, r_t = impact.motion.values()
     pressure = target * v * v / 2 / r_t
     return {
         "pressure": pressure,
-        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "c": _work(impact, pressure),
         "normalized_depth": depth.normalized_depth(v, particle, target, r_t),
         "depth_um": depth.final_depth(v, radius, particle, target, r_t) * 1e6,
     }
@@ -495,7 +500,7 @@ def _at_stop(impact: Impact) -> dict[str, float]:
         reached = depth.depth_at_velocity(stop, v, radius, particle, target, r_t) / radius
     return {
         "pressure": pressure,
-        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "c": _work(impact, pressure),
         "normalized_depth": reached,
     }
 

@@ -155,13 +155,12 @@ class Comparison:
         """Cells that stand elsewhere: whole rows and columns of a sheet, or blocks."""
         groups: dict[Cell, list[Cell]] = {}  # by how far they moved
         ways: dict[tuple[int, int], set[int]] = {}  # of a row (0) or column (1), and of a new one
-        for (own, *old), (_, *new) in self.where.items():
-            if own == name:
-                distance = (new[0] - old[0], new[1] - old[1])
-                groups.setdefault(distance, []).append((old[0], old[1]))
-                for axis in (0, 1):
-                    ways.setdefault((axis, old[axis]), set()).add(distance[axis])
-                    ways.setdefault((axis + 2, new[axis]), set()).add(distance[axis])
+        for (_, *old), (_, *new) in self.where.items():
+            distance = (new[0] - old[0], new[1] - old[1])
+            groups.setdefault(distance, []).append((old[0], old[1]))
+            for axis in (0, 1):
+                ways.setdefault((axis, old[axis]), set()).add(distance[axis])
+                ways.setdefault((axis + 2, new[axis]), set()).add(distance[axis])
         whole = {
             distance: cells
             for distance, cells in groups.items()

@@ -117,15 +117,7 @@ def _calibrate(f: Examination) -> None:
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
-        chosen = not own.unit and not between_units(power, role, surely=True)
-        if chosen or (own.unit and any(near(value, x) for x in report_inputs()[role])):
-            taken = replace(own, si=value, factor=own.factor * factor)
-            f.inputs = {**f.inputs, role: taken}
-            f.intended = f.intended.with_input(role, value, float(factor))
-            if not chosen:
-                _mislabelled(f, own, -power)
-        else:
-            _unconverted(f, own, value, power)
+        _taken(f, own, value, power)
         return
 
 
@@ -147,12 +139,23 @@ def _calibrate_step(f: Examination) -> None:
         changed = f.following(f.case.with_input("step", value))
         if changed.share("advance", by_report) >= 0.9:
             f.rows = changed.rows
-            if any(near(value, step) for step in report_inputs()["step"]):
-                f.inputs = {**f.inputs, "step": replace(own, si=value)}
-                f.intended = f.intended.with_input("step", value)
-                _mislabelled(f, own, -power)
-            else:
-                _unconverted(f, own, value, power)
+            _taken(f, own, value, power)
+
+
+def _taken(f: Examination, own: Input, value: float, power: int) -> None:
+    """That the rows take an input as a value so many powers of ten off: by a wrong label, or unit.
+
+    No fault where it has no unit, and might be another number.
+    """
+    factor = Fraction(10) ** power
+    chosen = not own.unit and not between_units(power, own.role, surely=True)
+    if not chosen and not (own.unit and any(near(value, x) for x in report_inputs()[own.role])):
+        _unconverted(f, own, value, power)
+        return
+    f.inputs = {**f.inputs, own.role: replace(own, si=value, factor=own.factor * factor)}
+    f.intended = f.intended.with_input(own.role, value, float(factor))
+    if not chosen:
+        _mislabelled(f, own, -power)
 
 
 def _unconverted(f: Examination, own: Input, value: float, power: int) -> None:
@@ -172,14 +175,13 @@ def _unconverted(f: Examination, own: Input, value: float, power: int) -> None:
     ]
     if own.unit and readers:
         text = f"{text}: {address(own.place)} is in {own.unit}"
-        number, lone = (
-            f.calculation.number,
-            [p for p in readers if len(f.calculation.areas(p)) == 1],
-        )
-        converting = [place for place in lone if near(number(place) or 0.0, value)][:1]
-        line = f.table.places.get(readers[0], ("",))[0]
-        alike = [place for place in readers if f.table.places.get(place, ("",))[0] == line]
-        cells, expected = (converting, own.si) if converting else (alike, None)
+        lone = (place for place in readers if len(f.calculation.areas(place)) == 1)
+        converting = (p for p in lone if near(f.calculation.number(p) or 0.0, value))
+        columns = {place: f.table.places.get(place, ("",))[0] for place in readers}
+        cells = [place for place in readers if columns[place] == columns[readers[0]]]
+        expected = None
+        if place := next(converting, None):
+            cells, expected = [place], own.si
     change = _changed(own.role, value, 10.0**power)
     f.add("unit", cells, expected, text, change=change)
 

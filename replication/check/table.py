@@ -399,7 +399,7 @@ class Table:
         depths, readers = Area(sheet, *first, *last), set[Position]()
         for place in sorted(self.calculation.formulas, key=self.calculation.order.__getitem__):
             areas = self.calculation.areas(place)
-            read = (p for a in areas for p in (a.places() if a.cells <= FEW else a.ends))
+            read = (p for area in areas for p in _looked_at(area))
             if any(map(depths.overlaps, areas)) or not readers.isdisjoint(read):
                 readers |= {place} - self.places.keys()
         return readers
@@ -418,7 +418,7 @@ class Table:
         while edge:
             areas = [area for cell in edge for area in self.calculation.areas(cell)]
             yield from areas
-            near = {p for a in areas for p in (a.places() if a.cells <= FEW else a.ends)}
+            near = {p for area in areas for p in _looked_at(area)}
             edge = [cell for cell in near - seen if cell not in self.places]
             seen.update(edge)
 
@@ -439,6 +439,11 @@ class Table:
         texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
         most = max((len(text.strip("0")) for text in texts), default=17)
         return most if most <= _ROUNDED else None
+
+
+def _looked_at(area: Area) -> Iterable[Position]:
+    """The cells of an area; of many, such as a long column, the first and the last."""
+    return area.places() if area.cells <= FEW else area.ends
 
 
 def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
