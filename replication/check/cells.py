@@ -28,7 +28,7 @@ _BLOCK = 12
 def drifting(f: Examination) -> None:
     """References to a cell beside the table that move on from row to row, as no $ fixes them."""
     lines, number = f.table.every_line, f.calculation.number
-    inputs = {own.place for own in (*f.inputs.values(), *f.derived.values(), *f.unread)}
+    inputs = {entry.place for entry in (*f.inputs.values(), *f.derived.values(), *f.unread)}
     for line in lines:
         known = f.calculation.formulas
         formulas = [known[place] for place in line.cells if place in known]
@@ -274,7 +274,7 @@ def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[st
 
 def order(f: Examination) -> None:
     """Columns whose last digits no order of the report's operations gives."""
-    factors = {own.factor for own in (*f.inputs.values(), *f.derived.values())}
+    factors = {entry.factor for entry in (*f.inputs.values(), *f.derived.values())}
     if any(f.powers.values()) or factors != {Fraction(1)} or f.rows.rules != REPORT:
         return  # converting units costs last digits, too
     # The mass as its cell has it; without a cell, as any order of its product gives it.

@@ -107,7 +107,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     examination = _settled(table, choices, feeding, next(rounded, math.pi))
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
-    settled = {role: own for role, own in examination.inputs.items() if own.place}
+    settled = {role: entry for role, entry in examination.inputs.items() if entry.place}
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
@@ -224,8 +224,8 @@ def _by_role(
         left = [role for role in cell.roles or alike if role not in by_role]
         if len(cell.roles) != 1 and left:
             nearest = min(left, key=lambda role: _distance(cell, report.get(role, ())))
-            own = replace(as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
-            by_role.setdefault(nearest, []).append(own)
+            entry = replace(as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
+            by_role.setdefault(nearest, []).append(entry)
     return by_role
 
 
@@ -301,9 +301,9 @@ def _settled(
         tried.append((examination.agreement(), advances, examination))
     tried.sort(key=lambda entry: entry[:2], reverse=True)
     best, _, examination = tried[0]
-    places = {own.place for own in examination.inputs.values()}
+    places = {entry.place for entry in examination.inputs.values()}
     rivals = [rival for agreement, _, rival in tried if best - agreement < 0.2]
-    if any({own.place for own in rival.inputs.values()} != places for rival in rivals):
+    if any({entry.place for entry in rival.inputs.values()} != places for rival in rivals):
         role, cells = next(iter(several.items()))
         alike = dict.fromkeys(address(c.place, True) for c in cells if c.place)
         where = " and ".join(list(alike)[:3])
@@ -354,12 +354,12 @@ def _with_inputs(
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
     inputs = _completed(table, chosen, columns, powers)
-    for own in inputs.values():
-        if not (1e-100 < own.si < 1e100 or (own.role == "stop_velocity" and own.si == 0)):
-            where = address(own.place, True) if own.place else f"the table on {table.sheet!r}"
+    for entry in inputs.values():
+        if not (1e-100 < entry.si < 1e100 or (entry.role == "stop_velocity" and entry.si == 0)):
+            where = address(entry.place, True) if entry.place else f"the table on {table.sheet!r}"
             raise ValueError(
-                f"{where}: taken for {title(own.role)}, is {own.si:g}; it should be greater than "
-                f"zero; if another cell is meant, give --map {own.role}=CELL"
+                f"{where}: taken for {title(entry.role)}, is {entry.si:g}; it should be greater "
+                f"than zero; if another cell is meant, give --map {entry.role}=CELL"
             )
     names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
              "stop_velocity")  # fmt: skip
@@ -507,7 +507,7 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
     The report's values first; with mass, diameter and resistance as they should be, then as the
     cells `feeding` the rows hold them; then what the rows themselves say.
     """
-    unknown = [role for role, own in examination.inputs.items() if own.how == "report"]
+    unknown = [role for role, entry in examination.inputs.items() if entry.how == "report"]
     typed = _typed(examination.table.calculation) if unknown else set()
     values = product(*(report_inputs()[role] for role in unknown))
     of_report = [dict(zip(unknown, each, strict=True)) for each in values]

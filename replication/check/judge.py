@@ -108,81 +108,81 @@ def _calibrate(f: Examination) -> None:
     if drifts or f.agreement(BRAKES) >= 0.5 or _has_power(f):
         return  # rows whose references drift do not tell
     powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
-    for (role, own), power in product(f.inputs.items(), powers):
-        if own.place is None or role in ("beta", "stop_velocity", "mass"):
+    for (role, entry), power in product(f.inputs.items(), powers):
+        if entry.place is None or role in ("beta", "stop_velocity", "mass"):
             continue
         factor = Fraction(10) ** power
-        value = scaled(own.si, factor)
+        value = scaled(entry.si, factor)
         changed = f.following(f.case.with_input(role, value, float(factor)))
         if changed.agreement() < 0.9:
             continue
         f.rows = changed.rows
-        _taken(f, own, value, power)
+        _taken(f, entry, value, power)
         return
 
 
-def _mislabelled(f: Examination, own: Input, power: int) -> None:
+def _mislabelled(f: Examination, entry: Input, power: int) -> None:
     """That a label gives another unit than the formulas take: by a power of ten too large."""
-    right = unit_text(own.role, (power_of_ten(float(own.factor)) or 0) - power)
-    text = f"the label gives {title(own.role)} in {own.unit}, but the number is in {right}"
-    assert own.place is not None
-    f.add("unit", [own.place], right, f"{text}, as the formulas take it", own.unit)
+    right = unit_text(entry.role, (power_of_ten(float(entry.factor)) or 0) - power)
+    text = f"the label gives {title(entry.role)} in {entry.unit}, but the number is in {right}"
+    assert entry.place is not None
+    f.add("unit", [entry.place], right, f"{text}, as the formulas take it", entry.unit)
 
 
 def _calibrate_step(f: Examination) -> None:
     """A time step that the rows take in another unit than its label says."""
-    own, times = f.inputs["step"], f.rows.columns.get("time", {})
+    entry, times = f.inputs["step"], f.rows.columns.get("time", {})
     value = times.get(3, math.nan) - times.get(2, math.nan)
-    power, by_report = power_of_ten(value / own.si), REPORT["advance"]
-    if own.unit and own.place and power and f.share("advance", by_report) < 0.5:
-        value = scaled(own.si, Fraction(10) ** power)
+    power, by_report = power_of_ten(value / entry.si), REPORT["advance"]
+    if entry.unit and entry.place and power and f.share("advance", by_report) < 0.5:
+        value = scaled(entry.si, Fraction(10) ** power)
         changed = f.following(f.case.with_input("step", value))
         if changed.share("advance", by_report) >= 0.9:
             f.rows = changed.rows
-            _taken(f, own, value, power)
+            _taken(f, entry, value, power)
 
 
-def _taken(f: Examination, own: Input, value: float, power: int) -> None:
+def _taken(f: Examination, entry: Input, value: float, power: int) -> None:
     """That the rows take an input as a value so many powers of ten off: by a wrong label, or unit.
 
     No fault where it has no unit, and might be another number.
     """
     factor = Fraction(10) ** power
-    chosen = not own.unit and not between_units(power, own.role, surely=True)
-    if not chosen and not (own.unit and any(near(value, x) for x in report_inputs()[own.role])):
-        _unconverted(f, own, value, power)
+    chosen = not entry.unit and not between_units(power, entry.role, surely=True)
+    if not chosen and not (entry.unit and any(near(value, x) for x in report_inputs()[entry.role])):
+        _unconverted(f, entry, value, power)
         return
-    f.inputs = {**f.inputs, own.role: replace(own, si=value, factor=own.factor * factor)}
-    f.intended = f.intended.with_input(own.role, value, float(factor))
+    f.inputs = {**f.inputs, entry.role: replace(entry, si=value, factor=entry.factor * factor)}
+    f.intended = f.intended.with_input(entry.role, value, float(factor))
     if not chosen:
-        _mislabelled(f, own, -power)
+        _mislabelled(f, entry, -power)
 
 
-def _unconverted(f: Examination, own: Input, value: float, power: int) -> None:
+def _unconverted(f: Examination, entry: Input, value: float, power: int) -> None:
     """That the formulas take an input as a value that is so many powers of ten off.
 
     If its label has a unit, accused is the cell that should convert it, or the formulas that read
     it; else the input itself.
     """
-    assert own.place is not None
-    expected: float | None = scaled(own.si, Fraction(10) ** -power / own.factor)
-    cells, text = [own.place], f"the formulas take {title(own.role)} as {quantity(value, own.role)}"
-    text = f"{text}, {times_too(power)}"
+    assert entry.place is not None
+    expected: float | None = scaled(entry.si, Fraction(10) ** -power / entry.factor)
+    cells, taken = [entry.place], f"{quantity(value, entry.role)}, {times_too(power)}"
+    text = f"the formulas take {title(entry.role)} as {taken}"
     readers = [
         place
         for place in sorted(f.read | f.table.places.keys(), key=f.rank)
-        if own.place in (area.corner for area in f.calculation.areas(place))
+        if entry.place in (area.corner for area in f.calculation.areas(place))
     ]
-    if own.unit and readers:
-        text = f"{text}: {address(own.place)} is in {own.unit}"
+    if entry.unit and readers:
+        text = f"{text}: {address(entry.place)} is in {entry.unit}"
         lone = (place for place in readers if len(f.calculation.areas(place)) == 1)
         converting = (p for p in lone if near(f.calculation.number(p) or 0.0, value))
         columns = {place: f.table.places.get(place, ("",))[0] for place in readers}
         cells = [place for place in readers if columns[place] == columns[readers[0]]]
         expected = None
         if place := next(converting, None):
-            cells, expected = [place], own.si
-    change = _changed(own.role, value, 10.0**power)
+            cells, expected = [place], entry.si
+    change = _changed(entry.role, value, 10.0**power)
     f.add("unit", cells, expected, text, change=change)
 
 
@@ -205,7 +205,7 @@ def _has_power(f: Examination) -> bool:
 
 def _derived(f: Examination) -> None:
     """Mass, diameter and resistance as the workbook has them, against what they rest on."""
-    known = {own.role: own for own in (*f.unread, *f.inputs.values())}
+    known = {entry.role: entry for entry in (*f.unread, *f.inputs.values())}
     spoilt = any(difference.change for difference in f.differences)
     rows, stated = replace(f.case, own_mass=None, own_diameter=None), f.intended
     factors = [known[name].si for name in RESTS_ON["resistance"] if name in known]
@@ -371,64 +371,66 @@ def _other_inputs(f: Examination) -> None:
     report, density = report_inputs(), f.inputs["particle_density"]
     lone_mass = density.how == "follows" and not near(density.si, report["particle_density"][0])
     off = {
-        role: own
-        for role, own in f.inputs.items()
-        if role in report and own.how not in ("report", "assumed", "follows")
-        if getattr(f.intended, role, own.si) == own.si
+        role: entry
+        for role, entry in f.inputs.items()
+        if role in report and entry.how not in ("report", "assumed", "follows")
+        if getattr(f.intended, role, entry.si) == entry.si
         if role != "mass" or lone_mass
-        if not any(math.isclose(own.si, value, rel_tol=1e-12) for value in report[role])
+        if not any(math.isclose(entry.si, value, rel_tol=1e-12) for value in report[role])
     }
-    for role, own in off.items():
-        alike = [value for value in report[role] if power_of_ten(own.si / value) is not None]
-        nearest = min(alike or report[role], key=lambda value: abs(value - own.si))
-        text = f"{title(role)} is {quantity(own.si, role)}, in the report {quantity(nearest, role)}"
+    for role, entry in off.items():
+        alike = [value for value in report[role] if power_of_ten(entry.si / value) is not None]
+        nearest = min(alike or report[role], key=lambda value: abs(value - entry.si))
+        value, usual = quantity(entry.si, role), quantity(nearest, role)
+        text = f"{title(role)} is {value}, in the report {usual}"
         if role == "target_density":
             text += ", inferred, since the report prints none"
         for name, values in report.items():
-            if INPUTS[name] == INPUTS[role] and any(near(own.si, value) for value in values):
-                text += f"; {quantity(own.si, role)} is {title(name)} there"
+            if INPUTS[name] == INPUTS[role] and any(near(entry.si, x) for x in values):
+                text += f"; {value} is {title(name)} there"
         kind, change = "other input", None
-        power = power_of_ten(own.si / nearest) if len(off) == 1 else None
+        power = power_of_ten(entry.si / nearest) if len(off) == 1 else None
         if power and between_units(power, role, surely=True):
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
-            change = _changed(role, own.si, own.si / nearest)
-            f.intended = f.intended.with_input(role, nearest, nearest / own.si)
-        place = own.place or f.table.place("depth", 1)
-        solved = own.si if own.place is None else None
-        f.add(kind, [place], scaled(nearest, 1 / own.factor), text, solved, change)
+            change = _changed(role, entry.si, entry.si / nearest)
+            f.intended = f.intended.with_input(role, nearest, nearest / entry.si)
+        place = entry.place or f.table.place("depth", 1)
+        solved = entry.si if entry.place is None else None
+        f.add(kind, [place], scaled(nearest, 1 / entry.factor), text, solved, change)
 
 
 def _typed_inputs(f: Examination) -> None:
     """Inputs whose value stands in formulas that do not read their cell."""
-    for own in f.unread:
-        used = f.inputs.get(own.role)
+    for entry in f.unread:
+        used = f.inputs.get(entry.role)
         if used is None or used.place or used.how == "follows":
             continue  # its cell, or those that it follows from, are known
-        if own.place is None or min(used.si, own.si) <= 0:
+        if entry.place is None or min(used.si, entry.si) <= 0:
             continue
-        if own.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
+        if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
-        if not math.isclose(used.si, own.si, rel_tol=1e-6):
-            here, there = (quantity(value, own.role) for value in (own.si, used.si))
-            text = f"{title(own.role)} is {here} here, but the rows take {there}"
-            change = _changed(own.role, used.si, used.si / own.si)
-            f.add("typed constant", [own.place], None, text, change=change)
-            f.intended = f.intended.with_input(own.role, own.si, own.si / used.si)
+        if not math.isclose(used.si, entry.si, rel_tol=1e-6):
+            here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
+            text = f"{title(entry.role)} is {here} here, but the rows take {there}"
+            change = _changed(entry.role, used.si, used.si / entry.si)
+            f.add("typed constant", [entry.place], None, text, change=change)
+            f.intended = f.intended.with_input(entry.role, entry.si, entry.si / used.si)
     accused = f.accused
     columns = {title(role): (role, f.cells(role, 0)) for role in f.table.lines}
     columns |= {
         f"the column of {address(line.cells[0])}": ("", line.cells) for line in f.table.helpers
     }
-    for own, (column, (role, places)) in product((*f.unread, *f.inputs.values()), columns.items()):
-        if own.place is None:
+    stated = (*f.unread, *f.inputs.values())
+    for entry, (column, (role, places)) in product(stated, columns.items()):
+        if entry.place is None:
             continue
         cells = [place for k, place in enumerate(places)
-                 if place not in accused and _typed_in(f, own, role, k, place)]  # fmt: skip
+                 if place not in accused and _typed_in(f, entry, role, k, place)]  # fmt: skip
         # A number in a few formulas of many is one of their own, such as the row's.
         if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
             formula = f.calculation.book[cells[0]].formula
-            where = address(own.place, with_sheet=own.place[0] != cells[0][0])
-            text = f"{title(own.role)} is typed into {column}: a change of {where} is lost"
+            where = address(entry.place, with_sheet=entry.place[0] != cells[0][0])
+            text = f"{title(entry.role)} is typed into {column}: a change of {where} is lost"
             f.add("typed constant", cells, where, text, formula)
 
 
@@ -453,27 +455,27 @@ def _texts(f: Examination) -> None:
         f.add("typed number", [place], float(text), says, repr(text))
 
 
-def _typed_in(f: Examination, own: Input, role: str, k: int, place: Position) -> bool:
+def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, and does not read the input's cell."""
-    formula, value = f.calculation.formulas.get(place), f.calculation.number(own.place)
+    formula, value = f.calculation.formulas.get(place), f.calculation.number(entry.place)
     if formula is None:
         # The impact velocity typed into the first row, while its own cell is read by nothing.
-        first = own.role == "velocity" and role.startswith("velocity") and k <= 1
+        first = entry.role == "velocity" and role.startswith("velocity") and k <= 1
         number = f.rows.columns[role].get(k) if first else None
-        return own in f.unread and number is not None and near(number, own.si)
-    if not formula.literals or value is None or own.role == "beta":
+        return entry in f.unread and number is not None and near(number, entry.si)
+    if not formula.literals or value is None or entry.role == "beta":
         return False
-    if own.role == "stop_velocity":
+    if entry.role == "stop_velocity":
         pairs = pairwise(piece.text for piece in formula.pieces)
         typed = any(sign in ("<", "<=", ">", ">=") and to == f"{value:g}" for sign, to in pairs)
     else:
-        values = {own.si, value} | ({value / 2, own.si / 2} if own.role == "step" else set())
+        values = {entry.si, value} | ({value / 2, entry.si / 2} if entry.role == "step" else set())
         typed = any(
             near(number, wanted) and not _plain(wanted)
             for wanted, number in product(values, formula.literals)
         )
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
-    return typed and all(cell != own.place for cell in read)
+    return typed and all(cell != entry.place for cell in read)
 
 
 def _plain(value: float) -> bool:
@@ -502,15 +504,15 @@ def _scheme(f: Examination) -> None:
     # Without a column for the deceleration, the brake is known by the velocity that it makes.
     parts = ("advance", "brake", "end") if "deceleration" in f.table.lines else ("advance", "brake")
     for part in parts:
-        own, *others = KNOWN[part]
-        shares = {own: f.share(part, own)}
-        if shares[own] < 0.9:
+        published, *others = KNOWN[part]
+        shares = {published: f.share(part, published)}
+        if shares[published] < 0.9:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         # Where formulas of some rows are right, those that are not are found one by one.
         line = f.line(part)
-        is_mixed = _MIXED <= shares[own] < shares[best] and any(irregular(line, f.table))
-        if is_mixed or ((best != own or shares[best] < 0.5) and _is_explained(f, part)):
+        is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, f.table))
+        if is_mixed or ((best != published or shares[best] < 0.5) and _is_explained(f, part)):
             continue
         if shares[best] < 0.5:
             unknown.append(part)
@@ -559,26 +561,26 @@ def _named(f: Examination) -> None:
 def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     area = wrong_area(f) if part == "brake" else None
-    own = area[0] if area else f.line(part)
+    column = area[0] if area else f.line(part)
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(near(each, ratio) for each in ratios) < 0.5 * len(ratios):
         text = "these cells follow no scheme that this program knows"
-        return "other scheme", text if own in f.table.lines.values() else NO_CONTACT, own
+        return "other scheme", text if column in f.table.lines.values() else NO_CONTACT, column
     what, base, constant = "step", f.case.step, "the time step"
     if part == "brake":
         what, base, constant = "force", math.pi, "pi"
     if power := power_of_ten(ratio):
-        return "unit", f"every {what} is {times_too(power)}: a unit is not converted", own
-    for line in (own, *f.table.helpers):
+        return "unit", f"every {what} is {times_too(power)}: a unit is not converted", column
+    for line in (column, *f.table.helpers):
         formulas = [f.calculation.formulas.get(place) for place in line.cells]
         numbers = {abs(number) for formula in formulas if formula for number in formula.literals}
         if any(near(number / base, ratio) for number in numbers):
             return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
-    return "other scheme", f"every {what} is {named} times that of the report's scheme", own
+    return "other scheme", f"every {what} is {named} times that of the report's scheme", column
 
 
 def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
@@ -682,12 +684,12 @@ def _effects(f: Examination) -> None:
     if run["velocity_final"].get(steps, math.inf) < f.intended.stop_velocity:
         f.right_depth = run["depth"][steps]
     for role, column in f.rows.columns.items():
-        for k, own in column.items() if role in run else ():
+        for k, value in column.items() if role in run else ():
             right = run[role].get(k)
             if right is None:
                 f.differing += k > steps
             else:
-                f.differing += abs(own - right) > 1e-9 * abs(right)
+                f.differing += abs(value - right) > 1e-9 * abs(right)
     if not stops_elsewhere(f):
         steps = f.table.steps
     with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)

@@ -82,12 +82,12 @@ def _ways(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> Iterator[dict[Cel
     yield {(r, c): (rows[r], columns[c]) for r, c in a if r in rows and c in columns}
     yield {cell: cell for cell in a}
     for axis in (1, 0):
-        own, lines = (_by(cells, itemgetter(axis)) for cells in (a, b))
+        before, after = (_by(cells, itemgetter(axis)) for cells in (a, b))
         yield {
             cell: there
-            for line in own.keys() & lines.keys()
+            for line in before.keys() & after.keys()
             for cell, there in _matched(
-                {c: a[c] for c in own[line]}, {c: b[c] for c in lines[line]}, 0
+                {c: a[c] for c in before[line]}, {c: b[c] for c in after[line]}, 0
             ).items()
         }
 
@@ -124,10 +124,10 @@ def _elsewhere(
     """
     blocks, reserved = touching(left)[:_MAX_BLOCKS], set(numbers.values())
     number = {cell: k for k, block in enumerate(blocks) for cell in block}
-    own, new = _by(number.keys() - numbers.keys(), left.__getitem__), _by(free, free.__getitem__)
+    gone, new = _by(number.keys() - numbers.keys(), left.__getitem__), _by(free, free.__getitem__)
     votes: Counter[tuple[int, Cell]] = Counter()  # for a block and how far it moved
-    for what in own.keys() & new.keys():
-        a, b = own[what], new[what]
+    for what in gone.keys() & new.keys():
+        a, b = gone[what], new[what]
         for old, there in (*zip(a, b, strict=False), *zip(a[::-1], b[::-1], strict=False)):
             votes[number[old], (there[0] - old[0], there[1] - old[1])] += old != there
     pairs, tries = dict[Cell, Cell](), Counter[int]()
@@ -170,9 +170,9 @@ def _matched(
     a, b = list(old), list(new)
     lines = [old[i] for i in a], [new[i] for i in b]
     start = _alike_first(*lines)
-    end = min(_alike_first(*(own[::-1] for own in lines)), min(len(a), len(b)) - start)
+    end = min(_alike_first(*(line[::-1] for line in lines)), min(len(a), len(b)) - start)
     pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
-    gone, come = (own[start : len(own) - end] for own in lines)
+    gone, come = (line[start : len(line) - end] for line in lines)
     between: Iterable[tuple[str, int, int, int, int]] = [("replace", 0, len(gone), 0, len(come))]
     if len(gone) + len(come) <= most:
         between = SequenceMatcher(None, gone, come).get_opcodes()

@@ -52,11 +52,11 @@ def misread(tables: Sequence[Examination]) -> None:
             continue
         if result.where == "beyond" and len(tables) == 1:
             continue  # it may be another number on purpose
-        f, own = read[0], said.get(place, {})
+        f, named = read[0], said.get(place, {})
         follows = any(area.corner in wrong for area in f.table.sources(place))
         if f.ends and not stops_elsewhere(f) and not follows:
-            meant = [g for g in tables if all(_has(g, *each) for each in own.items())]
-            unlike = next((role for role, number in own.items() if not _has(f, role, number)), None)
+            meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
+            unlike = next((role for role in named if not _has(f, role, named[role])), None)
             if _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f):
                 wrong.add(place)
 
@@ -83,8 +83,8 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     wanted = meant.table.place("depth", meant.table.steps)
     shown = address(wanted, wanted[0] != place[0])
     if row is not None and unlike and meant is not f:
-        own, right = (quantity(_number(g, unlike), unlike) for g in (f, meant))
-        text = f"{what} reads the table where {title(unlike)} is {own}; its label says {right}"
+        here, right = (quantity(_number(g, unlike), unlike) for g in (f, meant))
+        text = f"{what} reads the table where {title(unlike)} is {here}; its label says {right}"
         f.add("odd formula", [place], shown, text, formula)
     elif row not in (None, last):
         text = f"{what} reads row {row} of the table, not {last}, its last"
@@ -130,18 +130,18 @@ def _said(
     for label, group in groups.items():
         beside = {result.place: _numbers_beside(values, result) for result in group}
         for role in sorted({role for numbers in beside.values() for role in numbers}):
-            own = {place: numbers[role] for place, numbers in beside.items() if role in numbers}
-            if all(any(_has(f, role, number) for f in tables) for number in own.values()):
-                for place, number in own.items():
+            named = {place: numbers[role] for place, numbers in beside.items() if role in numbers}
+            if all(any(_has(f, role, number) for f in tables) for number in named.values()):
+                for place, number in named.items():
                     said[place][role] = number
         listed = [tuple(said[place].items()) for place in beside if place in said]
         if len(set(listed)) < max(len(listed), 2):
             for place in beside:
                 said.pop(place, None)
-        named, number = number_in(str(values[label]))
+        role_named, number = number_in(str(values[label]))
         for result in group:
-            if named and (result.where == "first" or result.place in said):
-                said[result.place][named] = number
+            if role_named and (result.where == "first" or result.place in said):
+                said[result.place][role_named] = number
     return said
 
 
@@ -163,13 +163,13 @@ def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[st
             roles = frozenset({role}) if role else roles
         if len(roles) == 1 and isinstance(value, float) and math.isfinite(value):
             numbers[next(iter(roles))].add(value)
-    return {role: own.pop() for role, own in numbers.items() if len(own) == 1}
+    return {role: values.pop() for role, values in numbers.items() if len(values) == 1}
 
 
 def _has(f: Examination, role: str, number: float) -> bool:
     """Whether a number is an input of a table, in any unit."""
-    own = _number(f, role)
-    return own > 0 and power_of_ten(number / own) is not None
+    value = _number(f, role)
+    return value > 0 and power_of_ten(number / value) is not None
 
 
 def _number(f: Examination, role: str) -> float:

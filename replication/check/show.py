@@ -104,8 +104,8 @@ def _verdict(check: Check) -> str:
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
     for f in check.examinations:
         if (depths := _apart(f)) is not None:
-            own, right = (f"{depth * 1e6:.7g} um" for depth in depths)
-            return f"{sentence}; the final depth is {own}, and should be {right}."
+            reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
+            return f"{sentence}; the final depth is {reached}, and should be {right}."
     if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
         tables = "the table ends" if len(check.examinations) == 1 else "every table ends"
         return f"{sentence}; {tables} at the right depth all the same."
@@ -114,20 +114,20 @@ def _verdict(check: Check) -> str:
 
 def _apart(f: Examination) -> tuple[float, float] | None:
     """The final depth and what it should be, where these differ."""
-    own, right = f.final_depth, f.right_depth
-    if own is None or right is None or not f.ends or abs(own - right) <= 1e-9 * abs(right):
+    reached, right = f.final_depth, f.right_depth
+    if reached is None or right is None or not f.ends or abs(reached - right) <= 1e-9 * abs(right):
         return None
-    return own, right
+    return reached, right
 
 
 def _depth(f: Examination) -> Record:
     """The final depth, what it should be, and the one difference that alone explains it, if any."""
     explains = None
     if (depths := _apart(f)) is not None:
-        own, right = depths
-        effects = [(abs(d.effect - own), d) for d in f.differences if d.effect is not None]
+        reached, right = depths
+        effects = [(abs(d.effect - reached), d) for d in f.differences if d.effect is not None]
         off, nearest = min(effects, key=lambda entry: entry[0], default=(0.0, None))
-        if nearest and off < 0.05 * abs(own - right):
+        if nearest and off < 0.05 * abs(reached - right):
             explains = address(nearest.place, True)
     return {"found": f.final_depth, "expected": f.right_depth, "explained_by": explains,
             "differing": f.differing}  # fmt: skip
@@ -148,11 +148,11 @@ def _taken(f: Examination) -> Record:
             for role, line in table.lines.items()
         },
         "inputs": {
-            role: {"value": own.si, "unit": INPUTS[role],
-                   "cell": address(own.place, True) if own.place else None,
-                   "label": own.label or None, "by": own.how}
+            role: {"value": entry.si, "unit": INPUTS[role],
+                   "cell": address(entry.place, True) if entry.place else None,
+                   "label": entry.label or None, "by": entry.how}
             for role in INPUTS
-            if (own := f.inputs.get(role)) is not None
+            if (entry := f.inputs.get(role)) is not None
         },
     }  # fmt: skip
 
@@ -258,9 +258,9 @@ def _table(taken: Record) -> Iterator[str]:
         (name, column["cells"], f"in {column['unit']}", _by(column["by"], column["head"]))
         for name, column in taken["columns"].items()
     ] + [
-        (name, safe(own["cell"] or "-", 40), with_unit(f"{own['value']:.10g}", own["unit"]),
-         _by(own["by"], own["label"]))
-        for name, own in taken["inputs"].items()
+        (name, safe(entry["cell"] or "-", 40), with_unit(f"{entry['value']:.10g}", entry["unit"]),
+         _by(entry["by"], entry["label"]))
+        for name, entry in taken["inputs"].items()
     ]  # fmt: skip
     yield from aligned([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries])
 

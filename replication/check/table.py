@@ -107,8 +107,8 @@ class Line:
 
     def overlaps(self, another: "Line") -> bool:
         """Whether a cell is in both."""
-        own, its = ((line.sheet, line.number, line.across) for line in (self, another))
-        return own == its and self.first <= another.last and another.first <= self.last
+        here, there = ((line.sheet, line.number, line.across) for line in (self, another))
+        return here == there and self.first <= another.last and another.first <= self.last
 
     def at(self, at: int) -> float | None:
         """The number in a row, or column, of the sheet."""
@@ -166,10 +166,10 @@ class Line:
             text = self.calculation.values.get(self.place(at), "")
             if not isinstance(text, str):
                 break  # a number above, after a gap, belongs to something else
-            own = is_unit(text) if text.strip() else None
-            if own and unit is None:
-                unit, place = own, self.place(at)
-            elif text.strip() and not own:
+            named_unit = is_unit(text) if text.strip() else None
+            if named_unit and unit is None:
+                unit, place = named_unit, self.place(at)
+            elif text.strip() and not named_unit:
                 if unit is None and (unit := unit_in(text)):
                     place = self.place(at)
                 return replace(self, head=text.strip(), unit=unit, unit_place=place)
@@ -227,7 +227,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
         values = {p: calculation.values.get(place) for p, place in places.items()}
         used = sorted({at for (_, at), value in values.items() if value is not None})
         blank = _left_out(Line(calculation, sheet, across), used, places)
-        numbers: dict[int, dict[int, float | None]] = {}
+        by_line: dict[int, dict[int, float | None]] = {}
         for (number, at), value in values.items():
             usable = value if isinstance(value, float) and math.isfinite(value) else None
             # An error is part of a line that has gone wrong, and so is the text that it comes from.
@@ -236,12 +236,12 @@ def lines(calculation: Calculation) -> Iterator[Line]:
                 continue
             if usable is not None or calculation.error(place) or place in calculation.spoiling:
                 at -= sum(before < at for before in blank)
-                numbers.setdefault(number, {})[at] = usable
-        filled = Counter(at for line in numbers.values() for at in line)
-        for number, own in sorted(numbers.items()):
+                by_line.setdefault(number, {})[at] = usable
+        filled = Counter(at for numbers in by_line.values() for at in numbers)
+        for number, numbers in sorted(by_line.items()):
             line = Line(calculation, sheet, across, blank, number)
-            for first, last in _runs(sorted(own), filled, line):
-                run = tuple(own.get(at) for at in range(first, last + 1))
+            for first, last in _runs(sorted(numbers), filled, line):
+                run = tuple(numbers.get(at) for at in range(first, last + 1))
                 yield replace(line, first=first, values=run).headed()
 
 
@@ -261,8 +261,8 @@ def _left_out(
     stepped: set[int] = set()
     for number, here in places:
         if (before := gaps.get(here)) is not None:
-            own = replace(line, number=number)
-            if own.reads_cell(here, before) and own.reads_cell(before, before - 1):
+            stepping = replace(line, number=number)
+            if stepping.reads_cell(here, before) and stepping.reads_cell(before, before - 1):
                 stepped.update(range(before + 1, here))
     return tuple(sorted(stepped))
 
@@ -385,8 +385,8 @@ class Table:
         unit = named or next(filter(None, map(is_unit, texts)), None)
         measure = "1" if kind == "ratio" else "m"
         fits = unit is not None and same_dimension(unit, measure)
-        own = unit if fits else None
-        return Result("ratio" if kind == "ratio" else "depth", place, own, label, where)
+        shown = unit if fits else None
+        return Result("ratio" if kind == "ratio" else "depth", place, shown, label, where)
 
     def gives_depth(self, place: Position) -> bool:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
@@ -471,9 +471,9 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
             )
     taken = {line for table in chosen for line in table.lines.values()}
     chosen = [replace(t, helpers=tuple(h for h in t.helpers if h not in taken)) for t in chosen]
-    own = [table for table in chosen if not _viewed(table, chosen)]
+    independent = [table for table in chosen if not _viewed(table, chosen)]
     sheets = list(calculation.book.sheets)
-    return sorted(own, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
+    return sorted(independent, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
 
 
 def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
@@ -577,7 +577,7 @@ def _braking(brake: Line, speed: Line, later: int, close: float = _CLOSE) -> flo
 def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
     """How well a line would do in a role: 1 for its head, 1 for its values; more for --map."""
     named = (role in line.roles) * (3.0 if line.given else 1.0)
-    if line.roles and not any(own[:4] == role[:4] for own in line.roles):
+    if line.roles and not any(named_role[:4] == role[:4] for named_role in line.roles):
         return 0.0
     if role.startswith("velocity"):
         later = 1 if initial else -1

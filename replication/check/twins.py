@@ -31,11 +31,11 @@ def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, t
     told: dict[int, tuple[float, str]] = {}
     for (source, *_), numbers in alike.items():
         f = tables[numbers[0]]
-        own = f.inputs.get("flow_stress")
-        stress = own.si if own else report_inputs()["flow_stress"][0]
+        flow_stress = f.inputs.get("flow_stress")
+        stress = flow_stress.si if flow_stress else report_inputs()["flow_stress"][0]
         for cell, place in _idle(f, beside) if len(numbers) > 1 else ():
             resistance = cell.si * (stress if cell.role == "beta" else 1.0)
-            is_printed = any(near(resistance, own) for own in report_inputs()["resistance"])
+            is_printed = any(near(resistance, printed) for printed in report_inputs()["resistance"])
             # It belongs to the table to which it is nearest, compared with the cell that is read;
             # of several to the last, which was copied from the first.
             off = {
@@ -58,7 +58,7 @@ def _apart(place: Position, table: Table) -> int:
         return 10**6
     _, rows, columns = zip(*table.places, strict=True)
     pairs = ((place[1], rows), (place[2], columns))
-    return sum(max(min(own) - at, at - max(own), 0) for at, own in pairs)
+    return sum(max(min(numbers) - at, at - max(numbers), 0) for at, numbers in pairs)
 
 
 def _idle(f: Examination, beside: Sequence[Input]) -> Iterator[tuple[Input, Position]]:

@@ -145,8 +145,8 @@ def _mapped(
 def _named_line(given: str, where: str, area: Area, calculation: Calculation) -> Line:
     """The column or row that the user named."""
     across = area.top == area.bottom
-    alike = (own for own in lines(calculation) if (own.sheet, own.across) == (area.sheet, across))
-    blank = next((own.left_out for own in alike), ())
+    ways = {(line.sheet, line.across): line.left_out for line in lines(calculation)}
+    blank = ways.get((area.sheet, across), ())
     number = area.top if across else area.left
     line = Line(calculation, area.sheet, across, blank, number, given=given)
     cells = [(at, calculation.number(p)) for p in area.places() if (at := line.index(p))]
@@ -245,8 +245,8 @@ def _without_numbers(calculation: Calculation) -> Iterator[Difference]:
             cells = [place for place in below if place in calculation.formulas]
             if len(cells) > LEAST and {*map(calculation.number, cells)} == {None}:
                 says = f"below {quoted(text)} no formula gives a number: no table is found there"
-                own = Difference("not calculated", (cells[0],), None, None, says, (8,))
-                silent.setdefault(sheet, own)
+                difference = Difference("not calculated", (cells[0],), None, None, says, (8,))
+                silent.setdefault(sheet, difference)
     yield from silent.values()
 
 
@@ -278,10 +278,10 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
     case = _CASES[alike.index(True)]
     table_a1 = case == _CASES[0]
     for role, name in _HEADER.items():
-        own = f.derived.get(role) or f.inputs.get(role)
-        value = f.calculation.number(own.place) if own else None
-        if own and own.place and value is not None and (table_a1 or role != "resistance"):
-            yield _judged(name, own.place, Fraction(value) * own.factor)
+        entry = f.derived.get(role) or f.inputs.get(role)
+        value = f.calculation.number(entry.place) if entry else None
+        if entry and entry.place and value is not None and (table_a1 or role != "resistance"):
+            yield _judged(name, entry.place, Fraction(value) * entry.factor)
     for k in range(_ROWS if table_a1 else 0):
         for role, column in f.rows.columns.items():
             name = f"a1-{role.replace('_', '-')}-{k}"
@@ -312,9 +312,9 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
 def _is_another_ratio(f: Examination, place: Position) -> bool:
     """Whether an X/R that does not follow from a table may be another one that the report has."""
     value = Fraction(f.calculation.number(place) or 0.0)
-    numbers = (own for own in load().claims.values() if own.printed and own.unit == "1")
-    printed = [own for own in numbers if "X/R" in own.title]
-    return place in f.calculation.formulas or any(own.target().contains(value) for own in printed)
+    numbers = (claim for claim in load().claims.values() if claim.printed and claim.unit == "1")
+    printed = (claim.target() for claim in numbers if "X/R" in claim.title)
+    return place in f.calculation.formulas or any(each.contains(value) for each in printed)
 
 
 def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
