@@ -317,15 +317,26 @@ def _examined(
     """A table with these cells as inputs, its columns in the units that tie them together.
 
     If the deceleration is not what depth and velocity give in that unit, but in the one that its
-    head names, or in SI, then it is the velocities that are wrong.
+    head names, or in SI, then it is the velocities that are wrong. If it is with velocities in SI,
+    then it is the unit that the impact velocity's label names.
     """
     powers = _powers(table, chosen)
     tied = _solved_back(_with_inputs(table, chosen, pi, powers), feeding)
-    if "deceleration" in powers and tied.agreement(BRAKES) < 0.5:
-        powers = powers | {"deceleration": unit_power(table.lines["deceleration"].unit) or 0}
-        named = _solved_back(_with_inputs(table, chosen, pi, powers), feeding)
-        if named.agreement() >= 0.9:
-            return named
+    if tied.agreement(BRAKES) >= 0.5:
+        return tied
+    tries = []
+    if "deceleration" in powers:
+        named = unit_power(table.lines["deceleration"].unit) or 0
+        tries.append((chosen, powers | {"deceleration": named}))
+    if "velocity" in chosen and (power := powers[_speed(table)]):
+        entry, by = chosen["velocity"], Fraction(10) ** -power
+        entry = replace(entry, si=scaled(entry.si, by), factor=entry.factor * by)
+        in_si = {role: p if role == "time" else p - power for role, p in powers.items()}
+        tries.append(({**chosen, "velocity": entry}, in_si))
+    for inputs, units in tries:
+        examination = _solved_back(_with_inputs(table, inputs, pi, units), feeding)
+        if examination.agreement() >= 0.9:
+            return examination
     return tied
 
 

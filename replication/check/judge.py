@@ -65,6 +65,7 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
         drifting(f)
         _calibrate(f)
         _calibrate_step(f)
+        _calibrate_velocity(f)
         _derived(f)
     if meant:
         _repeated(f, *meant)
@@ -142,14 +143,27 @@ def _calibrate_step(f: Examination) -> None:
             _taken(f, entry, value, power)
 
 
+def _calibrate_velocity(f: Examination) -> None:
+    """An impact velocity that the rows take in another unit than its label says."""
+    entry = f.inputs["velocity"]
+    if entry.place and entry.unit and entry.factor != (factor := to_si(entry.unit)):
+        labelled = replace(entry, si=scaled(entry.si, factor / entry.factor), factor=factor)
+        f.inputs = {**f.inputs, "velocity": labelled}
+        f.intended = f.intended.with_input("velocity", labelled.si)
+        _taken(f, labelled, entry.si, power_of_ten(entry.si / labelled.si) or 0)
+
+
 def _taken(f: Examination, entry: Input, value: float, power: int) -> None:
     """That the rows take an input as a value so many powers of ten off: by a wrong label, or unit.
 
-    No fault where it has no unit, and might be another number.
+    The label is wrong if the value is nearer to the report's than what it says. No fault where it
+    has no unit, and might be another number.
     """
     factor = Fraction(10) ** power
     chosen = not entry.unit and not between_units(power, entry.role, surely=True)
-    if not chosen and not (entry.unit and any(near(value, x) for x in report_inputs()[entry.role])):
+    usual = report_inputs()[entry.role]
+    off, off_by_label = (min(abs(math.log(x / y)) for y in usual) for x in (value, entry.si))
+    if not chosen and not (entry.unit and off < off_by_label):
         _unconverted(f, entry, value, power)
         return
     f.inputs = {**f.inputs, entry.role: replace(entry, si=value, factor=entry.factor * factor)}
