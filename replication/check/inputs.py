@@ -398,8 +398,6 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed] or 0, _round(impact / start)}
     steps = [inputs["step"].si] if "step" in inputs else []
-    if step and named.get("time") is not None:
-        steps.append(step * 10.0 ** (named["time"] or 0))
     if step or move:
         steps.append((step or move) * 10.0 ** _thousands(report["step"][0] / (step or move)))
     steps = [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]
