@@ -97,7 +97,7 @@ class Audit(Known):
         """One claim, as data."""
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
-        own: Any = self._reading(claim, first) if first else _UNREAD
+        read: Any = self._reading(claim, first) if first else _UNREAD
         verdict = assessment.verdict
         fails = verdict in OPEN if first else verdict.is_failure
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
@@ -105,7 +105,7 @@ class Audit(Known):
         restates = claim.computation is not None and claim.computation.restates
         return r.filled(
             r.ClaimRecord,
-            *(claim, claim.place, own),
+            *(claim, claim.place, read),
             where=str(claim.place),
             quote=" ".join(claim.quote.split()),
             printed=claim.text,
@@ -117,9 +117,9 @@ class Audit(Known):
             error_in_last_digit=_error(claim, first),
             readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, own.computed),
+            assumes=wording.assumptions(self.judge, claim, read.computed),
             explanation=assessment.reason,
-            **self._worked(claim, own.computed),
+            **self._worked(claim, read.computed),
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
             figures=self._figures(claim),

@@ -149,7 +149,7 @@ def scatter(known: Known) -> list[r.Scatter]:
     laws = []
     for name, power in (("Eq. 1: mass alone", 1.5), ("drag on a sphere: mass and area", 0.5)):
         sizes = (size.inv_cdf(1 - share) for share in SHARES)
-        velocities = [impact.velocity * (size.mean / own) ** power for own in sizes]
+        velocities = [impact.velocity * (size.mean / diameter) ** power for diameter in sizes]
         laws.append((name, power * (size.stdev / size.mean) * impact.velocity, velocities))
     laws.append(("as stated: normal", stated.stdev, [stated.inv_cdf(share) for share in SHARES]))
     return [

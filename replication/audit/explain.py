@@ -419,8 +419,8 @@ _WORDS = ("one two three four five", "third half", "one-sixth one-fifth", "twice
 
 
 def _words(text: str) -> Iterator[str]:
-    own = text.lower()
-    others = (w for words in map(str.split, _WORDS) if own in words for w in words if w != own)
+    word = text.lower()
+    others = (w for words in map(str.split, _WORDS) if word in words for w in words if w != word)
     return (word.capitalize() if text[0].isupper() else word for word in others)
 
 
@@ -467,9 +467,9 @@ def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
             kind, mistaken = "number dropped", [""]
         elif token in _OPPOSITE:
             mistaken = [_OPPOSITE[token]]
-        elif own := written.get(token):
+        elif sign := written.get(token):
             mistaken = [symbol for symbol, meant in written.items()
-                        if meant != own and dimensions[meant] == dimensions[own]]  # fmt: skip
+                        if meant != sign and dimensions[meant] == dimensions[sign]]  # fmt: skip
         for instead in mistaken:
             edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):

@@ -136,8 +136,10 @@ class Evidence:
 
     def __init__(self, known: Known, finding: asserted.Finding) -> None:
         self.known, self.finding = known, finding
-        evidence = {name: own.formula for name, own in finding.evidence.items() if not own.over}
-        self.formulas = {**finding.where, **{name: own for name, own in evidence.items() if own}}
+        self.formulas = dict(finding.where)
+        for name, piece in finding.evidence.items():
+            if piece.formula and not piece.over:
+                self.formulas[name] = piece.formula
         self.value = cache(self._value)
 
     def __getitem__(self, name: str) -> float:
@@ -146,28 +148,28 @@ class Evidence:
 
     def _value(self, name: str) -> Value:
         """What stands for a name: a piece of evidence, as its keys say, or a name of a formula."""
-        own = self.finding.evidence.get(name)
+        piece = self.finding.evidence.get(name)
         if name in self.formulas:
             value: Fraction | float = self.calculated(self.formulas[name])
-            return bool(value > 0) if own is not None and own.is_outcome else value
-        if own is None:
+            return bool(value > 0) if piece is not None and piece.is_outcome else value
+        if piece is None:
             return self._named(name)
-        if own.over:
-            return self._least(own.formula, own.over)
-        if own.exact:
-            changed = {key: float(self.calculated(x)) for key, x in own.exact.items()}
+        if piece.over:
+            return self._least(piece.formula, piece.over)
+        if piece.exact:
+            changed = {key: float(self.calculated(x)) for key, x in piece.exact.items()}
             impact = case(self.known, 5, **changed)
             deep = depth.final_depth(**impact.motion)
-            return deep if same_dimension(own.unit, "m") else deep / impact.radius
-        if own.run:
-            return self._run(**own.run)
-        if own.verdicts:
+            return deep if same_dimension(piece.unit, "m") else deep / impact.radius
+        if piece.run:
+            return self._run(**piece.run)
+        if piece.verdicts:
             return all(
-                set(self._verdicts(pattern, to_builtins(own.under))) == {stated}
-                for pattern, stated in own.verdicts.items()
+                set(self._verdicts(pattern, to_builtins(piece.under))) == {stated}
+                for pattern, stated in piece.verdicts.items()
             )
-        if own.words:
-            return Fraction(" ".join(self.known.ledger.text.split()).count(own.words))
+        if piece.words:
+            return Fraction(" ".join(self.known.ledger.text.split()).count(piece.words))
         return _BESIDES[f"{self.finding.id}: {name}"](self)
 
     def _named(self, name: str) -> Value:
@@ -224,9 +226,9 @@ class Evidence:
 
     def _run(self, claim: str, row: str = "", scheme: str = "published", **inputs: str) -> float:
         """What the sheet gives for a claim in another row, by another scheme, of other inputs."""
-        own = self.known.ledger.claims[claim].resting_on(**inputs)
-        own = replace(own, row=int(self.value(row))) if row else own
-        return self.known.judge.answer(own, scheme=scheme)
+        computed = self.known.ledger.claims[claim].resting_on(**inputs)
+        computed = replace(computed, row=int(self.value(row))) if row else computed
+        return self.known.judge.answer(computed, scheme=scheme)
 
     def _verdicts(self, pattern: str, under: Mapping[str, object]) -> Iterator[str]:
         """The verdicts on all that is computed with such a name, or those under some conventions.
@@ -255,7 +257,7 @@ class Evidence:
 
     def record(self) -> r.FindingRecord:
         """The finding with its evidence, as asserted and as computed."""
-        evidence = [self._piece(name, own) for name, own in self.finding.evidence.items()]
+        evidence = [self._piece(*assertion) for assertion in self.finding.evidence.items()]
         return r.filled(
             r.FindingRecord,
             self.finding,
@@ -333,14 +335,14 @@ _PARTS: Mapping[str, Callable[[Known, str], Value]] = {
 # What has no formula
 
 
-def _order(own: Evidence, scheme: str) -> float:
+def _order(evidence: Evidence, scheme: str) -> float:
     """Observed order of the time-step error at 10 ns, from 0.2 to 0.1 ns, for beta = 5.
 
     So early no stop rule interferes.
     """
     errors = []
     for parts in (1, 2):
-        impact = case(own.known, 5, step=own["a-step"] / parts)
+        impact = case(evidence.known, 5, step=evidence["a-step"] / parts)
         row = sheet.run(impact, scheme).rows[50 * parts]
         assert row.velocity_final is not None
         behind = row.depth + row.velocity_final * impact.step / 2
@@ -348,28 +350,28 @@ def _order(own: Evidence, scheme: str) -> float:
     return math.log2(errors[0] / errors[1])
 
 
-def _first_difference(own: Evidence) -> Fraction:
+def _first_difference(evidence: Evidence) -> Fraction:
     """The first row in which the two schemes print another deceleration, to three digits."""
-    runs = (sheet.run(case(own.known, 5), scheme).rows for scheme in sheet.SCHEMES)
+    runs = (sheet.run(case(evidence.known, 5), scheme).rows for scheme in sheet.SCHEMES)
     for number, rows in enumerate(zip(*runs, strict=False)):
         if len({f"{row.deceleration:.2E}" for row in rows}) > 1:
             return Fraction(number)
     raise ValueError("the two schemes print the same decelerations in every row")
 
 
-def _middle_density(own: Evidence) -> Fraction:
+def _middle_density(evidence: Evidence) -> Fraction:
     """The least target density at which the drag at the middle velocity gives the depth."""
-    ledger = own.known.ledger
+    ledger = evidence.known.ledger
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
     function = holding(ledger.function(claim, centered=True), printed)
-    admitted = own.known.judge.inference(DENSITY, centered=True).outer.ends
+    admitted = evidence.known.judge.inference(DENSITY, centered=True).outer.ends
     return solve(function, DENSITY, admitted, claim.target()).outer[0][0]
 
 
-def _added(own: Evidence) -> float:
+def _added(evidence: Evidence) -> float:
     """The velocity after three rows of the sheet in which the accelerations are added."""
-    impact = case(own.known, 5)
+    impact = case(evidence.known, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     x, v = 0.0, impact.velocity
     for row in range(3):
@@ -378,11 +380,11 @@ def _added(own: Evidence) -> float:
     return v
 
 
-def _nearest(own: Evidence) -> Fraction:
+def _nearest(evidence: Evidence) -> Fraction:
     """The resistance on the grid that comes nearest to the observed depth, derived form."""
-    claim = own.known.ledger.claims["frank-zook-stainless"]
-    inputs = {key: own[name] for key, (name,) in claim.inputs.items()}
-    grid, observed = Fraction(own.value("grid")), own["observed-depth-ratio"]
+    claim = evidence.known.ledger.claims["frank-zook-stainless"]
+    inputs = {key: evidence[name] for key, (name,) in claim.inputs.items()}
+    grid, observed = Fraction(evidence.value("grid")), evidence["observed-depth-ratio"]
 
     def distance(resistance: Fraction) -> float:
         given = inputs | {"resistance": float(resistance)}
@@ -391,22 +393,22 @@ def _nearest(own: Evidence) -> Fraction:
     return min((grid * k for k in range(1, 200)), key=distance)
 
 
-def _mean_deviation(own: Evidence) -> float:
+def _mean_deviation(evidence: Evidence) -> float:
     """Mean |(d/d_0)^-1/2 - 1| V for normally distributed d > 0, by the midpoint rule in d."""
-    normal = NormalDist(1.0, own["diameter-deviation"] / own["mean-diameter"])
+    normal = NormalDist(1.0, evidence["diameter-deviation"] / evidence["mean-diameter"])
     sizes = [(k + 0.5) / 10_000 for k in range(20_000)]
     mean = fmean((abs(d**-0.5 - 1) for d in sizes), weights=map(normal.pdf, sizes))
-    return mean * own["a1-initial-velocity"]
+    return mean * evidence["a1-initial-velocity"]
 
 
 _BESIDES: Mapping[str, Callable[[Evidence], Value]] = {
     "frank-zook-values: nearest": _nearest,
-    "two-schemes: order_plain": lambda own: _order(own, "published"),
-    "two-schemes: order_middle": lambda own: _order(own, "centered"),
+    "two-schemes: order_plain": partial(_order, scheme="published"),
+    "two-schemes: order_middle": partial(_order, scheme="centered"),
     "two-schemes: middle_density": _middle_density,
     "two-schemes: row": _first_difference,
     "table-columns: plus": _added,
     "equation-1-scatter: drag_exact": _mean_deviation,
-    "wrong-reference: stress": lambda own: "Sigma" in own.known.ledger.printed_text("eq1"),
+    "wrong-reference: stress": lambda e: "Sigma" in e.known.ledger.printed_text("eq1"),
 }
 """The evidence that takes a function of its own, by the finding and its name there."""

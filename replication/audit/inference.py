@@ -40,19 +40,19 @@ class Inference:
         self._narrowed, self._admitted = cache(self._narrow), cache(self._bounds)
         self.each: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
-            own = claim.resting_on(mass=self.entry.mass) if by_mass else claim
-            printed = {key: ledger.value(key) for key in own.entries if key != name}
-            function = holding(ledger.function(own, centered=centered), printed)
+            resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
+            printed = {key: ledger.value(key) for key in resting.entries if key != name}
+            function = holding(ledger.function(resting, centered=centered), printed)
             self.each[claim.id] = solve(function, name, self.entry.search, claim.target())
         self.agreeing = _agreeing(self.each)
         self.odd = tuple(claim for claim in self.each if claim not in self.agreeing)
         serving = [self.each[claim] for claim in self.agreeing]
-        outer = _intersection([self.entry.search], *(own.outer for own in serving))
+        outer = _intersection([self.entry.search], *(solutions.outer for solutions in serving))
         self.outer = Interval(outer[0][0], outer[-1][1])
         self.inner = Interval.point(ledger.value(name))
         if serving:
-            self.inner = Interval(*_intersection(*(own.inner for own in serving))[0])
-        self._joining = [ledger.claims[own] for own in (*self.entry.header, *self.agreeing)]
+            self.inner = Interval(*_intersection(*(solutions.inner for solutions in serving))[0])
+        self._joining = [ledger.claims[key] for key in (*self.entry.header, *self.agreeing)]
 
     @cached_property
     def inputs(self) -> set[str]:
@@ -114,8 +114,8 @@ class Inference:
             constraints = [(self._of_mass(function), target) for function, target in constraints]
             names = names - {entry.radius} | {entry.mass}
             box = {name: ends for name, ends in box.items() if name != entry.radius}
-        own = {name: self.rounded(name, convention) for name in sorted(names)}
-        return constraints, {**box, **own}
+        ranges = {name: self.rounded(name, convention) for name in sorted(names)}
+        return constraints, {**box, **ranges}
 
     def _of_mass(self, function: Function) -> Function:
         """A function of the radius as one of the particle's mass and density."""
@@ -123,8 +123,8 @@ class Inference:
 
         def by_mass(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             volume = entries[entry.mass] / entries[entry.density]
-            own = ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
-            return function(ar, **{**entries, entry.radius: own})
+            radius = ar.power(3 * volume / (4 * ar.pi), Fraction(1, 3))
+            return function(ar, **{**entries, entry.radius: radius})
 
         return by_mass
 

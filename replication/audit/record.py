@@ -368,12 +368,12 @@ class Record(_Part, frozen=True):
 _Filled = TypeVar("_Filled", bound=_Part)
 
 
-def filled(kind: type[_Filled], *sources: object, **own: Any) -> _Filled:
+def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
     """A part of the record; what is not given is what a source has under the same name."""
     for name in kind.__struct_fields__:
-        if name not in own:
-            own[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
-    return kind(**own)
+        if name not in given:
+            given[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
+    return kind(**given)
 
 
 def schema() -> dict[str, Any]:

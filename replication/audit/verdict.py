@@ -110,10 +110,10 @@ def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> b
     (name,) = claim.inputs["value"]
     # A choice or an exact number has one value; a bound or an "about" has its own interval.
     loose = claim.bound is not None or claim.kind == "approximation"
-    own = claim.target() if loose else claim.as_input(Convention())
+    interval = claim.target() if loose else claim.as_input(Convention())
     if name in changed:
-        return own.contains(changed[name])
-    return own.meets(ledger.claims[name].as_input(Convention()))
+        return interval.contains(changed[name])
+    return interval.meets(ledger.claims[name].as_input(Convention()))
 
 
 class Judge:
@@ -179,7 +179,7 @@ class Judge:
     def answer(self, claim: Claim, name: str = "", scheme: str = "published") -> float:
         """What the models give for a claim at its inputs as printed, in SI."""
         computation = claim.computations[name]
-        inputs = {key: float(prod(map(self.value, own))) for key, own in claim.inputs.items()}
+        inputs = {key: float(prod(map(self.value, of))) for key, of in claim.inputs.items()}
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
         if computation.by_scheme:
             settings["scheme"] = scheme
@@ -189,9 +189,11 @@ class Judge:
         """Under every convention that makes a difference to the claim, the usual one first."""
         printed = self.printed(claim)
         for centered in (False, True) if claim.by_scheme else (False,):
-            own = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
+            inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
             at_print = self._range(claim, name, centered, printed)
-            everywhere = self._range(claim, name, centered, {**printed, **own}) if own else at_print
+            everywhere = at_print
+            if inferred:
+                everywhere = self._range(claim, name, centered, {**printed, **inferred})
             for rounding in Rounding:
                 convention, target = Convention(rounding, centered=centered), claim.target(rounding)
                 judged = partial(_judgement, claim, convention)
@@ -384,8 +386,8 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
     known = {**ledger.dimensions, **known}
     says = "both sides have the same dimensions"
     try:
-        own = [dimension(side, known) for side in ledger.sides[name]]
-        yield Check(says, all(unit == own[0] for unit in own))
+        units = [dimension(side, known) for side in ledger.sides[name]]
+        yield Check(says, all(unit == units[0] for unit in units))
     except (DimensionError, EquationError) as error:
         yield Check(f"{says}: {error}", holds=False)
 
@@ -395,15 +397,15 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
 
     def passing(claim: str, right: Mapping[str, Fraction]) -> list[Fraction]:
         """The values of a constant with which every check holds, another one put right."""
-        own = printed[claim]
+        number = printed[claim]
 
         def passes(value: Fraction) -> bool:
-            if value == own and not right:
+            if value == number and not right:
                 return holds
             text = ledger.printed_text(name, {**right, claim: value})
             return follows(ledger.misprint(name, text), name)
 
-        return list(filter(passes, sorted({*_USUAL, own, 2 * own, own / 2})))
+        return list(filter(passes, sorted({*_USUAL, number, 2 * number, number / 2})))
 
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]

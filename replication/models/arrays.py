@@ -214,8 +214,8 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
             name, problem = error.name, error.problem
             if name in numbers:  # its place in that input's own array
                 shape = np.shape(numbers[name])
-                own = zip(index[len(index) - len(shape) :], shape, strict=True)
-                index = tuple(i if size > 1 else 0 for i, size in own)
+                places = zip(index[len(index) - len(shape) :], shape, strict=True)
+                index = tuple(i if size > 1 else 0 for i, size in places)
             elif name != "the sheet":
                 problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
             raise InputError(name, problem, index) from None
@@ -236,8 +236,8 @@ def _each(function: Any, *values: Any) -> Any:
     import numpy as np
 
     first, *others = map(np.shape, values)
-    own = first[-1:] if "n" in (function.signature or "") else ()
-    shape = np.broadcast_shapes(first[: len(first) - len(own)], *others)
+    times = first[-1:] if "n" in (function.signature or "") else ()
+    shape = np.broadcast_shapes(first[: len(first) - len(times)], *others)
     weight = 20 if function.signature else 1  # sheets and histories, in final depths
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
@@ -247,9 +247,9 @@ def _each(function: Any, *values: Any) -> Any:
     import numba
 
     axis = shape.index(max(shape))
-    views = [np.broadcast_to(values[0], shape + own)]
+    views = [np.broadcast_to(values[0], shape + times)]
     views += [np.broadcast_to(value, shape) for value in values[1:]]
-    results = [np.empty(shape + own, kind) for kind in function.types[0].partition("->")[2]]
+    results = [np.empty(shape + times, kind) for kind in function.types[0].partition("->")[2]]
 
     def work(*parts: Any) -> None:
         function(*parts[: len(views)], out=parts[len(views) :])

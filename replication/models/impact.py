@@ -80,8 +80,8 @@ class Impact:
     def motion(self) -> dict[str, float]:
         """What Eq. 13 depends on: the arguments of `depth.final_depth`, in order."""
         names = ("velocity", "radius", "particle_density", "target_density")
-        own = {name: getattr(self, name) for name in names}
-        return own | {"resistance": self.target_resistance}
+        stated = {name: getattr(self, name) for name in names}
+        return stated | {"resistance": self.target_resistance}
 
     @property
     def diameter(self) -> float:

@@ -137,7 +137,7 @@ def _parts(record: Record) -> dict[str, Any]:
         "between": between,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
-        "sources": {name: own for name, own in sources.items() if own},
+        "sources": {name: records for name, records in sources.items() if records},
         "table": _table_a_1(groups["table-a-1"]),
         "power": measured(),
     }

@@ -126,7 +126,7 @@ def failing(record: r.Record) -> Table:
     names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
     rows = []
     for claim in claims:
-        values = {"": claim.computed} | {own.name: own.computed for own in claim.readings}
+        values = {"": claim.computed, **{r.name: r.computed for r in claim.readings}}
         texts = {name: f"{value:#.{significant(claim.printed)}g}"
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
@@ -162,12 +162,12 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
 def _back_solved(solved: Sequence[r.BackSolvedRecord]) -> Table:
     """A row for each input, a column for each reading."""
     rows = []
-    for entry in dict.fromkeys(item.entry for item in solved):
-        own = [item for item in solved if item.entry == entry]
-        value = measured(own[0].printed, own[0].unit)
-        search = f"{between(own[0].search, 4)}: {own[0].search_reason}"
-        rows.append((f"`{entry}`", value, *map(_needed, own), search))
-    readings = dict.fromkeys(item.reading for item in solved)
+    for entry in dict.fromkeys(record.entry for record in solved):
+        records = [record for record in solved if record.entry == entry]
+        value = measured(records[0].printed, records[0].unit)
+        search = f"{between(records[0].search, 4)}: {records[0].search_reason}"
+        rows.append((f"`{entry}`", value, *map(_needed, records), search))
+    readings = dict.fromkeys(record.reading for record in solved)
     heads = (f"needed, {reading or 'as printed'}" for reading in readings)
     caption = "One input changed, all others as printed: proven values that would give the number"
     return Table(caption, ("input", "printed", *heads, "searched"), rows)
@@ -181,14 +181,14 @@ def _needed(solved: r.BackSolvedRecord) -> str:
     return quantity(ends, solved.unit) + beyond
 
 
-def repairs(records: Iterable[r.RepairRecord], own: str = "") -> Table:
-    """The misprints that would give a number as printed; `own` is the id of its claim.
+def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
+    """The misprints that would give a number as printed; `claim` is its id.
 
     Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
     """
     rows = []
     for repair in records:
-        failing = ", ".join(f"`{name}`" for name in repair.failing if name != own) or "nothing"
+        failing = ", ".join(f"`{name}`" for name in repair.failing if name != claim) or "nothing"
         texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
