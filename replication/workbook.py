@@ -21,7 +21,7 @@ from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
 from replication.models.impact import Impact, particle_mass
-from replication.models.sheet import SCHEMES, Row, Sheet, check_scheme, deceleration, run
+from replication.models.sheet import Row, Sheet, check_scheme, deceleration, run
 from replication.text import with_unit
 from spreadsheets import cases, emit, sheets
 from spreadsheets.cases import CaseSheet, Input
@@ -147,8 +147,8 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
         for judged in claim.otherwise:
             if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
                 verdicts[claim.id] = judged.verdict
-        if scheme != SCHEMES[0] and ledger.claims[claim.id].by_scheme:
-            explanations[claim.id] = f"With the {SCHEMES[0]} scheme: {claim.explanation}"
+        if scheme != "published" and ledger.claims[claim.id].by_scheme:
+            explanations[claim.id] = f"With the published scheme: {claim.explanation}"
     counts = Counter(verdicts.values())
     return Findings(
         headline=record.headline,

@@ -191,11 +191,11 @@ class Audit(Known):
         if claim.kind != "remark":
             return []
         figures = []
-        for beta, (scheme, where) in product(comparison.BETAS, comparison.DRAG_AT.items()):
-            what, depths = f"beta = {beta}, drag at the {where} velocity", []
-            for name in ("a-step", "coarse-step"):
-                depths.append(sheet.run(case(self, beta, step=self[name]), scheme).final_depth)
-                means = f"final depth at {quantity(self.ledger.claims[name].shown, 'ns')}, {what}"
+        for beta, (name, scheme) in product(comparison.BETAS, sheet.SCHEMES.items()):
+            what, depths = f"beta = {beta}, drag at the {scheme.drag_at} velocity", []
+            for step in ("a-step", "coarse-step"):
+                depths.append(sheet.run(case(self, beta, step=self[step]), name).final_depth)
+                means = f"final depth at {quantity(self.ledger.claims[step].shown, 'ns')}, {what}"
                 figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
             change = 100 * (depths[1] / depths[0] - 1)
             figures.append(r.Figure(means=f"change, {what}", value=change, unit="percent"))

@@ -21,9 +21,6 @@ from replication.text import with_unit
 
 BETAS = (3, 5)
 
-DRAG_AT = {"published": "initial", "centered": "middle"}
-"""Which velocity of a row each scheme of the sheet takes the drag at."""
-
 
 def approaches(known: Known) -> list[r.Approach]:
     """Every approach to X/R [1] of the report, and one that prices the target's inertia."""

@@ -12,7 +12,7 @@ from replication.cases import inputs_of
 from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
-from replication.models.sheet import MAX_STEPS, Sheet, run
+from replication.models.sheet import MAX_STEPS, SCHEMES, Sheet, run
 from replication.text import aligned, number
 
 Budget = dict[str, float | None]
@@ -61,9 +61,6 @@ _PARTS = ("time_step", "stop_rule", "half_step", "rounding")
 
 # A ladder of steps
 
-ORDER = {"published": 1, "centered": 2}
-"""Of the time-step error; why, in `replication.models.sheet`."""
-
 SAFETY, CAUTION = 1.25, 3.0
 """Factors of the grid convergence index (Roache): for three levels and more whose observed order is
 within a tenth of the scheme's, and for others."""
@@ -100,12 +97,13 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     for step in steps:
         levels.append(_level(run(replace(impact, step=step), scheme), levels[-1:]))
     at_stop = motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity))
+    order, depths = SCHEMES[scheme].order, [level["depth"] for level in levels[-3:]]
     return {
         "inputs": inputs_of(impact),
         "scheme": scheme,
-        "nominal_order": ORDER[scheme],
+        "nominal_order": order,
         "levels": levels,
-        **extrapolated(steps[-3:], [level["depth"] for level in levels[-3:]], ORDER[scheme]),
+        **extrapolated(steps[-3:], depths, order),
         "exact": float(motion.final_depth),
         "exact_at_stop": float(at_stop),
     }
@@ -127,7 +125,7 @@ def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
         "warnings": list(warnings(sheet).values()),
         "order": order,
         "time_step_order": time_step_order,
-        "regime": regime(error, budget, time_step_order, ORDER[sheet.scheme]),
+        "regime": regime(error, budget, time_step_order, SCHEMES[sheet.scheme].order),
     }
 
 

@@ -19,7 +19,15 @@ from replication.models.impact import Impact, InputError, particle_mass
 if TYPE_CHECKING:
     import pandas as pd
 
-SCHEMES = ("published", "centered")
+
+class Scheme(NamedTuple):
+    """What a scheme is: the order of its time-step error, and at which velocity the drag is."""
+
+    order: int
+    drag_at: str
+
+
+SCHEMES = {"published": Scheme(1, "initial"), "centered": Scheme(2, "middle")}
 
 MAX_STEPS = 1_000_000
 """Beyond this a sheet is refused; Excel has 1,048,576 rows."""

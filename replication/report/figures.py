@@ -10,8 +10,8 @@ from html import escape
 from itertools import count
 from math import log10
 
-from replication.audit.comparison import DRAG_AT
 from replication.audit.record import Record
+from replication.models.sheet import SCHEMES
 from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
@@ -308,7 +308,7 @@ def _convergence(record: Record) -> _Plot:
         kind = shape if beta == greatest else f"hollow {shape}"
         plot.line(points, color)
         plot.marks(kind, color, points)
-        name = f"drag at the {DRAG_AT[scheme]} velocity, β = {beta:g}"
+        name = f"drag at the {SCHEMES[scheme].drag_at} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")

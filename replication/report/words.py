@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
-from replication.audit.comparison import DRAG_AT, SHARES
+from replication.audit.comparison import SHARES
 from replication.audit.verdict import OPEN
 from replication.cases import INPUTS
+from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
 
 if TYPE_CHECKING:
@@ -250,7 +251,7 @@ def ladders(record: r.Record) -> Table:
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
         rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
-    heads = (f"beta = {beta:g}, {DRAG_AT[scheme]} velocity" for beta, scheme in columns)
+    heads = (f"beta = {beta:g}, {SCHEMES[scheme].drag_at} velocity" for beta, scheme in columns)
     caption = "Final depth of the sheet [um], its error [nm], by the velocity that the drag takes"
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 

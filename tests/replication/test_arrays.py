@@ -99,7 +99,7 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -> None:
     # From two rows to hundreds, some that cross R, some below the stop velocity.
     ranges = ((0.5, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 2))
-    columns, scheme = drawn(count, *ranges), sheet.SCHEMES[centered]
+    columns, scheme = drawn(count, *ranges), list(sheet.SCHEMES)[centered]
     columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
     result = run_many(*columns, stop_velocity=0.9, scheme=scheme)
     for *row, x, k in zip(*(column.tolist() for column in (*columns, *result)), strict=True):

@@ -13,7 +13,7 @@ from replication.error import hard_cases, ladder
 from replication.error.ladder import exact_motion, split
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
-from replication.models.sheet import run
+from replication.models.sheet import SCHEMES, run
 
 SENSIBLE = st.builds(
     Impact,
@@ -42,11 +42,11 @@ def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: st
     assert abs(math.fsum(parts) - error) <= rounding
 
 
-@pytest.mark.parametrize("scheme", ladder.ORDER)
+@pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
 def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
     result = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
-    assert result["levels"][-1]["time_step_order"] == pytest.approx(ladder.ORDER[scheme], abs=0.02)
+    assert result["levels"][-1]["time_step_order"] == pytest.approx(SCHEMES[scheme].order, abs=0.02)
 
 
 def test_without_drag_the_published_scheme_is_second_order() -> None:
@@ -86,7 +86,7 @@ def test_what_governs_an_error_at_the_edges_of_the_regimes() -> None:
 
 
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
-@pytest.mark.parametrize("scheme", ladder.ORDER)
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
     result = ladder.step_for_digits(BETA_5, digits, scheme)
     rest = float(exact_motion(BETA_5).final_depth)

@@ -49,7 +49,7 @@ def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(impact: Impa
         before = row.velocity_final
 
 
-@given(IMPACTS, st.floats(0, 1), st.sampled_from(SCHEMES))
+@given(IMPACTS, st.floats(0, 1), st.sampled_from(list(SCHEMES)))
 def test_the_fewest_steps_are_no_more_than_are_taken(
     impact: Impact, stop: float, scheme: str
 ) -> None:
