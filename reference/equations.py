@@ -88,8 +88,8 @@ class _Reader:
     def error(self) -> EquationError:
         """That what comes next has no place there."""
         rest = self.text[self.tokens[self.at].end("space") :]
-        what = f"cannot read {rest!r}" if rest else "something is missing"
-        return EquationError(f"{what} at the end of {self.text!r}")
+        problem = f"cannot read {rest!r}" if rest else "something is missing"
+        return EquationError(f"{problem} at the end of {self.text!r}")
 
     def take(self, sign: str) -> bool:
         """Whether this sign comes next; it is then taken."""
@@ -256,8 +256,8 @@ def dimension(node: Node, units: Mapping[str, Dimension | Fraction]) -> Dimensio
 
     Raises DimensionError where a sum or an argument makes no sense.
     """
-    own: Dimension = evaluate(node, _Dimensions(), units)
-    return own
+    result: Dimension = evaluate(node, _Dimensions(), units)
+    return result
 
 
 class Notation(msgspec.Struct, frozen=True):

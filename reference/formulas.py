@@ -96,18 +96,18 @@ def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
 
 
 def _side(
-    own: Side, sides: Sides, equation: str, names: Names, ar: Any, known: Mapping[str, Any]
+    wanted: Side, sides: Sides, equation: str, names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
     """A side of an equation, or its slope, of the known values and those put in for its symbols."""
-    side = sides[equation][own.side]
-    put = {symbol: _value(text, names, ar, known) for symbol, text in own.put.items()}
+    side = sides[equation][wanted.side]
+    put = {symbol: _value(text, names, ar, known) for symbol, text in wanted.put.items()}
     values = {**known, **put}
-    if own.slope is None:
+    if wanted.slope is None:
         return evaluate(side, ar, values)
     duals = Duals(ar)
     numbers = {name: Dual(value) for name, value in values.items()}
-    numbers[own.slope] = duals.variable(values[own.slope], own.slope)
-    return evaluate(side, duals, numbers).slopes.get(own.slope, ar.number(0))
+    numbers[wanted.slope] = duals.variable(values[wanted.slope], wanted.slope)
+    return evaluate(side, duals, numbers).slopes.get(wanted.slope, ar.number(0))
 
 
 # Computations
@@ -187,8 +187,8 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
             yield Check(check.says, _is_so(check, sides[equation.id][check.side], ar.symbols))
             continue
         premises = {
-            key: _side(own, sides, own.equation, names, ar, ar.symbols)
-            for key, own in equation.premises.items()
+            key: _side(premise, sides, premise.equation, names, ar, ar.symbols)
+            for key, premise in equation.premises.items()
             if key in check.equals
         }
         printed = _side(check, sides, equation.id, names, ar, ar.symbols)

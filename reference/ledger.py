@@ -331,8 +331,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def equations(self) -> Mapping[str, Equation]:
         """The printed equations, by id."""
-        placed = (replace(own, place=place_of(self.text, own.quote)) for own in self.equation)
-        return {equation.id: equation for equation in placed}
+        return {
+            equation.id: replace(equation, place=place_of(self.text, equation.quote))
+            for equation in self.equation
+        }
 
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
@@ -351,7 +353,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
         equations = ((equation.id, equation.place) for equation in self.equations.values())
-        around = (name for name, own in equations if own.start <= place.start < own.end)
+        around = (name for name, whole in equations if whole.start <= place.start < whole.end)
         return replace(
             claim,
             given=claim.given and self.reasons[claim.given],
@@ -383,8 +385,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     @cached_property
     def _constants(self) -> Mapping[str, list[str]]:
-        within = [(claim.within, claim.id) for claim in self.claims.values()]
-        return {name: [own for e, own in within if e == name] for name in self.equations}
+        claims = self.claims.values()
+        return {name: [c.id for c in claims if c.within == name] for name in self.equations}
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
@@ -395,9 +397,11 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         place = self.equations[name].place
         at, text = place.start, ""
         for claim in map(self.claims.__getitem__, self.constants_of(name)):
-            own = constants.get(claim.id)
-            shown = claim.text if own is None else rf"\frac{{{own.numerator}}}{{{own.denominator}}}"
-            text += self.text[at : claim.place.start] + shown
+            text += self.text[at : claim.place.start]
+            if (value := constants.get(claim.id)) is None:
+                text += claim.text
+            else:
+                text += rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
             at = claim.place.end
         return text + self.text[at : place.end]
 
@@ -475,8 +479,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
-            own = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return compute(ar, {**own, **settings})
+            known = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
+            return compute(ar, {**known, **settings})
 
         return of_entries
 

@@ -258,15 +258,15 @@ class Place(msgspec.Struct, frozen=True):
 
 def place_of(text: str, quote: str, cell: str | None = None) -> Place:
     """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
-    before, own, after = re.split("[⟦⟧]", quote)
-    words = before + own + after
+    before, marked, after = re.split("[⟦⟧]", quote)
+    words = before + marked + after
     if (times := text.count(words)) != 1:
         raise ValueError(f"the report has {words!r} {times} times, not once")
     start = text.index(words) + len(before)
     section = next(name for at, name in reversed(_sections(text)) if at <= start)
     equation = next((name for at, end, name in _displays(text) if at <= start < end), None)
     line = text.count("\n", 0, start) + 1
-    return Place(start, start + len(own), line, section, equation, cell)
+    return Place(start, start + len(marked), line, section, equation, cell)
 
 
 @cache

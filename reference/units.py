@@ -96,8 +96,8 @@ def _unit(unit: str) -> tuple[Fraction, Dimension]:
         if match is None or match["name"] not in _UNITS:
             break
         power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
-        own, powers = _UNITS[match["name"]]
-        factor *= own**power
+        base, powers = _UNITS[match["name"]]
+        factor *= base**power
         dimension *= Dimension(tuple(map(Fraction, powers))) ** power
         at = match.end()
     if at < len(text) or not text.strip():
