@@ -29,21 +29,12 @@ _RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 }  # fmt: skip
 
 
-class Under(Entry, frozen=True, omit_defaults=True):
-    """What is given of a convention; a verdict is asked under all that have it."""
-
-    rounding: Rounding | None = None
-    choices_exact: bool | None = None
-    header_exact: bool | None = None
-    centered: bool | None = None
-
-
 class Assertion(Entry, frozen=True):
     """One piece of evidence: what its number is and how the computed one must stand to the text.
 
     `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
-    before one. Where it is "yes" or "no", a proof must have had that outcome. How it is computed is
-    said by the other keys, which the head of the file explains.
+    before one. Where it is "yes" or "no", a proof must have had that outcome. The other keys say
+    how it is computed; the head of the file explains them.
     """
 
     says: str
@@ -54,7 +45,9 @@ class Assertion(Entry, frozen=True):
     exact: Mapping[str, str] = {}
     run: Mapping[str, str] = {}
     verdicts: Mapping[str, str] = {}
-    under: Under = Under()
+    under: Mapping[
+        Literal["rounding", "choices_exact", "header_exact", "centered"], Rounding | bool
+    ] = {}
     words: str = ""
 
     @property
@@ -166,10 +159,9 @@ def expression(text: str) -> tuple[Node, set[str]]:
     names: dict[str, str] = {}
 
     def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
-        letter = ascii_uppercase[len(names)]
-        return (
-            f"\\{match[0]}" if match[0] in NAMED_FUNCTIONS else names.setdefault(match[0], letter)
-        )
+        if match[0] in NAMED_FUNCTIONS:
+            return f"\\{match[0]}"
+        return names.setdefault(match[0], ascii_uppercase[len(names)])
 
     line = re.sub(r"(?<![\w.-])(?:\d+-)?[a-z][\w:.-]*", written, text).replace("*", " ").strip()
     symbols = {letter: name for name, letter in names.items()}

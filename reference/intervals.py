@@ -31,13 +31,13 @@ class Span(Operators):
         return Span(-self.high, -self.low)
 
     def __add__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        low, high = _balls(other)
         return Span(self.low + low, self.high + high)
 
     __radd__ = __add__
 
     def __mul__(self, other: Number) -> "Span":
-        low, high = (other.low, other.high) if isinstance(other, Span) else (other, other)
+        low, high = _balls(other)
         if self.low >= _ZERO and low >= _ZERO:
             return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
