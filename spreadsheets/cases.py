@@ -83,9 +83,9 @@ class CaseSheet:
         """What the defined names of its results end with: "_low", "_low_coarse", or nothing."""
         return "" if self.slug == "case" else f"_{self.part}"
 
-    def claim(self, what: str) -> str:
-        """Where the report prints the "depth" or "ratio" of this case, if it is the report's."""
-        return f"{what}-beta-{self.beta}" if self.is_reports else ""
+    def claim(self, quantity: str) -> str:
+        """The claim that prints the "depth" or "ratio" of this case, if it is the report's."""
+        return f"{quantity}-beta-{self.beta}" if self.is_reports else ""
 
     def rules(self, cells: str) -> list[Rule]:
         """How cells look that say whether the run can be trusted."""
@@ -95,7 +95,7 @@ class CaseSheet:
     @property
     def words(self) -> dict[str, str]:
         """What the words of `sheets.toml` stand for in this case: names, cells and claims."""
-        own = self.is_reports and not self.coarse
+        claimed = self.is_reports and not self.coarse
         return {
             "slug": self.slug, "part": self.part, "of": self.of, "suffix": self.suffix,
             "sheet": self.name, "label": self.label, "beta": self.beta,
@@ -103,9 +103,9 @@ class CaseSheet:
             "not_longer": "IF(ISNUMBER(dt_s),dt_coarse<=dt_s,1=0)" if self.coarse else "1=0",
             **{column: f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}" for column in "ABDF"},
             "first": f"A{FIRST_ROW}",
-            "depth_claim": self.claim("depth") if own else "",
-            "ratio_claim": self.claim("ratio") if own else "",
-            "unclaimed": "" if own else "Appendix",
+            "depth_claim": self.claim("depth") if claimed else "",
+            "ratio_claim": self.claim("ratio") if claimed else "",
+            "unclaimed": "" if claimed else "Appendix",
             "fine_claim": self.claim("depth"),
             "resistance_claim": "a1-resistance" if self.slug == "high" else "",
         }  # fmt: skip
@@ -168,9 +168,10 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]
         named: dict[str, Input] = {}
         for case, (name, entry) in product(cases, entries.items()):
             if name not in left_out:
-                own = {"name": name, "unit": "1", **entry}
-                own = filled_in(tables()["units"][own["unit"]] | own, case.words)
-                named[own["name"]] = Input(**{**own, "limits": tuple(own["limits"])})
+                fields = {"name": name, "unit": "1", **entry}
+                fields = filled_in(tables()["units"][fields["unit"]] | fields, case.words)
+                fields["limits"] = tuple(fields["limits"])
+                named[fields["name"]] = Input(**fields)
         blocks[block] = [*named.values()]
     return blocks
 
@@ -243,7 +244,9 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
 def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """The sheet of one case: title with the live β, state of the run, notes, rows, results."""
     centered, top = case.scheme == "centered", FIRST_ROW - 2
-    columns = {c: x for c, x in tables()["rows"].items() if c != "H" or centered}
+    columns = dict(tables()["rows"])
+    if not centered:
+        del columns["H"]
     page = SheetPlan.begun(
         "of a case", case.name,
         scheme=case.scheme, drag=SCHEMES[case.scheme], rows=case.rows, most=MAX_ROWS,
@@ -301,16 +304,16 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     if centered:
         heads = {**heads, "G": entries["H"]["head"]}
 
-    def live(address: str, what: str, expression: str) -> None:
+    def live(address: str, key: str, expression: str) -> None:
         """A cell in the unit of what is printed there, and as it is: "6E-10" or "2.00E-10"."""
         claim = claims.get(address)
         shown = "0.00E+00" if claim is None or "." in claim.text else "General"
         unit = "m/s" if claim is None else claim.unit
-        cells[address] = formula(f"table.{what}", expression, shown=shown, unit=unit)
+        cells[address] = formula(f"table.{key}", expression, shown=shown, unit=unit)
 
-    for row, (what, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
+    for row, (key, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
         cells[f"A{row}"] = text(label)
-        live(f"B{row}", what, f"={symbol}".format_map(case.words))
+        live(f"B{row}", key, f"={symbol}".format_map(case.words))
     for column, head in heads.items():
         cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
     columns = {column: entries["H" if column == "G" else column] for column in heads}

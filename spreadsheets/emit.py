@@ -29,15 +29,15 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
 
     Raises ValueError unless `values` has exactly the keys of the plan and every number is finite.
     """
-    for what, keys in (
+    for problem, keys in (
         ("missing", plan.where.keys() - values.keys()),
         ("surplus", values.keys() - plan.where.keys()),
     ):
         if keys:
-            raise ValueError(f"{len(keys)} {what} value(s), the first is {min(keys)!r}")
+            raise ValueError(f"{len(keys)} {problem} value(s), the first is {min(keys)!r}")
     shown: dict[str, dict[str, Value]] = {}
     for sheet in plan.sheets:
-        own = shown[sheet.name] = {}
+        of_sheet = shown[sheet.name] = {}
         for address, cell in sheet.cells.items():
             number = cell.text if cell.number is None else cell.number
             value = values[cell.key] if cell.key else number
@@ -45,7 +45,7 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
                 where = f"{cell.key} ({sheet.name}!{address})"
                 raise ValueError(f"{where} is {value}: not a number a cell can hold")
             if cell.key or value != "":
-                own[address] = value
+                of_sheet[address] = value
     return shown
 
 
@@ -133,10 +133,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         # By itself, it searches each formula for functions newer than Excel 2010: half of the time.
         page._prepare_formula = lambda formula: formula[1:]
         _set_up(page, sheet)
-        own = shown[sheet.name]
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap)
-            _write_cell(page, address, cell, own.get(address, ""), look)
+            _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
             if cell.name:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.name, named) == -1:
@@ -151,7 +150,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     book.close()
     parts = _parts(file.getvalue())
     for start, pattern, words in _CORRECTIONS:
-        parts |= {n: re.sub(pattern, words, parts[n]) for n in parts if n.startswith(start)}
+        parts |= {
+            name: re.sub(pattern, words, parts[name]) for name in parts if name.startswith(start)
+        }
     return _sealed(parts)
 
 

@@ -215,8 +215,7 @@ class LibreOffice(Engine):
         return None
 
     def version(self) -> str:
-        told = self._run([str(office()), "--version"])
-        return _first(r"LibreOffice\S* (\S+)", told)
+        return _version_in(self._run([str(office()), "--version"]), r"LibreOffice\S* (\S+)")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         (cells,) = self._cells_of_each([path])
@@ -257,8 +256,8 @@ def _uno_python(soffice: str) -> str | None:
     return None
 
 
-def _first(pattern: str, told: str) -> str:
-    match = re.search(pattern, told)
+def _version_in(output: str, pattern: str) -> str:
+    match = re.search(pattern, output)
     return "of no known version" if match is None else match[1]
 
 
@@ -279,7 +278,7 @@ class Gnumeric(Engine):
         return "The command ssconvert is not installed: install the system package gnumeric."
 
     def version(self) -> str:
-        return _first(r"version '(.+)'", self._run(["ssconvert", "--version"]))
+        return _version_in(self._run(["ssconvert", "--version"]), r"version '(.+)'")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -359,14 +358,16 @@ def compare(
         wanted, got = expected.get(sheet, {}), found.get(sheet, {})
         for cell in dict.fromkeys([*wanted, *got]):
             # Engines cannot tell a blank cell from a formula that gives the empty text.
-            right, value = (None if (v := of.get(cell)) == "" else v for of in (wanted, got))
-            if right == value:  # TRUE, too, which LibreOffice hands out as 1.0
+            right, given = (
+                None if values.get(cell) == "" else values.get(cell) for values in (wanted, got)
+            )
+            if right == given:  # TRUE, too, which LibreOffice hands out as 1.0
                 continue
             distance = math.inf
-            if isinstance(right, float) and isinstance(value, float):
-                distance = abs(right - value)
+            if isinstance(right, float) and isinstance(given, float):
+                distance = abs(right - given)
             if distance > allowed.get((sheet, cell), 0.0):
-                differences.append(Difference(sheet, cell, right, value))
+                differences.append(Difference(sheet, cell, right, given))
     return differences
 
 

@@ -140,8 +140,8 @@ def read(path: Path) -> Book:
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             sealed = file.read(len(_SEALED)) == _SEALED
-        what = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
-        raise WorkbookError(f"{path}: {what}; give an .xlsx or .xlsm file without a password")
+        fault = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
+        raise WorkbookError(f"{path}: {fault}; give an .xlsx or .xlsm file without a password")
     with (
         TemporaryDirectory(prefix="coldspray-") as folder,
         _opened(_converted(path, Path(folder)), path) as reader,
@@ -238,16 +238,18 @@ class _Reader:
 
     def book(self) -> Book:
         root = self.relations("")
-        main = next((p for k, p in root.values() if k == "officeDocument"), "xl/workbook.xml")
+        main = next(
+            (part for kind, part in root.values() if kind == "officeDocument"), "xl/workbook.xml"
+        )
         tree, related = self.tree(main), self.relations(main)
-        strings = next((p for k, p in related.values() if k == "sharedStrings"), None)
+        strings = next((part for kind, part in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
         if strings in self.parts:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
         names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
         for sheet in tree.iterfind("{*}sheets/{*}sheet"):
-            identity = next(v for k, v in sheet.attrib.items() if k.endswith("}id"))
+            identity = next(sheet.attrib[key] for key in sheet.attrib if key.endswith("}id"))
             kind, part = related[identity]
             if kind == "worksheet":
                 cells = _Sheet(self, texts, self.tables(part))
@@ -276,13 +278,13 @@ class _Reader:
         if rels not in self.parts:
             return {}
         return {
-            r.attrib["Id"]: (
-                r.attrib["Type"].rpartition("/")[2],
+            relation.attrib["Id"]: (
+                relation.attrib["Type"].rpartition("/")[2],
                 # The part meant: "/" starts at the root, ".." goes up.
-                normpath(join("/", path.parent, r.attrib["Target"])).lstrip("/"),
+                normpath(join("/", path.parent, relation.attrib["Target"])).lstrip("/"),
             )
-            for r in self.tree(rels)
-            if r.attrib.get("TargetMode") != "External"
+            for relation in self.tree(rels)
+            if relation.attrib.get("TargetMode") != "External"
         }
 
     def tree(self, part: str, tree: "_Tree | None" = None) -> ET.Element:
@@ -354,8 +356,8 @@ class _Sheet:
             if not (0 < self.row <= LAST_ROW and 0 < self.column <= LAST_COLUMN):
                 raise WorkbookError(f"is damaged: no cell can be at {address!r}")
             kind, parts = cell.get("t", "n"), {_name(part): part for part in cell}
-            own = parts.get("f")
-            formula = None if own is None else self.formula(own)
+            element = parts.get("f")
+            formula = None if element is None else self.formula(element)
             if formula and self.tables:
                 formula = _THIS_ROW.sub(self.in_this_row, formula)
             value = self.value(kind, parts)
@@ -364,7 +366,7 @@ class _Sheet:
                 self.reader.formulas += formula is not None
                 if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
                     raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
-                array = own is not None and own.get("t") in ("array", "dataTable")
+                array = element is not None and element.get("t") in ("array", "dataTable")
                 self.cells[self.row, self.column] = Cell(formula, value, kind == "e", array)
 
     def formula(self, element: ET.Element) -> str | None:

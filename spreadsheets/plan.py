@@ -92,8 +92,8 @@ def unit_text(unit: str) -> Cell:
 def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
     """The text of a claim as the report prints it, with its unit where that is another."""
     claim = ledger.claims[name]
-    own = "" if claim.unit == unit else f" {written(claim.unit)}"
-    return text(f"{claim.shown}{own}".rstrip(), "printed", claim=name, **more)
+    claim_unit = "" if claim.unit == unit else f" {written(claim.unit)}"
+    return text(f"{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
 
 
 class Rule(NamedTuple):
@@ -146,7 +146,10 @@ def filled(text: str, words: Mapping[str, object]) -> str:
 
 def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
     """An entry of `sheets.toml` with all its texts filled; what is no text stays as it is."""
-    return {key: filled(x, words) if isinstance(x, str) else x for key, x in entry.items()}
+    return {
+        key: filled(value, words) if isinstance(value, str) else value
+        for key, value in entry.items()
+    }
 
 
 @dataclass(slots=True, kw_only=True)
@@ -227,8 +230,8 @@ class SheetPlan:
             for k in range(count):
                 key = f"{part}.{entry['key']}[{k}]" if "key" in entry else ""
                 if k in formulas:
-                    own = at_start if k == 0 and "start" in entry else look
-                    cell = formula(key, finish(formulas[k]), **own)
+                    look_here = at_start if k == 0 and "start" in entry else look
+                    cell = formula(key, finish(formulas[k]), **look_here)
                 elif not key:
                     cell = Cell(number=float(k), style="number")
                 elif not formulas:
@@ -294,21 +297,21 @@ class SheetPlan:
             pairs = product(cases, block.items())
             lines = {key.format_map(words): (words, line) for words, (key, line) in pairs}
             for key, (words, line) in lines.items():
-                own = filled_in(line, {**words, **addresses})
+                entry = filled_in(line, {**words, **addresses})
                 symbol, meaning, source, claim = (
-                    own.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
+                    entry.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
                 )
                 place = source or (str(ledger.claims[claim].place) if claim else "")
-                expression, cell = own.pop("formula"), f"{columns[2]}{self.row}"
+                expression, cell = entry.pop("formula"), f"{columns[2]}{self.row}"
                 called = {*re.findall(r"\b[A-Z]\d+\b", expression)}
                 if re.search(r"LN\(|SIN\(|\^", expression) or called & transcendental:
                     transcendental.add(cell)
                 value = formula(
                     f"{part}.{key}",
-                    guarded(expression) if own.pop("guard", True) else expression,
-                    shown=own.pop("shown", "0.0000"),
+                    guarded(expression) if entry.pop("guard", True) else expression,
+                    shown=entry.pop("shown", "0.0000"),
                     transcendental=cell in transcendental,
-                    **own,
+                    **entry,
                 )
                 addresses[key.rpartition(".")[2]] = cell
                 cells = (

@@ -232,12 +232,12 @@ class _Reader:
         if sheet is None or rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
             return None
         area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
-        own_sheet, *here = self.place
+        sheet_here, *here = self.place
         steps = [
-            str(end) if fixed else f"[{end - own}]"
-            for (end, fixed), own in zip(ends, here * 2, strict=True)
+            str(end) if fixed else f"[{end - start}]"
+            for (end, fixed), start in zip(ends, here * 2, strict=True)
         ]
-        shape = "" if sheet == own_sheet else f"{sheet}!"
+        shape = "" if sheet == sheet_here else f"{sheet}!"
         shape += f"R{steps[0]}C{steps[1]}"
         shape += "" if area.cells == 1 else f":R{steps[2]}C{steps[3]}"
         return Piece("area", match[0], area, shape)

@@ -127,8 +127,8 @@ def _overview(
         link = text(sheet.name, "link", link=(sheet.name, "A1"))
         page.put(A=link, B=text(sheet.entry["shows"]))
     _block(page, "how_to_read")
-    for style, what in page.entry["how_to_read"].items():
-        page.put(A=text("1.23", f"{style} sample"), B=text(what, "text"))
+    for style, meaning in page.entry["how_to_read"].items():
+        page.put(A=text("1.23", f"{style} sample"), B=text(meaning, "text"))
     page.print_area = f"A1:F{page.row - 1}"
     return page
 
@@ -214,9 +214,9 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     page.print_area, page.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
     page.row = 6
     page.put(A=text("Live verdicts", "block"))
-    for words, what in KINDS:
+    for words, ending in KINDS:
         count = f'=COUNTIF({verdicts},"{words}")'
-        counted = formula(f"audit.{what}", count, "message", name=f"audit_{what}")
+        counted = formula(f"audit.{ending}", count, "message", name=f"audit_{ending}")
         page.put(A=text(words, "text"), B=counted)
     page.row = _HEAD_ROW
     page.table("CEHI", "B")
@@ -357,7 +357,9 @@ LEVELS = 8
 
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """The names of the inputs that the ladder's runs are made with."""
-    target = ["R_t"] if cases[0].resistance_given else ["Y_t", *(f"beta{x.of}" for x in cases)]
+    target = ["R_t"]
+    if not cases[0].resistance_given:
+        target = ["Y_t", *(f"beta{case.of}" for case in cases)]
     return ["V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop", *target]
 
 
