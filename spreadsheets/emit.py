@@ -186,26 +186,25 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
 
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
     """A formula, a text, a number, or an input, with what may be typed into it."""
-    place = int(address[1:]) - 1, ord(address[0]) - ord("A")
     if cell.formula:
-        page.write_formula(*place, cell.formula, style, value)
+        page.write_formula(address, cell.formula, style, value)
     elif cell.link:
         sheet, target = cell.link
-        page.write_url(*place, f"internal:'{sheet}'!{target}", style, cell.text)
+        page.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
     elif isinstance(value, str):
         write = page.write_string if value else page.write_blank
-        write(*place, value, style)
+        write(address, value, style)
     else:
-        page.write_number(*place, _Exact(value), style)
+        page.write_number(address, _Exact(value), style)
     # What a spreadsheet program asks of a typed input, and says before and after.
     if cell.choices:
-        page.data_validation(*place, *place, {"validate": "list", "source": list(cell.choices)})
+        page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
     elif cell.limits:
         least, most = cell.limits
         words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
         asked = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
         said = {"input_message": words, "error_title": "Out of range", "error_message": words}
-        page.data_validation(*place, *place, asked | said)
+        page.data_validation(address, asked | said)
 
 
 def _absolute(sheet: str, cells: str) -> str:

@@ -3,7 +3,7 @@
     IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
 An engine opens a workbook, computes every formula again and gives the values by sheet and address;
-`Recalculated` says how each kind of value comes back. Two engines come with pip, two from the
+`Values` says how each kind of value comes back. Two engines come with pip, two from the
 system. The libraries behind them are imported only when an engine is used.
 """
 
@@ -30,8 +30,8 @@ from typing import Any
 
 from spreadsheets.plan import Place, Value, WorkbookPlan
 
-Recalculated = dict[str, dict[str, Value]]
-"""Worksheet name -> address such as "B7" -> value.
+Values = dict[str, dict[str, Value]]
+"""Worksheet name -> address such as "B7" -> value. As an engine gives them:
 
 - A worksheet without values, or a chart sheet, is absent.
 - A number is a float, and so is a date (its serial number).
@@ -79,16 +79,16 @@ class Engine(ABC):
         """The same for several files."""
         return map(self._cells, paths)
 
-    def recalculate(self, path: Path) -> Recalculated:
+    def recalculate(self, path: Path) -> Values:
         """Compute every formula of an .xlsx file again; the file itself stays as it is."""
         (recalculated,) = self.recalculate_many([path])
         return recalculated
 
-    def recalculate_many(self, paths: Sequence[Path]) -> list[Recalculated]:
+    def recalculate_many(self, paths: Sequence[Path]) -> list[Values]:
         """The same for several files."""
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
-        recalculated: list[Recalculated] = []
+        recalculated: list[Values] = []
         for cells in self._cells_of_each(paths):
             recalculated.append({})
             for sheet, place, value in cells:
@@ -150,9 +150,6 @@ class Formualizer(IronCalc):
 
     name = "formualizer"
 
-    def missing(self) -> str | None:
-        return super().missing() or IronCalc().missing()
-
     def _cells(self, path: Path) -> Iterator[Cell]:
         import formualizer
         from openpyxl.utils.cell import coordinate_to_tuple
@@ -164,7 +161,6 @@ class Formualizer(IronCalc):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        # It does not tell which cells there are; IronCalc does.
         for sheet, place, _ in super()._cells(path):
             value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error
@@ -323,9 +319,6 @@ def repairs_wrong_value(engine: Engine) -> bool:
 
 
 # What they make of a workbook whose values are known
-
-Values = Mapping[str, Mapping[str, Value]]
-"""Sheet -> address -> value; a blank cell is absent or holds the empty text."""
 
 OF_FUNCTIONS = 32 * 2.0**-52
 """How far a transcendental cell may lie from its value, relative to it.

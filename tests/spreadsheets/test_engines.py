@@ -24,7 +24,7 @@ from spreadsheets.engines import (
     Engine,
     EngineCheck,
     EngineError,
-    Recalculated,
+    Values,
     compare,
     verify,
 )
@@ -76,7 +76,7 @@ def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def recalculated(engine: Engine, workbook: Path) -> Recalculated:
+def recalculated(engine: Engine, workbook: Path) -> Values:
     """Recalculate that workbook, once for each engine; it and its folder stay as they are."""
     before = workbook.read_bytes()
     result = engine.recalculate(workbook)
@@ -85,9 +85,7 @@ def recalculated(engine: Engine, workbook: Path) -> Recalculated:
     return result
 
 
-def test_an_engine_gives_each_value_as_documented(
-    engine: Engine, recalculated: Recalculated
-) -> None:
+def test_an_engine_gives_each_value_as_documented(engine: Engine, recalculated: Values) -> None:
     """Exact numbers, and no chart sheet."""
     major, minor, *_ = engine.version().split(".")
     assert (major + minor).isdigit()

@@ -15,7 +15,7 @@ from reference.ledger import load
 from replication.cases import BETA_5
 from replication.error import warnings
 from replication.models.sheet import run
-from spreadsheets.engines import Recalculated
+from spreadsheets.engines import Values
 from spreadsheets.plan import NOT_COMPUTED, Value
 from spreadsheets.sheets import OTHERWISE
 
@@ -49,7 +49,7 @@ class Page:
     """A recalculated workbook, read by key."""
 
     emitted: Any
-    result: Recalculated
+    result: Values
 
     def __getitem__(self, key: str) -> Value:
         sheet, address = self.emitted.book.plan.where[key]
