@@ -10,7 +10,6 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import inf, isinf
-from typing import Any
 
 import msgspec
 
@@ -152,25 +151,35 @@ class Solutions(msgspec.Struct, frozen=True):
 
 
 def solve(
-    function: Function, name: str, search: Ends, target: Interval, budget: int = 200
+    function: Function,
+    name: str,
+    search: Ends,
+    target: Interval,
+    budget: int = 200,
+    others: Mapping[str, Fraction] = {},
 ) -> Solutions:
-    """The values of the one input for which the function falls into the target.
+    """The values of one input, the others given, for which the function falls into the target.
 
     Parts of the search on which the function only rises or only falls are solved by bisection, the
     others are cut in halves, until the budget of parts runs out; what is still undecided then
     belongs to the outer intervals. So does what is left of parts on some of which the function has
     no value.
+
+    >>> search, target = (Fraction(0), Fraction(9)), Interval(Fraction(2), Fraction(3))
+    >>> found = solve(lambda ar, x, y: x * y, "x", search, target, others={"y": Fraction(2)})
+    >>> [f"{float(end):.3f}" for end in found.inner[0]]
+    ['1.000', '1.500']
     """
     queue = deque([search])
-    inner, outer = list[Ends](), list[Ends]()
+    inner, outer, given = list[Ends](), list[Ends](), _points(others)
 
     def value(x: Fraction) -> Ends:
-        return _plain(function, {name: (x, x)})
+        return _plain(function, {**given, name: (x, x)})
 
     while queue:
         part, budget = queue.popleft(), budget - 1
         try:
-            range_ = enclose(function, {name: part})
+            range_ = enclose(function, {**given, name: part})
         except ArithmeticError:  # no value, or no bounded one, on some of it
             range_ = None
         if range_ is not None and target.excludes(*range_.ends):
@@ -259,10 +268,10 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     for function, target in constraints:
         range_ = enclose(function, box)
         for top in (0, 1) if range_.is_monotone else ():
-            best = holding(function, _corner(box, name, range_.signs, top))
-            if target.encloses(*_plain(best, _points({name: outer[top]}))):
+            others = _corner(box, name, range_.signs, top)
+            if target.encloses(*_plain(function, _points({**others, name: outer[top]}))):
                 continue  # it bounds the input farther out
-            if beyond := solve(best, name, box[name], target).outer:
+            if beyond := solve(function, name, box[name], target, others=others).outer:
                 bound = beyond[-top][top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
     return outer[0], outer[1]
@@ -275,21 +284,6 @@ def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str
     """
     low = (signs.get(name, 1) > 0) == bool(top)
     return {key: ends[(signs.get(key, 1) > 0) != low] for key, ends in box.items() if key != name}
-
-
-def holding(function: Function, numbers: Mapping[str, Fraction]) -> Function:
-    """The function with some of its inputs held at rationals, unless they are given.
-
-    >>> more = holding(lambda ar, x, y: x + y, {"x": Fraction(1)})
-    >>> enclose(more, {"y": (Fraction(2), Fraction(2))}).ends[0]
-    Fraction(3, 1)
-    """
-
-    def of_others(ar: Any, **others: Number) -> Number | Fraction:
-        fixed = {name: ar.number(x) for name, x in numbers.items() if name not in others}
-        return function(ar, **fixed, **others)
-
-    return of_others
 
 
 def satisfying(

@@ -8,7 +8,7 @@ from itertools import pairwise
 from string import digits
 
 from reference.arithmetic import Floats
-from reference.enclosure import Solutions, enclose, holding, solve
+from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
 from reference.units import to_si
@@ -149,10 +149,10 @@ class Explainer:
     def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
         """The values of an entry (SI), the others as printed, with which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
-        function = holding(self.ledger.function(claim, reading=reading), others)
+        function = self.ledger.function(claim, reading=reading)
         low, high, _ = self.ledger.search(name)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        return solve(function, name, (low, high), claim.target(), budget)
+        return solve(function, name, (low, high), claim.target(), budget, others)
 
     def shown(self, chosen: Claim) -> Shown | None:
         """The values around a chosen number for which what it shows comes out as printed.

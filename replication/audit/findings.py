@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Floats, Number
-from reference.enclosure import enclose, holding, solve
+from reference.enclosure import enclose, solve
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
 from reference.printed import Interval
@@ -364,9 +364,9 @@ def _middle_density(evidence: Evidence) -> Fraction:
     ledger = evidence.known.ledger
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
-    function = holding(ledger.function(claim, centered=True), printed)
+    function = ledger.function(claim, centered=True)
     admitted = evidence.known.judge.inference(DENSITY, centered=True).outer.ends
-    return solve(function, DENSITY, admitted, claim.target()).outer[0][0]
+    return solve(function, DENSITY, admitted, claim.target(), others=printed).outer[0][0]
 
 
 def _added(evidence: Evidence) -> float:

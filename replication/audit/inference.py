@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache, cached_property
 
 from reference.arithmetic import Arithmetic, Number
-from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, holding, satisfying, solve
+from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Ledger
 from reference.printed import Interval
 
@@ -42,8 +42,8 @@ class Inference:
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
-            function = holding(ledger.function(resting, centered=centered), printed)
-            self.each[claim.id] = solve(function, name, self.entry.search, claim.target())
+            function, search = ledger.function(resting, centered=centered), self.entry.search
+            self.each[claim.id] = solve(function, name, search, claim.target(), others=printed)
         self.agreeing = _agreeing(self.each)
         self.odd = tuple(claim for claim in self.each if claim not in self.agreeing)
         serving = [self.each[claim] for claim in self.agreeing]
