@@ -88,7 +88,7 @@ class Reals(Arithmetic):
 
 @cache
 def _context(digits: int) -> Any:
-    """mpmath at so many digits; to make it takes milliseconds, and to import it many more."""
+    """An mpmath context, made once: that takes milliseconds, and the import many more."""
     import mpmath
 
     context = mpmath.MPContext()

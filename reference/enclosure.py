@@ -70,7 +70,7 @@ def enclose(function: Function, box: Box) -> Range:
 
 
 def _best(function: Function, box: Box, value: Number, slopes: Mapping[str, Number]) -> Ends:
-    """The plain range, if need be yet to find, cut to what the middle and the slopes allow."""
+    """The range by plain interval arithmetic, cut to what the middle and the slopes allow."""
     low, high = _plain(function, box) if value is None else _INTERVALS.ends(value)
     if not slopes:
         return low, high
@@ -93,9 +93,10 @@ def _plain(function: Function, box: Box) -> Ends:
 
 
 def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dict[str, Number]]:
-    """What holds the value, and every derivative, all over the box.
+    """Numbers that contain the value, and every derivative, all over the box.
 
-    None and nothing where the function may jump, or is a number that is known exactly.
+    The value is None where the function may jump (then there are no derivatives either), or where
+    it is known exactly.
     """
     zero = _INTERVALS.number(0)
     with _INTERVALS.working():
@@ -345,7 +346,7 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
 
 _TANGENTS = Duals(Floats())
 _SWEEPS = 30
-"""So often the tangents are gone through: more moves the point too little to matter."""
+"""How often all tangents are gone through: more moves the point too little to matter."""
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:

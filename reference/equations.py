@@ -23,7 +23,7 @@ from reference.units import Dimension, DimensionError
 
 
 class EquationError(ValueError):
-    """Text that cannot be read as an equation; says where it ends to make sense."""
+    """Text that cannot be read as an equation; says from where on it makes no sense."""
 
 
 class Node(msgspec.Struct, frozen=True):
@@ -86,19 +86,18 @@ class _Reader:
         return kind, token[kind], bool(token["space"])
 
     def error(self) -> EquationError:
-        """That what comes next has no place there."""
+        """The complaint that what comes next cannot stand there."""
         rest = self.text[self.tokens[self.at].end("space") :]
         problem = f"cannot read {rest!r}" if rest else "something is missing"
         return EquationError(f"{problem} at the end of {self.text!r}")
 
     def take(self, sign: str) -> bool:
-        """Whether this sign comes next; it is then taken."""
+        """Whether this sign comes next; if so, it is passed over."""
         taken = self.next[:2] == ("sign", sign)
         self.at += taken
         return taken
 
     def within(self, opening: str, closing: str) -> Node:
-        """What stands between two brackets."""
         self.expect(opening)
         node = self.expression()
         self.expect(closing)
@@ -163,7 +162,7 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
 
 @lru_cache(2048)
 def _read(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
-    """Each text once: the same misprint of an equation is tried for all that rests on it."""
+    """Cached, as the same misprint of an equation is tried for every claim that rests on it."""
     reader = _Reader(text, dict(symbols))
     node = reader.expression()
     if reader.next[0] != "end":
@@ -239,7 +238,7 @@ def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
 
 
 class _Dimensions:
-    """The arithmetic of dimensions: those of all numbers are the same."""
+    """The arithmetic of dimensions, in which every number is dimensionless."""
 
     pi = Dimension()
     number = staticmethod(lambda _: Dimension())
@@ -261,7 +260,7 @@ def dimension(node: Node, units: Mapping[str, Dimension | Fraction]) -> Dimensio
 
 
 class Notation(msgspec.Struct, frozen=True):
-    """How the parts of an expression are put together, as they stand for plain text.
+    """How the parts of an expression are put together; by default, as plain text.
 
     `symbol` is also for numbers. `stroke`: how tightly what is over and under a fraction bar must
     bind to go without brackets.
@@ -281,7 +280,7 @@ class Notation(msgspec.Struct, frozen=True):
 
 
 def _mathml_symbol(shown: str) -> str:
-    """What stands for a symbol, a number perhaps; after an underscore comes its subscript."""
+    """A symbol or a number in MathML; after an underscore comes a subscript."""
     if shown[0].isdigit():
         return f"<mn>{shown}</mn>"
     name, _, below = shown.partition("_")

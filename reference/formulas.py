@@ -30,7 +30,7 @@ Names = Mapping[str, str]
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A table of a file, which may hold no keys but its own."""
+    """A table of a TOML file; keys that it does not know are refused."""
 
 
 class Side(Entry, frozen=True, kw_only=True):
@@ -70,7 +70,7 @@ class Equation(Entry, frozen=True, eq=False):
 class Computation(Entry, frozen=True, eq=False):
     """A [[computation]]: what it computes, and its formula in the report's notation.
 
-    Without a formula it is the function of its name in reference/formulas.py. What `restates` only
+    Without a formula it is the function of its name in reference/formulas.py. `restates`: it only
     repeats or counts what the report prints elsewhere. `by_row`: it takes the number of a row of
     the sheet (1 is the first time step); `by_scheme`: it runs the sheet, in either of the two
     schemes that fit the report's words.
@@ -91,14 +91,14 @@ class Computation(Entry, frozen=True, eq=False):
 
 
 def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
-    """What a text of the ledger says; a Fraction that is only named stays one, for exponents."""
+    """The value of an expression; a known name alone stays as it is, for exact exponents."""
     return known[text] if text in known else evaluate(read_expression(text, names), ar, known)
 
 
 def _side(
     wanted: Side, sides: Sides, equation: str, names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
-    """A side of an equation, or its slope, of the known values and those put in for its symbols."""
+    """A side of an equation, or its slope, at the known values and those put in for symbols."""
     side = sides[equation][wanted.side]
     put = {symbol: _value(text, names, ar, known) for symbol, text in wanted.put.items()}
     values = {**known, **put}

@@ -77,7 +77,7 @@ def _balls(x: Number) -> tuple[Any, Any]:
 
 
 def _least(first: arb, *others: arb) -> arb:
-    """A ball that has the least number of all: one of them wherever it can be told which."""
+    """A ball that contains the least of the numbers: one of these balls if it is clear which."""
     for ball in others:
         if not (first <= ball or first.contains(ball)):
             first = ball if ball <= first or ball.contains(first) else first.min(ball)

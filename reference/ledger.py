@@ -27,7 +27,7 @@ INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
 
 Function = Callable[..., Number | Fraction]
-"""Of an arithmetic and the inputs by name; a Fraction where the value is known exactly."""
+"""Takes an arithmetic and inputs by name; gives a Fraction where the value is known exactly."""
 
 Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
@@ -263,16 +263,16 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @property
     def inferred(self) -> list[str]:
-        """Those of them that the report does not print."""
+        """The entries that it rests on and that the report does not print."""
         return [name for name in self.entries if name.startswith(INFERRED)]
 
     @property
     def stated(self) -> list[str]:
-        """Those of them that it prints."""
+        """The entries that it rests on and that the report prints."""
         return [name for name in self.entries if not name.startswith(INFERRED)]
 
     def resting_on(self, **inputs: str) -> "Claim":
-        """The claim with other entries as some of its inputs."""
+        """The claim with other entries for some of its inputs."""
         return replace(self, inputs={**self.inputs, **{k: (name,) for k, name in inputs.items()}})
 
     @cached_property

@@ -43,7 +43,7 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _starts(self) -> tuple[Fraction | float, int]:
-        """Where it begins, to be compared: an open end is a little further on."""
+        """Where it starts, for comparisons: an open end lies a little further in."""
         return (-inf if self.lower is None else self.lower), 1 - self.lower_closed
 
     @cached_property

@@ -88,7 +88,6 @@ _LONGEST = 40
 
 @cache
 def _unit(unit: str) -> tuple[Fraction, Dimension]:
-    """The factor to SI, and the dimension."""
     text = unit.translate(_SAME)
     factor, dimension, at = Fraction(1), Dimension(), 0
     while at < len(text) <= _LONGEST:

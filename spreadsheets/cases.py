@@ -88,7 +88,7 @@ class CaseSheet:
         return f"{quantity}-beta-{self.beta}" if self.is_reports else ""
 
     def rules(self, cells: str) -> list[Rule]:
-        """How cells look that say whether the run can be trusted."""
+        """How the cells look that tell whether the run can be trusted."""
         trust = f"=trust{self.suffix}="
         return [Rule(cells, f"{trust}0", "warning"), Rule(cells, f"{trust}1", "changed")]
 

@@ -76,7 +76,7 @@ class Engine(ABC):
         """Recalculate a workbook and yield its cells, blank ones included or not."""
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        """The same for several files."""
+        """The cells of each of several workbooks."""
         return map(self._cells, paths)
 
     def recalculate(self, path: Path) -> Values:
@@ -85,7 +85,7 @@ class Engine(ABC):
         return recalculated
 
     def recalculate_many(self, paths: Sequence[Path]) -> list[Values]:
-        """The same for several files."""
+        """Compute every formula of several .xlsx files again, in their order."""
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
         recalculated: list[Values] = []

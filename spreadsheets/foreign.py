@@ -160,7 +160,7 @@ def _is_xlsx(path: Path) -> bool:
 
 @contextmanager
 def _opened(path: Path, shown: Path) -> "Iterator[_Reader]":
-    """A file's reader; whatever goes wrong is told of the file that is shown."""
+    """A file's reader; errors name the file `shown`, of which it may be a conversion."""
     try:
         with zipfile.ZipFile(path) as archive:
             yield _Reader(archive, shown)
@@ -272,7 +272,7 @@ class _Reader:
         return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
-        """Of a part: identity -> kind and target."""
+        """What a part refers to: identity -> kind and target."""
         path = PurePosixPath(part)
         rels = f"{path.parent}/_rels/{path.name}.rels".removeprefix("./") if part else "_rels/.rels"
         if rels not in self.parts:
@@ -332,7 +332,7 @@ def _name(element: ET.Element) -> str:
 
 
 def _text(string: ET.Element) -> str:
-    """A string of one or several pieces, without what is said about their pronunciation."""
+    """A string of one or several pieces, without the guides to their pronunciation."""
     pieces = (piece for part in string if _name(part) != "rPh" for piece in part.iter())
     return "".join(piece.text or "" for piece in pieces if _name(piece) == "t")[:MAX_TEXT]
 
@@ -370,7 +370,7 @@ class _Sheet:
                 self.cells[self.row, self.column] = Cell(formula, value, kind == "e", array)
 
     def formula(self, element: ET.Element) -> str | None:
-        """A cell's formula; a shared one, filled into the cell."""
+        """A cell's formula; one that it shares with others is filled into this cell."""
         text = (element.text or "")[: MAX_FORMULA + 1]
         kind, here = element.get("t"), f"{get_column_letter(self.column)}{self.row}"
         if kind == "shared":
@@ -399,7 +399,6 @@ class _Sheet:
         return f"${get_column_letter(column)}{self.row}" if column else match[0]
 
     def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:
-        """A cell's value."""
         if kind == "inlineStr":
             return (_text(parts["is"]) if "is" in parts else "") or None
         text = (parts["v"].text if "v" in parts else None) or ""

@@ -54,7 +54,7 @@ class Area(NamedTuple):
 
     @property
     def cells(self) -> int:
-        """How many."""
+        """How many cells it has."""
         return (self.bottom - self.top + 1) * (self.right - self.left + 1)
 
     @property
@@ -63,7 +63,7 @@ class Area(NamedTuple):
         return self.sheet, self.top, self.left
 
     def called(self, sheet: str) -> str:
-        """It as formulas write it, its sheet called so."""
+        """The area as a formula writes it, with this name for its sheet."""
         first = f"{sheet}!{get_column_letter(self.left)}{self.top}"
         last = f":{get_column_letter(self.right)}{self.bottom}"
         return first if self.cells == 1 else f"{first}{last}"
@@ -74,19 +74,19 @@ class Area(NamedTuple):
         return self.corner, (self.sheet, self.bottom, self.right)
 
     def places(self) -> Iterator[Position]:
-        """Each of them, row by row."""
+        """Every cell, row by row."""
         for row in range(self.top, self.bottom + 1):
             for column in range(self.left, self.right + 1):
                 yield self.sheet, row, column
 
     def covers(self, place: Position) -> bool:
-        """Whether a cell is one of them."""
+        """Whether a cell lies in it."""
         sheet, row, column = place
         inside = self.top <= row <= self.bottom and self.left <= column <= self.right
         return sheet == self.sheet and inside
 
     def overlaps(self, another: "Area") -> bool:
-        """Whether a cell is in both."""
+        """Whether some cell lies in both."""
         rows = self.top <= another.bottom and another.top <= self.bottom
         columns = self.left <= another.right and another.left <= self.right
         return self.sheet == another.sheet and rows and columns
@@ -167,7 +167,7 @@ class _Tokenizer(Tokenizer):
 
 @lru_cache(maxsize=4096)
 def _tokens(text: str) -> tuple[Token, ...]:
-    """The tokens of a formula; names mean the same again and again."""
+    """The tokens of a formula; cached, since what a name means is read for each formula."""
     return tuple(_Tokenizer(text).items)
 
 
@@ -294,7 +294,7 @@ class Calculation:
         return formula.areas if formula else ()
 
     def source(self, place: Position) -> Position:
-        """The cell that a formula brings into another unit, if it reads only that; else itself."""
+        """The cell at the end of a chain of formulas that read one cell each; else itself."""
         for _ in range(8):
             areas = self.areas(place)
             if len(areas) != 1 or areas[0].cells > 1:
@@ -418,7 +418,7 @@ def _filled(area: Area, book: Book) -> Area:
 
 
 def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
-    """What each formula gives."""
+    """The value that the engine computes for each formula."""
     import ironcalc
 
     if not formulas:

@@ -29,8 +29,8 @@ def check_target(path: Path) -> Path:
 def draft_of(path: Path) -> Iterator[Path]:
     """A file beside `path` to write to; it takes that name if the block ends well, or goes.
 
-    A draft that an earlier run left, because it was killed, goes first; if that run is still at it,
-    it ends with an error, not with a file of two runs. Raises OSError, naming the path.
+    A draft that a killed run left is removed first; a run that is still writing its own then ends
+    with an error, so that no file mixes two runs. Raises OSError, naming the path.
     """
     target = check_target(path)
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")

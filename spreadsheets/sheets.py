@@ -207,7 +207,7 @@ def computed_claims(ledger: Ledger) -> list[Claim]:
 
 
 def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
-    """The sheet. Each claim's entry in the ledger names the cell that computes it."""
+    """Every claim with its verdicts; its entry in the ledger names the cell that computes it."""
     last = _HEAD_ROW + len(ledger.claims)
     verdicts = f"F{_HEAD_ROW + 1}:F{last}"
     page = SheetPlan.begun("Audit")
@@ -258,7 +258,7 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
 
 
 def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
-    """A claim, and where a cell computes it the live verdict with the ends of what prints so."""
+    """A claim; where a cell computes it, the live verdict and the ends of what prints so, too."""
     cells = {
         "A": text(claim.id),
         "B": text(claim.title, wrap=True),
