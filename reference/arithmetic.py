@@ -20,8 +20,7 @@ class Arithmetic:
     """What the formulas need of numbers, beyond the operators; as it stands, of known points.
 
     `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, but not
-    certain. What was computed in an arithmetic is kept by its hash.
+    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, not certain.
     """
 
     @property
@@ -307,7 +306,11 @@ class Ratios:
     """
 
     def __init__(self, names: Sequence[str]) -> None:
-        ratios = _generators((*names, "pi", *(f"other_{k}" for k in range(8))))
+        from flint import Ordering, fmpq_mpoly_ctx
+
+        all_names = (*names, "pi", *(f"other_{k}" for k in range(8)))
+        context = fmpq_mpoly_ctx.get(all_names, Ordering.lex)
+        ratios = [Ratio(symbol, context.constant(1)) for symbol in context.gens()]
         self.symbols: Mapping[str, Ratio] = dict(zip(names, ratios, strict=False))
         self.pi, *self._free = ratios[len(names) :]
         self._others: list[tuple[Fraction | None, Ratio]] = []
@@ -336,12 +339,3 @@ class Ratios:
             return Fraction(0)
         value = x.over.leading_coefficient() / x.under.leading_coefficient()
         return Fraction(int(value.p), int(value.q)) if x.over == x.under * value else None
-
-
-@cache
-def _generators(names: tuple[str, ...]) -> list[Ratio]:
-    """The symbols among the polynomials in them."""
-    from flint import Ordering, fmpq_mpoly_ctx
-
-    context = fmpq_mpoly_ctx.get(names, Ordering.lex)
-    return [Ratio(generator, context.constant(1)) for generator in context.gens()]

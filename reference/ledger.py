@@ -273,7 +273,8 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     def resting_on(self, **inputs: str) -> "Claim":
         """The claim with other entries for some of its inputs."""
-        return replace(self, inputs={**self.inputs, **{k: (name,) for k, name in inputs.items()}})
+        entries = {key: (name,) for key, name in inputs.items()}
+        return replace(self, inputs={**self.inputs, **entries})
 
     @cached_property
     def by_scheme(self) -> bool:
@@ -288,7 +289,8 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def uses(self) -> list[str]:
         """The printed equations that it is computed with, sorted."""
-        return sorted({e for c in self.computations.values() for e in c.equations})
+        computations = self.computations.values()
+        return sorted({name for computation in computations for name in computation.equations})
 
 
 class Ledger(Entry, frozen=True, dict=True, eq=False):
@@ -348,7 +350,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def _placed(self, claim: Claim) -> Claim:
         """A claim with its place, its inputs, and the reason why nothing decides it in words."""
-        computed_by = {"": claim.computed_by, **claim.readings}
+        readings = {"": claim.computed_by, **claim.readings}
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
@@ -359,9 +361,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             given=claim.given and self.reasons[claim.given],
             text=self.text[place.start : place.end],
             place=place,
-            computations={
-                key: self.computations[name] for key, name in computed_by.items() if name
-            },
+            computations={key: self.computations[name] for key, name in readings.items() if name},
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
             chosen=claim.given == "choice",

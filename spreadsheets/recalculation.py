@@ -302,14 +302,18 @@ class Calculation:
             place = areas[0].corner
         return place
 
+    def _precedents(self, place: Position) -> Iterator[Position]:
+        """The cells that a formula reads; none of one that reads too many to be computed."""
+        areas = () if self.uncomputed.get(place) == _TOO_MUCH else self.areas(place)
+        return (cell for area in areas for cell in _filled(area, self.book).places())
+
     @cached_property
     def unknown(self) -> set[Position]:
         """Formulas that are not computed and have no stored value, and those that need them."""
         unknown = {place for place in self.uncomputed if self.book[place].value is None}
         computed = self.formulas.keys() - self.uncomputed.keys() if unknown else ()
         for place in sorted(computed, key=self.order.__getitem__):
-            read = (p for area in self.areas(place) for p in _filled(area, self.book).places())
-            if not unknown.isdisjoint(read):
+            if not unknown.isdisjoint(self._precedents(place)):
                 unknown.add(place)
         return unknown
 
@@ -328,17 +332,14 @@ class Calculation:
     def order(self) -> dict[Position, int]:
         """The rank of each formula in order of calculation: precedents before what reads them.
 
-        Cells that read each other in a circle come in no particular order; what a formula reads
-        that reads too much to be computed is not followed.
+        Cells that read each other in a circle come in no particular order.
         """
-        too_much = {place for place, why in self.uncomputed.items() if why == _TOO_MUCH}
         order: dict[Position, int] = {}
         started: set[Position] = set()
 
         def waiting(place: Position) -> Iterator[Position]:
-            areas = () if place in too_much else self.areas(place)
-            read = (p for area in areas for p in _filled(area, self.book).places())
-            return (p for p in read if p in self.formulas and p not in started)
+            formulas = (cell for cell in self._precedents(place) if cell in self.formulas)
+            return (cell for cell in formulas if cell not in started)
 
         for place in self.formulas:
             stack = [] if place in started else [(place, waiting(place))]
@@ -355,14 +356,16 @@ class Calculation:
 
 def calculate(book: Book) -> Calculation:
     """Compute a book's formulas, all but those that are refused."""
-    formulas = {place: parse(c.formula, place, book) for place, c in book.cells() if c.formula}
+    formulas = {
+        place: parse(cell.formula, place, book) for place, cell in book.cells() if cell.formula
+    }
     reasons = _refused(book, formulas)
     typed = _numbers_as_text(book, formulas)
-    computed = _computed(book, {p: f for p, f in formulas.items() if p not in reasons})
+    computable = {place: formula for place, formula in formulas.items() if place not in reasons}
     values = {place: cell.value for place, cell in book.cells() if cell.value is not None}
     texts = {place: str(values[place]) for place in typed}
     values |= typed
-    for place, value in computed.items():
+    for place, value in _computed(book, computable).items():
         stored = book[place]
         wrong = isinstance(value, str) and value.startswith("#")
         if wrong and stored.value is not None and not stored.error:
