@@ -20,7 +20,7 @@ from typing import Any, Literal
 import msgspec
 
 from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
-from reference.equations import Node, Sides, evaluate, read_expression
+from reference.equations import Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
 from reference.units import unit_dimension
@@ -183,8 +183,12 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
     ar = Ratios(sorted({*written.values()} - {"pi"}))
     names = {**written, **{key: key for key in equation.premises}}
     for check in equation.checks:
-        if check.equals[0] in "<>":
-            yield Check(check.says, _is_so(check, sides[equation.id][check.side], ar.symbols))
+        relation, bound = check.equals[0], check.equals[1:]
+        if relation in "<>":  # tried in numbers, at those put in and all others at 1
+            ones = dict.fromkeys(ar.symbols, 1.0)
+            value = _side(check, sides, equation.id, names, Floats(), ones)
+            holds = value < float(bound) if relation == "<" else value > float(bound)
+            yield Check(check.says, holds)
             continue
         premises = {
             key: _side(premise, sides, premise.equation, names, ar, ar.symbols)
@@ -196,11 +200,3 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
         holds = bool(printed == derived)
         factor = None if holds or derived == 0 else ar.constant(printed / derived)
         yield Check(check.says, holds, factor)
-
-
-def _is_so(check: Condition, side: Node, symbols: Iterable[str]) -> bool:
-    """Whether a side is above or below a number, at the numbers put in and all others at 1."""
-    put = {symbol: float(text) for symbol, text in check.put.items()}
-    value = evaluate(side, Floats(), {**dict.fromkeys(symbols, 1.0), **put})
-    bound = float(check.equals[1:])
-    return bool(value < bound if check.equals[0] == "<" else value > bound)

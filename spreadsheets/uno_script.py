@@ -27,14 +27,9 @@ if __name__ == "__main__":  # tests and documentation import this file under ano
 START_LIMIT_S = 60
 RESTART = 81  # how soffice leaves when it has set up a new profile and wants to start again
 ERRORS = {
-    503: "#NUM!",
-    519: "#VALUE!",
-    521: "#NULL!",
-    524: "#REF!",
-    525: "#NAME?",
-    532: "#DIV/0!",
+    503: "#NUM!", 519: "#VALUE!", 521: "#NULL!", 524: "#REF!", 525: "#NAME?", 532: "#DIV/0!",
     32767: "#N/A",
-}
+}  # fmt: skip
 """Error numbers with a text of their own. The cells show the same, but in the user's language."""
 
 
