@@ -329,7 +329,9 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
         low = -inf if target.lower is None else float(target.lower)
         high = inf if target.upper is None else float(target.upper)
         margin = 0.0 if isinf(high - low) else (high - low) / 100
-        slopes = {name: x * float(box[name][1] - box[name][0]) for name, x in dual.slopes.items()}
+        slopes = {
+            name: slope * float(box[name][1] - box[name][0]) for name, slope in dual.slopes.items()
+        }
         if steepness := sum(slope * slope for slope in slopes.values()):
             planes.append((dual.value, slopes, steepness, low + margin, high - margin))
     for _ in range(_SWEEPS):

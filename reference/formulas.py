@@ -20,7 +20,7 @@ from typing import Any, Literal
 import msgspec
 
 from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
-from reference.equations import Sides, evaluate, read_expression
+from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
 from reference.units import unit_dimension
@@ -96,10 +96,10 @@ def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
 
 
 def _side(
-    wanted: Side, sides: Sides, equation: str, names: Names, ar: Any, known: Mapping[str, Any]
+    wanted: Side, sides: tuple[Node, ...], names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
     """A side of an equation, or its slope, at the known values and those put in for symbols."""
-    side = sides[equation][wanted.side]
+    side = sides[wanted.side]
     put = {symbol: _value(text, names, ar, known) for symbol, text in wanted.put.items()}
     values = {**known, **put}
     if wanted.slope is None:
@@ -127,7 +127,7 @@ def computing(
     def value(ar: Arithmetic, inputs: Mapping[str, Any]) -> Number | Fraction:
         known = dict(inputs)
         for key, premise in premises.items():
-            known[key] = _side(premise, sides, premise.equation, names, ar, known)
+            known[key] = _side(premise, sides[premise.equation], names, ar, known)
         return evaluate(formula, ar, known)
 
     return value
@@ -186,16 +186,16 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
         relation, bound = check.equals[0], check.equals[1:]
         if relation in "<>":  # tried in numbers, at those put in and all others at 1
             ones = dict.fromkeys(ar.symbols, 1.0)
-            value = _side(check, sides, equation.id, names, Floats(), ones)
+            value = _side(check, sides[equation.id], names, Floats(), ones)
             holds = value < float(bound) if relation == "<" else value > float(bound)
             yield Check(check.says, holds)
             continue
         premises = {
-            key: _side(premise, sides, premise.equation, names, ar, ar.symbols)
+            key: _side(premise, sides[premise.equation], names, ar, ar.symbols)
             for key, premise in equation.premises.items()
             if key in check.equals
         }
-        printed = _side(check, sides, equation.id, names, ar, ar.symbols)
+        printed = _side(check, sides[equation.id], names, ar, ar.symbols)
         derived = _value(check.equals, names, ar, {**ar.symbols, **premises})
         holds = bool(printed == derived)
         factor = None if holds or derived == 0 else ar.constant(printed / derived)

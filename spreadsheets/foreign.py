@@ -247,8 +247,9 @@ class _Reader:
         if strings in self.parts:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
-        names = [s.attrib["name"] for s in tree.iterfind("{*}sheets/{*}sheet")]
-        for sheet in tree.iterfind("{*}sheets/{*}sheet"):
+        listed = tree.findall("{*}sheets/{*}sheet")
+        names = [sheet.attrib["name"] for sheet in listed]
+        for sheet in listed:
             identity = next(sheet.attrib[key] for key in sheet.attrib if key.endswith("}id"))
             kind, part = related[identity]
             if kind == "worksheet":
