@@ -74,18 +74,18 @@ class Power(Counts, kw_only=True):
 
     def table(self) -> Table:
         """Rates in percent of what is visible: all, by kind of entry, by kind of edit."""
-        counts: dict[str, Counts] = {"all": self}
+        groups: dict[str, Counts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
-            counts |= {f"{word} {name}": parts[name] for name in sorted(parts)}
+            groups |= {f"{word} {name}": parts[name] for name in sorted(parts)}
         rates = {
             "noticed": "detected", "text named": "repaired", "named first": "repaired_first",
             "accused wrongly": "accused_wrongly",
         }  # fmt: skip
         rows = [
-            (name, str(own.planted), str(own.visible), *(
-                f"{100 * getattr(own, key) / own.visible:.1f}" if own.visible else "-"
+            (name, str(counts.planted), str(counts.visible), *(
+                f"{100 * getattr(counts, key) / counts.visible:.1f}" if counts.visible else "-"
                 for key in rates.values()))
-            for name, own in counts.items()
+            for name, counts in groups.items()
         ]  # fmt: skip
         return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
 

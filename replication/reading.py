@@ -151,14 +151,15 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(
             f"{quoted(text, 40)} is no finite number with or without a unit, such as '1 {unit}'"
         )
-    own = match["unit"]
-    if own[:1] == ",":
+    given_unit = match["unit"]
+    if given_unit[:1] == ",":
         raise ValueError(f"{text!r}: write the decimal comma as a point")
-    if own and not same_dimension(own, unit):
-        problem = f"{own} does not measure what {unit} does" if unit != "1" else "give no unit"
+    if given_unit and not same_dimension(given_unit, unit):
+        wrong = f"{given_unit} does not measure what {unit} does"
+        problem = "give no unit" if unit == "1" else wrong
         raise ValueError(f"{text!r}: {problem}")
     try:
-        return float(Fraction(match["number"]) * to_si(own or "1"))
+        return float(Fraction(match["number"]) * to_si(given_unit or "1"))
     except OverflowError as error:
         raise ValueError(f"{quoted(text)} is no finite number that a double can hold") from error
 

@@ -146,8 +146,8 @@ class Plan:
         values: dict[str, Floats] = {}
         position = np.arange(first, first + count) // self.samples
         for name, size in reversed(self.grid.items()):
-            position, own = np.divmod(position, size)
-            values[name] = self.sources[name].at(own)
+            position, index = np.divmod(position, size)
+            values[name] = self.sources[name].at(index)
         for stream, name in enumerate(INPUTS):
             if name in self.sources and name not in values:
                 values[name] = self.sources[name].at(uniform(self.seed, stream, first, count))
@@ -169,7 +169,7 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     """
     inputs = plan.inputs(first, count)
     motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
-    ratio = arrays.normalized_depth(**{n: x for n, x in motion.items() if n != "radius"})
+    ratio = arrays.normalized_depth(**{name: motion[name] for name in motion if name != "radius"})
     results = {
         "depth": inputs["radius"] * ratio,
         "normalized_depth": ratio,

@@ -47,8 +47,8 @@ def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
     writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     for row in rows:
-        spelt = {k: str(x).lower() if isinstance(x, bool) else x for k, x in row.items()}
-        writer.writerow(spelt)
+        truths = {name: str(cell).lower() for name, cell in row.items() if isinstance(cell, bool)}
+        writer.writerow({**row, **truths})
     return buffer.getvalue()
 
 
@@ -153,7 +153,7 @@ def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> lis
     >>> numbers(["x", "v"], [(0.5, None)])
     ['                    x                    v', '                  0.5                     ']
     """
-    texts = (["" if x is None else number(x, 9) for x in row] for row in rows)
+    texts = (["" if value is None else number(value, 9) for value in row] for row in rows)
     return ["".join(f"{text:>21}" for text in row) for row in (heads, *texts)]
 
 

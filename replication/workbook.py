@@ -85,7 +85,9 @@ def build(
     typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases with the numbers that their cells hold; they share all but the beta.
-    in_cells = {x.attribute: si[x.name] for x in typed if x.attribute not in ("", "beta")}
+    in_cells = {
+        entry.attribute: si[entry.name] for entry in typed if entry.attribute not in ("", "beta")
+    }
     computed = [run(replace(impact, **in_cells), scheme) for impact in impacts.values()]
     count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
@@ -191,9 +193,9 @@ def _typed_inputs(
             number = entry.of_report(ledger)
         least, most = entry.limits
         if not least <= number <= most:
-            what = entry.meaning or ledger.title(entry.source)
+            meaning = entry.meaning or ledger.title(entry.source)
             span = with_unit(f"{least:,.10g} to {most:,.10g}", entry.unit)
-            raise ValueError(f"the workbook takes {span} for the {what}, not {number!r}")
+            raise ValueError(f"the workbook takes {span} for the {meaning}, not {number!r}")
         typed[entry] = number
     return typed
 
@@ -241,7 +243,7 @@ def _values(
         "overview": {
             "inputs_changed": len(changed),
             "inputs_unusable": 0,
-            **{page.part: {x: pages[page.part][x] for x in results} for page, _ in runs},
+            **{page.part: {key: pages[page.part][key] for key in results} for page, _ in runs},
         },
         "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
         "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
@@ -277,8 +279,8 @@ def _inputs(
     }
     for entry, number in typed.items():
         name = entry.name
-        own = "as inferred" if name == "rho_t" else "the report’s"
-        check = "yours" if name in changed else own
+        unchanged = "as inferred" if name == "rho_t" else "the report’s"
+        check = "yours" if name in changed else unchanged
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
     for page, sheet in runs:
         values[f"R_t{page.of}"] = sheet.impact.target_resistance
@@ -329,7 +331,7 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
     low, high, last = si["V_from"], si["V_to"], sheets.POINTS - 1
     velocities = [low + (high - low) * point / last for point in range(sheets.POINTS)]
     points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
-    columns = {what: [point[what] for point in points] for what in points[0]}
+    columns = {key: [point[key] for point in points] for key in points[0]}
     return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
 
 
@@ -453,8 +455,8 @@ def live_verdicts(
         live[f"audit.{claim.id}.computed"] = value
         live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
     verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
-    for text, what in sheets.KINDS:
-        live[f"audit.{what}"] = live[f"overview.audit_{what}"] = float(verdicts.count(text))
+    for verdict, key in sheets.KINDS:
+        live[f"audit.{key}"] = live[f"overview.audit_{key}"] = float(verdicts.count(verdict))
     for name in (*findings.failing, *findings.differing):
         if ledger.claims[name].workbook:
             live[f"overview.{name}"] = live[f"audit.{name}.computed"]
@@ -466,7 +468,8 @@ def live_verdicts(
                 "difference": _difference(value, claim.printed, exact=claim.is_exact),
                 "verdict": live[f"audit.{claim.id}.verdict"],
             }
-            live |= {f"table_check.{claim.place.cell}.{what}": x for what, x in checked.items()}
+            branch = f"table_check.{claim.place.cell}"
+            live |= {f"{branch}.{key}": entry for key, entry in checked.items()}
     return live
 
 

@@ -57,9 +57,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _discard_output() -> None:
     """Have Python not try again, at its end, to write what could not be written."""
-    own = sys.__stdout__
-    if own and sys.stdout is own:  # nobody has put another in its place
-        os.dup2(os.open(os.devnull, os.O_WRONLY), own.fileno())
+    output = sys.__stdout__
+    if output and sys.stdout is output:  # nobody has put another in its place
+        os.dup2(os.open(os.devnull, os.O_WRONLY), output.fileno())
 
 
 def _end_as_interrupted() -> None:

@@ -111,7 +111,7 @@ def run_power(options: argparse.Namespace) -> int:
     ]
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]
-        lines += [f"  {x['entry']}: {x['true']!r} as {x['text']!r}" for x in result.unnoticed]
+        lines += ["  {entry}: {true!r} as {text!r}".format_map(plant) for plant in result.unnoticed]
     return _put(options, result, lambda: "\n".join(lines))
 
 
@@ -127,8 +127,8 @@ def run_workbook(options: argparse.Namespace) -> int:
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
-    own = options.case is not None or options.case_file is not None or given(options)
-    case = case_of(options) if own else None
+    is_given = options.case is not None or options.case_file is not None or given(options)
+    case = case_of(options) if is_given else None
     book = workbook.build(case, options.scheme, options.rows)
     if options.verify and all(engine.missing() for engine in engines.ENGINES):
         raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
@@ -222,7 +222,8 @@ def run_depth(options: argparse.Namespace) -> int:
     from replication.models.depth import normalized_depth
 
     case = case_of(options)
-    ratio = normalized_depth(**{name: x for name, x in case.motion.items() if name != "radius"})
+    motion = case.motion
+    ratio = normalized_depth(**{name: motion[name] for name in motion if name != "radius"})
     depth = case.radius * ratio
     record = {
         "inputs": inputs_of(case),
@@ -278,7 +279,9 @@ def run_converge(options: argparse.Namespace) -> int:
         steps = times_of("--steps", options.steps, _most("converge", "--levels N"))
     record = converge(case, steps, scheme)
     record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
-    warnings = (f"{x['step']!r} s: {said}" for x in record["levels"] for said in x["warnings"])
+    warnings = (
+        f"{level['step']!r} s: {doubt}" for level in record["levels"] for doubt in level["warnings"]
+    )
     return _put(options, record, lambda: text(record), warnings=warnings)
 
 

@@ -237,7 +237,7 @@ def test_the_table_says_it_all() -> None:
     another = case | {"name": "beta-3", "fastest": [dict(row) for row in case["fastest"]]}
     another["fastest"][0] |= {"method": "RK4, 100 steps", "best": 1e-6}
     runs = (run, run | {"repeat": 1, "cases": [case, another]})
-    told = "\n".join(bench.texts(own)["bench.txt"] for own in runs)
+    told = "\n".join(bench.texts(record)["bench.txt"] for record in runs)
     assert told == Path(__file__).with_name("bench.txt").read_text("utf-8")
 
 

@@ -43,9 +43,9 @@ def test_json_is_one_document_with_the_promised_keys(command: str) -> None:
     assert (status, err) == (0, "")
     names, inner = PROMISED[command]
     assert set(names.split()) <= set(record)
-    for key, own in inner.items():
+    for key, keys in inner.items():
         for row in record[key] if isinstance(record[key], list) else [record[key]]:
-            assert set(own.split()) <= set(row)
+            assert set(keys.split()) <= set(row)
 
 
 def test_json_has_null_where_nothing_is_defined_and_warnings() -> None:
