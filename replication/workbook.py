@@ -477,34 +477,31 @@ def _of(thing: object, *names: str) -> dict[str, Any]:
     return {name: getattr(thing, name) for name in names}
 
 
-def _work(impact: Impact, pressure: float) -> float:
-    """c = (4 rho_p / 3 rho_t) ln(1 + p) [1] of the closed form."""
-    return 4 * impact.particle_density / (3 * impact.target_density) * math.log1p(pressure)
-
-
 def _at_rest(impact: Impact) -> dict[str, float]:
-    """Depth at rest without steps, from p = rho_t V^2 / 2 R_t [1] and c of the closed form."""
-    v, radius, particle, target, r_t = impact.motion.values()
-    pressure = target * v * v / 2 / r_t
-    return {
-        "pressure": pressure,
-        "c": _work(impact, pressure),
-        "normalized_depth": depth.normalized_depth(v, particle, target, r_t),
-        "depth_um": depth.final_depth(v, radius, particle, target, r_t) * 1e6,
-    }
+    v, _, *materials = impact.motion.values()
+    return _without_steps(impact, 0.0, depth.normalized_depth(v, *materials))
 
 
 def _at_stop(impact: Impact) -> dict[str, float]:
-    """The same at the stop velocity; 0 where the impact is no faster than that."""
+    """As at rest, but at the stop velocity: no depth if the impact is slower than that."""
+    stop = min(impact.stop_velocity, impact.velocity)
+    reached = depth.depth_at_velocity(stop, *impact.motion.values())
+    return _without_steps(impact, stop, reached / impact.radius)
+
+
+def _without_steps(impact: Impact, slowed_to: float, normalized_depth: float) -> dict[str, float]:
+    """The closed form's terms, and the depth at which the particle has slowed to a velocity u.
+
+    p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1] and c = (4 rho_p / 3 rho_t) ln(1 + p) [1].
+    """
     v, radius, particle, target, r_t = impact.motion.values()
-    stop, pressure, reached = impact.stop_velocity, 0.0, 0.0
-    if stop < v:
-        pressure = target * (v - stop) * (v + stop) / (2 * r_t + target * stop * stop)
-        reached = depth.depth_at_velocity(stop, v, radius, particle, target, r_t) / radius
+    lost = target * (v - slowed_to) * (v + slowed_to)
+    pressure = lost / (2 * r_t + target * slowed_to * slowed_to)
     return {
         "pressure": pressure,
-        "c": _work(impact, pressure),
-        "normalized_depth": reached,
+        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "normalized_depth": normalized_depth,
+        "depth_um": radius * normalized_depth * 1e6,
     }
 
 
