@@ -12,8 +12,9 @@ import re
 import signal
 import sys
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import resources
+from pathlib import Path
 from typing import Any, NoReturn
 
 from replication.reading import one_line, quoted
@@ -111,9 +112,8 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         command = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.")
         if name in arguments:
             from replication.cli import commands as home
-            from replication.cli.options import declare
 
-            declare(command, takes)
+            _declare(command, takes)
             command.set_defaults(run=getattr(home, f"run_{name}"))
     for argument in arguments:
         if _DASHES.fullmatch(argument):
@@ -127,3 +127,82 @@ class _Version(argparse.Action):
 
         print(f"coldspray {version('coldspray')}", flush=True)
         parser.exit(0)
+
+
+# What a command takes, as `options.toml` lists it
+
+
+def _declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:
+    groups: dict[str, argparse._ActionsContainer] = {"": command}
+    for option, said in takes.items():
+        if option == "inputs":
+            _declare_inputs(command, said)
+        if option in ("does", "inputs"):
+            continue
+        settings = {"help": said} if isinstance(said, str) else dict(said)
+        either, within = settings.pop("either", ""), settings.pop("within", ())
+        *names, last = option.split()
+        if last.startswith("-"):
+            settings["action"] = "store_true"
+            names.append(last)
+        else:
+            settings |= {"type": _whole(*within) if within else _READERS.get(last, str)}
+            settings.setdefault("metavar", last)
+        if either not in groups:
+            groups[either] = command.add_mutually_exclusive_group()
+        groups[either].add_argument(*names, **settings)
+
+
+def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
+    """--case, --case-file and every input of a case."""
+    from replication.cases import INPUTS
+
+    command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
+    command.add_argument("--case-file", type=_path, metavar="FILE", help="TOML, table [impact]")
+    for name, unit in INPUTS.items():
+        measured = "" if unit == "1" else f" in {unit}, or with its unit"
+        meaning = f"{name.replace('_', ' ')}{measured}"
+        command.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=meaning)
+
+
+# How argparse reads the value of an option
+
+
+def _path(text: str) -> Path:
+    """A path from the command line; an unset variable must not mean this folder."""
+    if not text or "\0" in text:
+        raise argparse.ArgumentTypeError(f"give a path, not {quoted(text)}")
+    return Path(text)
+
+
+def _share(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1.0
+    if not 0 <= number <= 1:
+        raise argparse.ArgumentTypeError(f"give a number from 0 to 1, not {quoted(text)}")
+    return number
+
+
+def _whole(least: int, most: int) -> Callable[[str], int]:
+    """A reader of whole numbers within bounds.
+
+    >>> _whole(1, 40)("8")
+    8
+    """
+
+    def read(text: str) -> int:
+        digits = text.strip()
+        if digits.isascii() and digits.isdigit() and len(digits) <= 20:
+            number = int(digits)
+            if least <= number <= most:
+                return number
+        raise argparse.ArgumentTypeError(
+            f"give a whole number from {least:,} to {most:,}, not {quoted(text)}"
+        )
+
+    return read
+
+
+_READERS = dict.fromkeys(("FILE", "DIR", "A.xlsx", "B.xlsx"), _path) | {"SHARE": _share}

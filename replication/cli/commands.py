@@ -7,12 +7,13 @@ import shutil
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from replication.cases import inputs_of
+from replication.cases import INPUTS, inputs_of, read_case
 from replication.cli import COMMANDS
-from replication.cli.options import case_of, given, times_of
+from replication.models.impact import Impact
 from replication.reading import one_line, place, quoted, read_number
 from replication.text import aligned, columns, json_text, number, numbers, quantity, rows_csv
 
@@ -98,10 +99,8 @@ def run_power(options: argparse.Namespace) -> int:
     from reference.ledger import load
     from replication.power import power
 
-    def bar(plants: Any) -> Any:
-        return _progress(options, iterable=plants, unit=" misprints", leave=False)
-
-    result = power(load(), options.sample, options.seed, bar)
+    progress = partial(_progress, options, unit=" misprints", leave=False)
+    result = power(load(), options.sample, options.seed, progress)
     table = result.table()
     lines = [
         f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as every",
@@ -127,8 +126,8 @@ def run_workbook(options: argparse.Namespace) -> int:
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
-    is_given = options.case is not None or options.case_file is not None or given(options)
-    case = case_of(options) if is_given else None
+    is_given = options.case is not None or options.case_file is not None or _given(options)
+    case = _case(options) if is_given else None
     book = workbook.build(case, options.scheme, options.rows)
     if options.verify and all(engine.missing() for engine in engines.ENGINES):
         raise ValueError("no spreadsheet engine here: run pip install ironcalc formualizer")
@@ -187,7 +186,7 @@ def run_sheet(options: argparse.Namespace) -> int:
     from replication.error import warnings
     from replication.models.sheet import run
 
-    sheet = run(case_of(options), options.scheme)
+    sheet = run(_case(options), options.scheme)
     rows = [row._asdict() for row in sheet.rows] if options.json or options.csv else []
     doubts = list(warnings(sheet).values())
     record = {
@@ -221,7 +220,7 @@ def run_sheet(options: argparse.Namespace) -> int:
 def run_depth(options: argparse.Namespace) -> int:
     from replication.models.depth import normalized_depth
 
-    case = case_of(options)
+    case = _case(options)
     motion = case.motion
     ratio = normalized_depth(**{name: motion[name] for name in motion if name != "radius"})
     depth = case.radius * ratio
@@ -239,21 +238,15 @@ def run_depth(options: argparse.Namespace) -> int:
     return _put(options, record, lambda: text)
 
 
-def _most(command: str, option: str) -> int:
-    """The most that a whole number of a command may be."""
-    most: int = COMMANDS[command][option]["within"][1]
-    return most
-
-
 def run_history(options: argparse.Namespace) -> int:
     from replication.models.motion import history, stop_time
 
-    case = case_of(options)
+    case = _case(options)
     stop = stop_time(**case.motion)
     if options.times is None:
         times = [stop * (k / (options.points - 1)) for k in range(options.points)]
     else:
-        times = times_of("--times", options.times, _most("history", "--points N"))
+        times = _times(options, "times", "--points N")
     depth, velocity = [0.0] * len(times), [0.0] * len(times)
     history(times, **case.motion, depth=depth, speed=velocity)
     lists = {"time": times, "depth": depth, "velocity": velocity}
@@ -272,11 +265,11 @@ def run_history(options: argparse.Namespace) -> int:
 def run_converge(options: argparse.Namespace) -> int:
     from replication.error.ladder import converge, ladder, step_for_digits, text
 
-    case, scheme = case_of(options), options.scheme
+    case, scheme = _case(options), options.scheme
     if options.steps is None:
         steps = ladder(case.step, options.levels)
     else:
-        steps = times_of("--steps", options.steps, _most("converge", "--levels N"))
+        steps = _times(options, "steps", "--levels N")
     record = converge(case, steps, scheme)
     record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
     warnings = (
@@ -396,6 +389,38 @@ def _put_found(
     return 0 if record["clean"] else 1
 
 
+# What several options mean together
+
+
+def _given(options: argparse.Namespace) -> dict[str, str]:
+    """The inputs that stand on the command line."""
+    values = {name: getattr(options, name) for name in INPUTS}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _case(options: argparse.Namespace) -> Impact:
+    """The case that the options name."""
+    name = "beta-5" if options.case is None else options.case
+    return read_case(name, options.case_file, _given(options))
+
+
+def _times(options: argparse.Namespace, name: str, counted_by: str) -> list[float]:
+    """The times [s] that an option lists, such as "0 ns,5 ns".
+
+    There may be as many as the other option, which gives their number instead, can ask for.
+    """
+    texts, values = [time.strip() for time in getattr(options, name).split(",")], []
+    most = COMMANDS[options.command][counted_by]["within"][1]
+    if len(texts) > most:
+        raise ValueError(f"--{name}: give at most {most:,} values, not {len(texts):,}")
+    for position, time in enumerate(texts, 1):
+        with place(f"--{name}, value {position}"):
+            values.append(read_number(time, "s"))
+            if not 0 <= values[-1] <= 1e250:
+                raise ValueError(f"{quoted(time)} is not from 0 to 1e250 s")
+    return values
+
+
 # How they print
 
 
@@ -446,8 +471,8 @@ def _may_emphasize() -> bool:
     return is_able and not os.environ.get("NO_COLOR")
 
 
-def _progress(options: argparse.Namespace, **settings: Any) -> Any:
+def _progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:
     """A progress bar, unless quiet; none without a terminal, which is what None asks for."""
     from tqdm import tqdm
 
-    return tqdm(**settings, disable=options.quiet or None)
+    return tqdm(items, **settings, disable=options.quiet or None)
