@@ -315,7 +315,7 @@ def _drawn(table: Table, unit: str) -> Source:
     lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
     if lower >= upper:
         raise ValueError("lower must be less than upper")
-    low, high = (math.log(x) if log and x > 0 else -math.inf if log else x for x in (lower, upper))
+    low, high = (_log(lower), _log(upper)) if log else (lower, upper)
     normal = None
     if wanted == shape:
         normal = _normal(numbers["mean"], numbers["deviation"], log)
@@ -337,6 +337,10 @@ def _drawn(table: Table, unit: str) -> Source:
     if least < 0:
         raise ValueError(f"values down to {least:.3g} would be drawn: give a lower end")
     return Source((least, greatest), quantile)
+
+
+def _log(value: float) -> float:
+    return math.log(value) if value > 0 else -math.inf
 
 
 def _normal(mean: float, deviation: float, log: bool) -> NormalDist:

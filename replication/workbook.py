@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise, starmap
+from itertools import chain, pairwise, starmap
 from typing import TYPE_CHECKING, Any
 
 from reference.ledger import Ledger, load
@@ -184,7 +184,7 @@ def _typed_inputs(
 ) -> dict[Input, float]:
     """The number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
-    for entry in (entry for block in blocks.values() for entry in block):
+    for entry in chain.from_iterable(blocks.values()):
         if entry.attribute:
             # The name of a beta tells the case.
             case = impacts.get(entry.name.rpartition("_")[2]) or next(iter(impacts.values()))
@@ -449,28 +449,27 @@ def live_verdicts(
 
     Whether a live verdict is the proven one, a test asks.
     """
-    live: dict[str, Value] = {}
+    audit: Tree = {}
     for claim in sheets.computed_claims(ledger):
         value = values[plan.cell(place_of(str(claim.workbook))).key]
-        live[f"audit.{claim.id}.computed"] = value
-        live[f"audit.{claim.id}.verdict"] = _verdict(value, claim.interval())
-    verdicts = [value for key, value in live.items() if key.endswith(".verdict")]
-    for verdict, key in sheets.KINDS:
-        live[f"audit.{key}"] = live[f"overview.audit_{key}"] = float(verdicts.count(verdict))
-    for name in (*findings.failing, *findings.differing):
-        if ledger.claims[name].workbook:
-            live[f"overview.{name}"] = live[f"audit.{name}.computed"]
+        audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
+    table: Tree = {}
     for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
             value = values[plan.cell(("Table A-1", claim.place.cell)).key]
-            checked = {
+            table[claim.place.cell] = {
                 "computed": value,
                 "difference": _difference(value, claim.printed, exact=claim.is_exact),
-                "verdict": live[f"audit.{claim.id}.verdict"],
+                "verdict": audit[claim.id]["verdict"],
             }
-            branch = f"table_check.{claim.place.cell}"
-            live |= {f"{branch}.{key}": entry for key, entry in checked.items()}
-    return live
+    verdicts = [judged["verdict"] for judged in audit.values()]
+    counts = {key: verdicts.count(verdict) for verdict, key in sheets.KINDS}
+    overview = {f"audit_{key}": count for key, count in counts.items()}
+    for name in (*findings.failing, *findings.differing):
+        if ledger.claims[name].workbook:
+            overview[name] = audit[name]["computed"]
+    tree = {"audit": audit | counts, "overview": overview, "table_check": table}
+    return dict(_keyed(tree))
 
 
 def _of(thing: object, *names: str) -> dict[str, Any]:
