@@ -108,7 +108,7 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
 
 
 def trial(truth: Audit, plant: Plant) -> Trial:
-    """Judge one plant: all that depends on it, beside what the report itself gives there."""
+    """Judge everything that depends on one plant, and compare with the report as printed."""
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit = Audit(ledger, every_convention=False)
     claims, wrong = dependents(truth.ledger, plant.entry), set()
@@ -158,7 +158,7 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
 
 
 _VALUES = 24
-"""So many values of an inferred input are tried: a kg/m^3 apart for the density."""
+"""How many values of an inferred input are tried: for the density they are 1 kg/m^3 apart."""
 
 
 def power(

@@ -1,4 +1,4 @@
-"""What a user wrote: files, TOML, numbers with units, read within bounds and quoted in one line."""
+"""Reading what a user wrote (files, TOML, numbers with units), and quoting it in one line."""
 
 import re
 import sys
@@ -21,7 +21,7 @@ def quoted(text: object, longest: int = _QUOTED) -> str:
     >>> quoted("\x1b[31m5 m\n")
     "'\\x1b[31m5 m\\n'"
     """
-    # Python writes no whole number of thousands of digits in the decimal system.
+    # Python refuses to write out whole numbers of thousands of decimal digits.
     shown = hex(text) if isinstance(text, int) and abs(text) >= 10**longest else str(text)
     part = shown[:longest]
     end = "" if part == shown else "..."
@@ -31,7 +31,7 @@ def quoted(text: object, longest: int = _QUOTED) -> str:
 def one_line(message: str, longest: int = 340) -> str:
     r"""A message as one line without control characters; if it is too long, without its middle.
 
-    It ends with what would be right, and what a user wrote, however long, stands before that.
+    Its end says what would be right, and is kept; what the user wrote, maybe long, stands before.
 
     >>> one_line("no file\x07 of\nthis name"), one_line("no " + 99 * "x" + ": choose one", 30)
     ('no file\\x07 of this name', 'no xxxxxxxxxx...xx: choose one')
@@ -59,7 +59,7 @@ def _content(path: Path) -> bytes:
 
 @contextmanager
 def place(name: str) -> Iterator[None]:
-    """Say where it was that something was wrong.
+    """Put before the message of a ValueError where it was that something was wrong.
 
     >>> with place("--step"):
     ...     read_number("x", "s")
@@ -120,7 +120,7 @@ def tables_of(
 def check_keys(
     table: Mapping[str, Any], wanted: Iterable[str] = (), allowed: Iterable[str] = ()
 ) -> None:
-    """Raise ValueError for a key that is neither, or is wanted and missing."""
+    """Raise ValueError for a key that is neither wanted nor allowed, and for a missing one."""
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:

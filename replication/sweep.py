@@ -1,8 +1,8 @@
 """Sweeps: many cases by a plan from a TOML file, computed in blocks, written as CSV or Parquet.
 
 The values of an input come from a list or a range, a distribution, or Eq. 1. All values of a source
-lie within its `bounds`, rounding included: what is in range there is in range everywhere between,
-and a sweep is refused before it runs, not in the middle.
+lie within its `bounds`, rounding included. If the bounds are in range, so is all between them; so a
+sweep is refused before it runs, not in the middle.
 """
 
 import hashlib
@@ -32,7 +32,7 @@ BLOCK = 65_536
 """Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
 
 MAX_CASES, MAX_POINTS = 10**12, 10**7
-"""Of a plan, days of work for many cores; of one range, which stands in memory."""
+"""The most cases of a plan, days of work for many cores; the most points of a range, in memory."""
 
 RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
 """What is computed of every case, with its SI unit: none for a truth value."""
@@ -43,14 +43,15 @@ EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
 # Where the values of an input come from
 
 LEAST_SHARE = 2.0**-53
-"""The least of the uniform numbers; the greatest is 1 less it."""
+"""The least of the uniform numbers; the greatest is 1 minus it."""
 
 
 def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
     """Uniform numbers in (0, 1) of the cases from `first` on, shape (count,).
 
     Each is a function of the seed, the stream (one for each input) and the number of its case:
-    Philox encrypts that number, four words at a time. 52 bits and a half leave neither 0 nor 1.
+    Philox makes four random words at a time from the case's number. Their upper 52 bits plus one
+    half, scaled, are neither 0 nor 1.
 
     >>> bool((uniform(1, 0, 0, 10)[7:] == uniform(1, 0, 7, 3)).all())
     True
@@ -62,10 +63,10 @@ def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Values within `bounds`.
+    """The values of one input, all within `bounds`.
 
-    There are `count` of them, and `at` gives those of positions from 0 on; or they are drawn, the
-    count is None, and `at` gives those that these shares fall short of.
+    Of a list, `count` is how many there are, and `at` gives those at positions, from 0 on. Of a
+    distribution, `count` is None, and `at` gives its quantiles for probabilities between 0 and 1.
     """
 
     bounds: tuple[float, float]
@@ -85,11 +86,11 @@ class ByMass:
 class Plan:
     """The cases of a sweep.
 
-    `sources` has every input, in the order that the file gives them: the first varies slowest, and
-    of each combination there are `samples` cases, each with random numbers of its own by `seed`.
-    The velocity is not among them if it follows `by_mass`. `extras` are of `EXTRAS`; `digest` is
-    the SHA-256 of the file. Raises ValueError where an input or a combination of them would leave
-    the range that `Impact` allows.
+    `sources` has every input, in the file's order: the first varies slowest. For each combination
+    of listed values there are `samples` cases, each with its own random numbers, which follow from
+    `seed`. The velocity is not in `sources` if it follows `by_mass`. `extras` are names of
+    `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an input or a combination
+    of inputs would leave the range that `Impact` allows.
     """
 
     sources: dict[str, Source]
@@ -121,7 +122,7 @@ class Plan:
 
     @property
     def grid(self) -> dict[str, int]:
-        """How many values the inputs have that are gone through value by value, slowest first."""
+        """How many values each listed input has, the slowest first."""
         return {name: source.count for name, source in self.sources.items() if source.count}
 
     @property
@@ -251,7 +252,7 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], ByMass | No
 
 
 def read_source(name: str, value: Any) -> Source:
-    """The source of an input, whose values may yet be such as the input cannot have.
+    """The source of an input; whether the input may have such values is checked later.
 
     Raises ValueError that says what is wrong and what would be right.
 
@@ -296,8 +297,8 @@ def _drawn(table: Table, unit: str) -> Source:
     """A distribution, by the inverse of its cumulative probability.
 
     Uniform between lower and upper, or normal: of the quantity itself or (log) of its logarithm.
-    A normal one is truncated: what lies outside lower and upper is as if drawn again, so that
-    inside the density keeps its shape.
+    A normal one is truncated: a value outside lower and upper counts as drawn again, so that
+    between them the density keeps its shape.
     """
     from scipy.special import ndtri
 
@@ -331,7 +332,7 @@ def _drawn(table: Table, unit: str) -> Source:
             return np.clip(np.exp(values) if log else values, lower, upper)
 
     least, greatest = quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE])).tolist()
-    # The inverse of the normal distribution has 15 digits, and need not rise in the last.
+    # SciPy's inverse of the normal distribution has 15 digits, and may fall by the last of them.
     wide = (least - 1e-14 * abs(least), greatest + 1e-14 * abs(greatest))
     least, greatest = np.clip(wide, lower, upper).tolist()
     if least < 0:
@@ -344,7 +345,7 @@ def _log(value: float) -> float:
 
 
 def _normal(mean: float, deviation: float, log: bool) -> NormalDist:
-    """Of a quantity or, for its mean and deviation before truncation, of its logarithm."""
+    """The distribution of a quantity, or of the logarithm of one with this mean and deviation."""
     if not log:
         return NormalDist(mean, deviation)
     ratio = deviation / mean
@@ -371,7 +372,7 @@ def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
     return value
 
 
-# The file of the cases: whole under its name, or not there
+# The file of the cases, written whole or not at all
 
 
 def write(
@@ -433,7 +434,7 @@ def provenance(plan: Plan) -> dict[str, str]:
 
 
 def check_output(path: Path) -> None:
-    """Raise ValueError for another suffix, OSError as `check_target` does, before any work."""
+    """Before any work, raise ValueError for another suffix, and OSError as `check_target` does."""
     if path.suffix.lower() not in (".csv", ".parquet"):
         raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
     check_target(path)

@@ -92,9 +92,9 @@ def quantity(text: str, unit: str) -> str:
 
 
 def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: bool = False) -> str:
-    """An interval as words, its ends shortened outward, or inward where all inside is meant.
+    """An interval as words, its ends rounded outward; or inward, so that all between lies inside.
 
-    An end that is short but for the rounding of a double is taken as it is.
+    An end that is a short decimal number but for a double's rounding is shown as that number.
 
     >>> between((0.12374472967338257, 0.13081477249718315))
     '0.1237447296 to 0.1308147725'

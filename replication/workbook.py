@@ -62,13 +62,13 @@ def build(
     *,
     ledger: Ledger | None = None,
 ) -> Workbook:
-    """The workbook of a case; or, of none, the report's own.
+    """The workbook of a case; without a case, the report's own.
 
-    That has both cases of the report, and what is about the report alone: the sheets with its other
-    time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: those to
+    The report's has both of its cases, and what is about the report alone: the sheets with its
+    other time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: those to
     prepare after row 0, by default twice as many as the longest case takes. record: the finished
-    audit, made where it is needed and not given. A number that the cell of its unit cannot hold to
-    the last bit is taken as the nearest that it can.
+    audit, made where it is needed and not given. Of an input that its cell cannot hold to the last
+    bit in the cell's unit, the nearest number that it can hold is taken.
 
     Raises ValueError where a number is outside of what the workbook takes, and where a case takes
     more steps than there are rows.
@@ -117,15 +117,16 @@ def build(
 def rounding_bound(sheet: Sheet) -> float:
     """How far a sheet in doubles may lie from exact arithmetic, relative to a column's largest.
 
-    In n rows of the impact velocity V, the final depth X and the duration T, with u = 2^-53:
+    For n rows, impact velocity V, final depth X, duration T, and u = 2^-53:
 
-    - what enters is rounded: at most 26 u of the deceleration a (16 of them by the mass);
-    - a row takes 12 operations to a dt, relative errors of u each, and a subtraction from v: so
-      the rows add at most (n + 38) u V to the velocity, since the a dt add up to V;
-    - a row adds v dt to x: at most (n + 3) u X in all;
-    - an error in v moves x by T times itself, in X by T V / X as much as in V; an error in x turns
-      a, whose rise with x is at most a/x, by as much; the resistance damps both;
-    - in a both stand, squared velocity and area, with factors of at most 4.
+    - the inputs are rounded: that changes the deceleration a by at most 26 u (16 by the mass);
+    - a row takes 12 operations to a dt, with a relative error of u each, and subtracts it from v.
+      As all a dt together make V, the velocity is off by at most (n + 38) u V;
+    - a row adds v dt to x: that is at most (n + 3) u X in all;
+    - an error in v changes x by T times as much, so relative to X by T V / X times what it is
+      relative to V; an error in x changes a, which rises with x by at most a/x, by the same
+      relative amount; the resistance damps both;
+    - a depends on the squared velocity and on the area, with factors of at most 4.
 
     So no column is off by more than 4 (2n + 41) max(1, T V / X) u of its largest number. Results
     take fewer than the 41 operations that are counted beside the rows.
@@ -139,7 +140,7 @@ def rounding_bound(sheet: Sheet) -> float:
 
 
 def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
-    """What the audit tells the workbook, with the verdicts under its scheme."""
+    """What the audit tells the workbook, with the verdicts under the workbook's scheme."""
     from replication.audit.verdict import Verdict
 
     usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
@@ -163,7 +164,7 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
 
 
 def _si(typed: float, unit: str) -> float:
-    """A number of a cell in SI, rounded once."""
+    """The number typed into a cell, in SI units, rounded once."""
     factor = to_si(unit)
     return typed * float(factor) if factor >= 1 else typed / float(1 / factor)
 
@@ -201,7 +202,7 @@ def _typed_inputs(
 
 
 def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
-    """What the plan must know of a case's sheet, but for its length."""
+    """What the plan must know of a case's sheet, apart from its length."""
     beta = impact.beta
     return CaseSheet(
         name="Sheet" if beta is None else f"Sheet beta {beta:.4g}",
@@ -215,7 +216,8 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     )
 
 
-# The values, sheet by sheet, as trees: a branch is a part of a key, a list a column, None no cell
+# The values, sheet by sheet, as trees of dicts: the names of its branches, joined, are the key of a
+# value; a list is a column, and None has no cell
 
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
@@ -336,7 +338,7 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
-    """The ladder of the cases as written, with inputs that are as yet those in use."""
+    """Final depths at a ladder of time steps, and the inputs that they were computed with."""
     of_runs = {name: si[name] for name in sheets.run_inputs([page for page, _ in runs])}
     time_steps = ladder(si["dt_s"], sheets.LEVELS)
     return {
@@ -445,9 +447,9 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
 def live_verdicts(
     ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
 ) -> dict[str, Value]:
-    """Live verdicts, and the check of Table A-1, of the doubles in the claims' cells.
+    """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells.
 
-    Whether a live verdict is the proven one, a test asks.
+    A test compares the live verdicts with the proven ones.
     """
     audit: Tree = {}
     for claim in sheets.computed_claims(ledger):
@@ -505,7 +507,7 @@ def _without_steps(impact: Impact, slowed_to: float, normalized_depth: float) ->
 
 
 def _state(sheet: Sheet) -> tuple[int, str]:
-    """2 where nothing is to be said against a run, 1 where only its last velocity is wrong, 0."""
+    """How far a run can be trusted (2; 1: all but its last velocity; 0: not), and what to say."""
     kinds = doubts_about(sheet).keys()
     trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
     message = ("doubtful", "reversed", "early" if "short" in kinds else "complete")[trust]
