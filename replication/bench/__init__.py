@@ -1,4 +1,4 @@
-"""Speed against error: this project's methods and what a user would take otherwise, in one run."""
+"""Speed against error: this project's methods and what others would use instead, in one run."""
 
 import io
 import math
@@ -36,7 +36,7 @@ from spreadsheets.safely import write_folder
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
-"""What is asked of a method, and the title of that."""
+"""What can be asked of a method, and its title."""
 
 CASES = {
     "beta-5": "the report's beta-5",
@@ -45,7 +45,7 @@ CASES = {
     "shallow": "slow, 1 m/s",
     "hypervelocity": "hypervelocity, 1e4 m/s",
 }
-"""Names for the command line, and which of the hard cases they are."""
+"""The cases' names on the command line, and among the hard cases."""
 
 POINTS = 101
 """Times of a history, first and last included."""
@@ -65,7 +65,7 @@ class Case:
     depths: tuple[Number, ...]
 
     def columns(self, count: int) -> list[Any]:
-        """The inputs of so many cases, their velocities within 10 % of this one in the middle."""
+        """The inputs of so many cases, with velocities up to 10 % below and above this one's."""
         spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
         velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
         return [velocity * (1 + spread), *others]
@@ -73,9 +73,10 @@ class Case:
     def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
         """The worst relative error of depths [m], measured down to a velocity [m/s], 0 for rest.
 
-        Of a "depth", these are the final ones of `columns`, of which eleven are compared; of a
-        "history", those at `times`, relative to the depth at rest; where there is a row for each of
-        `columns`, the middle one is. Of several results, as of depth and velocity, the first is.
+        For a "depth" they are the final depths of the cases of `columns`, of which eleven are
+        compared. For a "history" they are the depths at `times`, and their errors are relative to
+        the depth at rest; if there is a row for each case of `columns`, the middle row is compared.
+        Of a tuple of results, such as depth and velocity, the first is compared.
         """
         computed = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
         if measure == "depth":
@@ -112,9 +113,9 @@ def build(name: str) -> Case:
 def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
     """The k-th time as a double, and the exact depth at that very double.
 
-    Time is found for a depth, a single quadrature, where depth for a time would take a dozen.
-    Depths X (1 - s^2) with s falling evenly are about evenly spaced in time. What rounding the time
-    to a double leaves out, 1e-16 of the motion, one Taylor step makes up for but for 1e-32.
+    The time for a depth takes one quadrature, the depth for a time would take a dozen. Depths
+    X (1 - s^2), with s falling evenly, are about evenly spaced in time. Rounding the time to a
+    double leaves out 1e-16 of the motion; one Taylor step adds that again, to within 1e-32.
     """
     s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
     depth = motion.final_depth * (1 - s * s)
@@ -126,14 +127,15 @@ def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
 # The methods
 
 STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
-"""Of the sheet, over that of the case."""
+"""The time steps of the sheet, as multiples of the case's."""
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
     """A method at a setting: `run` answers what `measure` asks, down to a velocity `stop` [m/s].
 
-    A run does `cases` cases at once. Where it is `compiled`, the first run takes that long, too.
+    One run computes `cases` cases at once. If the method is `compiled`, that is part of its first
+    run.
     """
 
     method: str
@@ -146,7 +148,7 @@ class Task:
 
 
 def tasks(case: Case) -> Iterator[Task]:
-    """Every method at every setting: this project's, solvers of the equation, and bare loops."""
+    """Every method at every setting: this project's, solvers of the equation, and plain loops."""
     given, stop = tuple(case.impact.motion.values()), case.impact.stop_velocity
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
     for scheme, (step, setting) in product(SCHEMES, steps):
@@ -200,7 +202,7 @@ def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
 
 
 def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
-    """Final depth and history by what gives y at times, for b and c."""
+    """Final depth and history by a solver, which takes b, c and times, and gives y = x/R."""
     impact, R = case.impact, case.impact.radius
     b = 3 * impact.target_density / (8 * impact.particle_density)
     c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
@@ -211,7 +213,7 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
     yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
-# Every method on the cases asked for: measured, and the fastest for so many digits
+# Measuring every method on the cases asked for, and finding the fastest for so many digits
 
 Point = dict[str, Any]
 """What `trial` measures of a task, as in the JSON."""
@@ -219,7 +221,7 @@ Point = dict[str, Any]
 DIGITS = range(1, 16)
 
 BATCH = 5e-3
-"""A call is repeated without a look at the clock for about so many seconds."""
+"""For about so many seconds a call is repeated between two looks at the clock."""
 
 
 def bench(
@@ -238,7 +240,7 @@ def bench(
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that all is compiled anew
         arrays.ufunc.cache_clear()
-        numba.vectorize(["f8(f8)"])(error_for)  # to start the compiler is no method's cost
+        numba.vectorize(["f8(f8)"])(error_for)  # starting the compiler is no method's cost
         measured = [_measure(case, repeat, limit, quiet) for case in cases]
     return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
 
@@ -261,9 +263,9 @@ def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[
 def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
     """A task's point, measured in turns: the first warms it up, the others time a batch each.
 
-    It has the relative error, and in s a case `best` and `median` of `repeats` batches of `calls`
-    calls, and what the first call took longer where something is compiled. A task that fails, or
-    takes longer than the limit, is left alone from then: a `gap`, for this reason.
+    It has the relative error; `best` and `median`, in s for one case, of `repeats` batches of
+    `calls` calls; and, of a compiled method, how much longer the first call took. A task that fails
+    or takes longer than the limit is not measured; `gap` then says why.
     """
     names = ("error", "compile", "best", "median", "repeats", "calls", "gap")
     point: Point = {"method": task.method, "setting": task.setting, "measure": task.measure}
@@ -293,19 +295,19 @@ def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
 
 
 def met(point: Point) -> float:
-    """The error that counts: not below half an ulp, where being nearer is luck; of a gap, any."""
+    """The error that counts: at least half an ulp, as less is luck; infinity for a gap."""
     return math.inf if point["gap"] else max(float(point["error"]), 2.0**-53)
 
 
 def ranked(points: Sequence[Point], measure: Measure, many: bool) -> list[Point]:
-    """Those without a gap, the fastest first; where wanted, those of many cases at once too."""
+    """Those without a gap, the fastest first; if `many`, also those of many cases at once."""
     asked = (p for p in points if not p["gap"] and p["measure"] == measure)
     able = (p for p in asked if many or p["cases"] == 1)
     return sorted(able, key=lambda point: (point["best"], met(point)))
 
 
 def mark_front(points: Sequence[Point]) -> None:
-    """Mark those of one case at a time that no other beats in time without loss of accuracy."""
+    """Mark the Pareto front of one case at a time: no other is faster and at least as accurate."""
     for measure in MEASURES:
         least = math.inf
         for point in ranked(points, measure, many=False):

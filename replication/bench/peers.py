@@ -1,9 +1,9 @@
-"""The peers: what a user would take otherwise, written as a user would.
+"""The peers: what others would use instead, written as they would write it.
 
-Solvers have depth over R and velocity over V, in units of R / V of time: y' = u and
-u' = -(b u^2 + c) A(y) (Eqs. 12-13). One takes its setting, b, c and times, and gives y there.
-SciPy's `solve_ivp` finds rest by an event. The others are told when rest comes, and integrate up to
-there: nothing that they lack is held against them.
+Solvers take y = x/R, u = v/V and time in units of R/V: y' = u and u' = -(b u^2 + c) A(y)
+(Eqs. 12-13). A solver gets its setting, b, c and times, and gives y at these times. SciPy's
+`solve_ivp` finds rest by an event. The others are told when rest comes, and integrate up to there:
+that they know no events is not held against them.
 """
 
 import math
@@ -68,7 +68,7 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
 
 @njit
 def _rk4(steps: Any, b: Any, c: Any, times: Any) -> Any:
-    """Runge and Kutta's method with so many steps, as many from any time to the next."""
+    """The method of Runge and Kutta, with the same number of steps between any two times."""
     depths, y, u = np.zeros(times.size), 0.0, 1.0
     steps //= times.size - 1
     for k in range(1, times.size):
@@ -117,7 +117,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
 
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
-"""Relative and absolute; SciPy takes no relative one below 2.2e-14."""
+"""Relative and absolute ones; SciPy refuses a relative one below 2.2e-14."""
 
 SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
     **{
@@ -129,7 +129,7 @@ SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
     "RK4, Numba": ("{} steps", (100, 200, 400, 800, 1600, 6400), _rk4),
     "heyoka": ("tol {:g}", (1e-6, 1e-10, 2.2e-16), _heyoka),
 }
-"""How a setting is shown, the settings, and the solver."""
+"""For each method: how a setting is shown, its settings, and the solver."""
 
 
 # Bare loops over cases, on one core, without any check

@@ -26,11 +26,11 @@ COMMANDS = tomllib.loads((resources.files(__name__) / "options.toml").read_text(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work.
 
-    Above 128 as of a program that a signal ended.
+    A status above 128 means, as for any program, that a signal ended it.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # What a terminal's encoding lacks is escaped, as JSON allows, not an error.
+            # Characters that a terminal's encoding lacks are escaped, as JSON allows.
             stream.reconfigure(errors="backslashreplace")
     program = "coldspray"
     try:
@@ -42,8 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        _discard_output()  # the reader of a pipe has seen enough; what it leaves out may be 1
-        return 128 + 13  # as shells tell of a program that ended by SIGPIPE
+        _discard_output()  # the reader of the pipe has seen enough; the status might have been 1
+        return 128 + 13  # as shells report a program that SIGPIPE ended
     except KeyboardInterrupt as interrupt:
         print(f"{program}: interrupted, nothing written", file=sys.stderr)
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
@@ -57,14 +57,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _discard_output() -> None:
-    """Have Python not try again, at its end, to write what could not be written."""
+    """Keep Python from trying again, when it ends, to write what could not be written."""
     output = sys.__stdout__
     if output and sys.stdout is output:  # nobody has put another in its place
         os.dup2(os.open(os.devnull, os.O_WRONLY), output.fileno())
 
 
 def _end_as_interrupted() -> None:
-    """Have the program end as by Ctrl-C, drafts removed, when it is told to or loses its terminal.
+    """Have SIGTERM, and the loss of the terminal, end the program as Ctrl-C does: drafts removed.
 
     A signal that is ignored, as after `nohup`, remains so.
     """
@@ -92,7 +92,7 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        # argparse passes over a full disk.
+        # argparse itself would ignore a full disk.
         print(message, end="", file=file or sys.stderr, flush=True)
 
 
@@ -169,7 +169,7 @@ def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
 
 
 def _path(text: str) -> Path:
-    """A path from the command line; an unset variable must not mean this folder."""
+    """A path from the command line; the empty text of an unset variable is not this folder."""
     if not text or "\0" in text:
         raise argparse.ArgumentTypeError(f"give a path, not {quoted(text)}")
     return Path(text)

@@ -1,4 +1,4 @@
-"""What the commands do: a function each, which gives the status, and how they print."""
+"""What the commands do, a function each, which returns the exit status; and how they print."""
 
 import argparse
 import gc
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from spreadsheets.engines import EngineCheck
     from spreadsheets.recalculation import Calculation
 
-# The report: audit; claims, one by one; power, what the audit would notice
+# The report: audit; claims, one by one; power, which misprints the audit would notice
 
 
 def run_audit(options: argparse.Namespace) -> int:
@@ -31,7 +31,7 @@ def run_audit(options: argparse.Namespace) -> int:
 
         sys.stdout.write(json_text(schema()))
         return 0
-    gc.disable()  # to look for garbage would take a tenth of the time
+    gc.disable()  # looking for garbage would take a tenth of the time
     try:
         from replication import report
         from replication.audit.audit import audit
@@ -95,7 +95,7 @@ def run_claims(options: argparse.Namespace) -> int:
 
 
 def run_power(options: argparse.Namespace) -> int:
-    """Print the rates, whole, by kind of entry and by kind of edit, then what passes."""
+    """Print the rates: of all, by kind of entry and by kind of edit; then what was not noticed."""
     from reference.ledger import load
     from replication.power import power
 
@@ -152,7 +152,7 @@ def run_workbook(options: argparse.Namespace) -> int:
 
 
 _SHOWN = 5
-"""So many wrong cells of an engine are printed; the JSON has them all."""
+"""The most wrong cells of an engine that are printed; the JSON has them all."""
 
 _LEGEND = """\
 Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
@@ -161,7 +161,7 @@ those within {bound:.1e} of the largest number of their column, a proven bound o
 
 
 def _verified(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
-    """A line for each engine, what is wrong with it, what the columns mean, and the outcome."""
+    """A line for each engine, then its wrong cells, what the columns mean, and the outcome."""
     rows: list[tuple[str, ...]] = [("engine", "outcome", "seconds", "cells", "rounded", "wrong")]
     for check in checks:
         seconds = "" if check.seconds is None else f"{check.seconds:.2f}"
@@ -377,7 +377,7 @@ def _put_found(
     calculation: "Calculation",
     kinds: Sequence[str],
 ) -> int:
-    """Write the files that were asked for, then print the record as JSON or as text: the status."""
+    """Write the files that were asked for, and print the record as JSON or text; the status."""
     from replication.check import show
     from spreadsheets.safely import write_bytes
 
@@ -431,9 +431,9 @@ def _put(
     rows: Sequence[Mapping[str, Any]] = (),
     warnings: Iterable[object] = (),
 ) -> int:
-    """Print what a command found as JSON, as rows of CSV or as text, as it was asked to; 0.
+    """Print what a command found as JSON, as rows of CSV or as text, whichever is asked for.
 
-    Warnings go to standard error, but not beside JSON: they stand in the record.
+    Warnings go to standard error; with JSON they stand in the record instead. The status is 0.
     """
     if options.json:
         sys.stdout.write(json_text(record))
@@ -447,7 +447,7 @@ def _put(
 
 
 def _tell(options: argparse.Namespace, record: Any, text: str) -> int:
-    """Print what a command has done as JSON, or as text unless quiet; 0."""
+    """Print what a command has done as JSON, or as text unless quiet; the status is 0."""
     if options.json or not options.quiet:
         sys.stdout.write(json_text(record) if options.json else f"{text}\n")
     return 0
@@ -461,7 +461,7 @@ def _warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:
 
 
 def _width(piped: int = 80) -> int:
-    """The columns of the terminal; where output goes elsewhere, so many."""
+    """The columns of the terminal, or those given where output goes elsewhere."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
 
 
