@@ -12,10 +12,9 @@ from typing import Any
 from reference.units import same_dimension, to_si
 
 _SIZE = 2**20
-_QUOTED = 60
 
 
-def quoted(text: object, longest: int = _QUOTED) -> str:
+def quoted(text: object, longest: int = 60) -> str:
     r"""What a user wrote, as a message may show it: one line, texts with quotes, shortened.
 
     >>> quoted("\x1b[31m5 m\n")

@@ -8,7 +8,7 @@ sweep is refused before it runs, not in the middle.
 import hashlib
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -75,26 +75,19 @@ class Source:
 
 
 @dataclass(frozen=True, slots=True)
-class ByMass:
-    """Velocity by Eq. 1, from the mass: average_velocity V [m/s], average_mass m_o [kg]."""
-
-    average_velocity: float
-    average_mass: float
-
-
-@dataclass(frozen=True, slots=True)
 class Plan:
     """The cases of a sweep.
 
     `sources` has every input, in the file's order: the first varies slowest. For each combination
     of listed values there are `samples` cases, each with its own random numbers, which follow from
-    `seed`. The velocity is not in `sources` if it follows `by_mass`. `extras` are names of
-    `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an input or a combination
-    of inputs would leave the range that `Impact` allows.
+    `seed`. The velocity is not in `sources` if it follows from the mass, by Eq. 1: then `by_mass`
+    has its average_velocity V [m/s] and average_mass m_o [kg]. `extras` are names of `EXTRAS`;
+    `digest` is the SHA-256 of the file. Raises ValueError where an input or a combination of inputs
+    would leave the range that `Impact` allows.
     """
 
     sources: dict[str, Source]
-    by_mass: ByMass | None
+    by_mass: Mapping[str, float] | None
     samples: int
     seed: int
     extras: tuple[str, ...]
@@ -112,8 +105,7 @@ class Plan:
             if law := self.by_mass:
                 mass = particle_mass(case["radius"], case["particle_density"])
                 # Without a mass there is no velocity: infinity, which is refused.
-                args = law.average_velocity, mass, law.average_mass
-                case["velocity"] = particle_velocity(*args) if mass else math.inf
+                case["velocity"] = particle_velocity(mass=mass, **law) if mass else math.inf
             try:
                 Impact(**case)
             except ValueError as error:
@@ -154,7 +146,7 @@ class Plan:
                 values[name] = self.sources[name].at(uniform(self.seed, stream, first, count))
         if law := self.by_mass:
             mass = arrays.ufunc(particle_mass)(values["radius"], values["particle_density"])
-            args = law.average_velocity, mass, law.average_mass
+            args = law["average_velocity"], mass, law["average_mass"]
             values["velocity"] = arrays.ufunc(particle_velocity)(*args)
         if "resistance" not in values:
             values["resistance"] = values["beta"] * values["flow_stress"]
@@ -233,7 +225,7 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
     return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
 
 
-def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], ByMass | None]:
+def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, float] | None]:
     """The sources of all inputs, the table's in its order; those of the case fill in."""
     check_keys(table, [], INPUTS)
     replaced = ("beta", "flow_stress") if "resistance" in table else ("resistance",)
@@ -353,14 +345,14 @@ def _normal(mean: float, deviation: float, log: bool) -> NormalDist:
     return NormalDist(math.log(mean) - variance / 2, math.sqrt(variance))
 
 
-def _by_mass(name: str, table: Table) -> ByMass:
+def _by_mass(name: str, table: Table) -> dict[str, float]:
     if name != "velocity":
         raise ValueError("only the velocity follows from the mass, by Eq. 1")
     units = {"average_velocity": "m/s", "average_mass": "kg"}
     check_keys(table, units)
     numbers = read_numbers(table, units)
     check(numbers)
-    return ByMass(**numbers)
+    return numbers
 
 
 def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:

@@ -228,7 +228,7 @@ def _values(
     ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
     """Every value but the live verdicts; `si`: the inputs by name, in SI."""
-    changed = {entry.name for entry, n in typed.items() if n != entry.of_report(ledger)}
+    inputs = _inputs(ledger, runs, typed, si)
     pages = {page.part: _sheet(page, sheet, si) for page, sheet in runs}
     for page in (page for page, _ in runs if page.coarse):
         values, fine = pages[page.part], pages[page.slug]["depth_um"]
@@ -241,9 +241,9 @@ def _values(
     columns = [name for name in table["row"] if name not in ("index", "depth_um")]
     rows = {name: table["row"][name][: cases.TABLE_ROWS] for name in columns}
     return {
-        "inputs": _inputs(runs, typed, si, changed),
+        "inputs": inputs,
         "overview": {
-            "inputs_changed": len(changed),
+            "inputs_changed": inputs["changed"],
             "inputs_unusable": 0,
             **{page.part: {key: pages[page.part][key] for key in results} for page, _ in runs},
         },
@@ -259,9 +259,10 @@ def _values(
 
 
 def _inputs(
-    runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float], changed: set[str]
+    ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
     first = runs[0][1].impact
+    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
     values: Tree = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
