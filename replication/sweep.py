@@ -162,9 +162,10 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     """
     inputs = plan.inputs(first, count)
     motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
-    ratio = arrays.normalized_depth(**{name: motion[name] for name in motion if name != "radius"})
+    velocity, radius, *materials = motion.values()
+    ratio = arrays.normalized_depth(velocity, *materials)
     results = {
-        "depth": inputs["radius"] * ratio,
+        "depth": radius * ratio,
         "normalized_depth": ratio,
         "beyond_radius": ratio > 1,
     }

@@ -416,7 +416,7 @@ def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
         asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
         where: dict[str, list[str]] = {}
         for case, answer in zip(cases, row, strict=True):
-            method = (answer["method"] or "none of these, ").rpartition(", ")[0]
+            method = answer["method"].rpartition(", ")[0] if answer["method"] else "none of these"
             where.setdefault(method, []).append(case["name"])
         if len(where) == 1:
             return asked, next(iter(where))

@@ -134,12 +134,12 @@ class _Version(argparse.Action):
 
 def _declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:
     groups: dict[str, argparse._ActionsContainer] = {"": command}
-    for option, said in takes.items():
+    for option, entry in takes.items():
         if option == "inputs":
-            _declare_inputs(command, said)
+            _declare_inputs(command, entry)
         if option in ("does", "inputs"):
             continue
-        settings = {"help": said} if isinstance(said, str) else dict(said)
+        settings = {"help": entry} if isinstance(entry, str) else dict(entry)
         either, within = settings.pop("either", ""), settings.pop("within", ())
         *names, last = option.split()
         if last.startswith("-"):

@@ -221,9 +221,9 @@ def run_depth(options: argparse.Namespace) -> int:
     from replication.models.depth import normalized_depth
 
     case = _case(options)
-    motion = case.motion
-    ratio = normalized_depth(**{name: motion[name] for name in motion if name != "radius"})
-    depth = case.radius * ratio
+    velocity, radius, *materials = case.motion.values()
+    ratio = normalized_depth(velocity, *materials)
+    depth = radius * ratio
     record = {
         "inputs": inputs_of(case),
         "depth": depth,
