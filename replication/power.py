@@ -28,22 +28,13 @@ class Plant(NamedTuple):
     edit: str
 
 
-class Trial(NamedTuple):
-    """What the audit made of a plant.
-
-    `failing`: what fails only because of it; `repaired`: the true text is among the repairs that
-    are named; `first`: it is the first of them; `accused`: the first repair changes another entry.
-    """
-
-    visible: bool
-    failing: frozenset[str]
-    repaired: bool
-    first: bool
-    accused: bool
-
-
 class Counts(msgspec.Struct, kw_only=True):
-    """How many plants there were, how many of them are visible, and what became of these."""
+    """How many plants there were, how many of them are visible, and what became of these.
+
+    `detected`: something fails because of them; `accused_wrongly`: the first repair that the audit
+    names changes another entry; `repaired`: the true text is among the repairs that it names;
+    `repaired_first`: it is the first of them.
+    """
 
     planted: int = 0
     invisible: int = 0
@@ -53,15 +44,10 @@ class Counts(msgspec.Struct, kw_only=True):
     repaired: int = 0
     repaired_first: int = 0
 
-    def add(self, trial: Trial) -> None:
-        """Count one more."""
-        self.planted += 1
-        self.invisible += not trial.visible
-        self.visible += trial.visible
-        self.detected += trial.visible and bool(trial.failing)
-        self.accused_wrongly += trial.accused
-        self.repaired += trial.visible and trial.repaired
-        self.repaired_first += trial.visible and trial.first
+    def add(self, more: "Counts") -> None:
+        """Count these, too."""
+        for name in Counts.__struct_fields__:
+            setattr(self, name, getattr(self, name) + getattr(more, name))
 
 
 class Power(Counts, kw_only=True):
@@ -107,8 +93,11 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
             yield Plant(name, ledger.printed_text(name), text, kind)
 
 
-def trial(truth: Audit, plant: Plant) -> Trial:
-    """Judge everything that depends on one plant, and compare with the report as printed."""
+def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
+    """Judge everything that depends on one plant, and compare with the report as printed.
+
+    Gives what fails only because of the plant, and the counts for this one.
+    """
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit = Audit(ledger, every_convention=False)
     claims, wrong = dependents(truth.ledger, plant.entry), set()
@@ -127,12 +116,15 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     }
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
-    return Trial(
-        visible=bool(failing) or _visible(truth, ledger, claims),
-        failing=frozenset(failing),
+    visible = bool(failing) or _visible(truth, ledger, claims)
+    return failing, Counts(
+        planted=1,
+        invisible=not visible,
+        visible=visible,
+        detected=bool(failing),
+        accused_wrongly=any(repair.entry != plant.entry for repair in repairs[:1]),
         repaired=any(true),
-        first=any(true[:1]),
-        accused=any(repair.entry != plant.entry for repair in repairs[:1]),
+        repaired_first=any(true[:1]),
     )
 
 
@@ -172,11 +164,11 @@ def power(
     chosen = random.Random(seed).sample(everything, min(sample, len(everything)))
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
     for plant in progress(chosen):
-        outcome = trial(truth, plant)
+        failing, counts = trial(truth, plant)
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
-        result.add(outcome)
-        result.by_kind.setdefault(kind, Counts()).add(outcome)
-        result.by_edit.setdefault(plant.edit, Counts()).add(outcome)
-        if outcome.visible and not outcome.failing:
+        result.add(counts)
+        result.by_kind.setdefault(kind, Counts()).add(counts)
+        result.by_edit.setdefault(plant.edit, Counts()).add(counts)
+        if counts.visible and not failing:
             result.unnoticed.append(plant._asdict())
     return result
