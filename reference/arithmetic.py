@@ -1,4 +1,4 @@
-"""What the report's formulas may be computed in, so that each stands once.
+"""The kinds of numbers in which the report's formulas, each written once, can be computed.
 
 `Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
 `Duals` carry the derivatives along in either of them. `Ratios` are quotients of polynomials with
@@ -17,7 +17,7 @@ Number = Any
 
 
 class Arithmetic:
-    """What the formulas need of numbers, beyond the operators; as it stands, of known points.
+    """The functions that the formulas need beyond the operators; the defaults are for points.
 
     `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
     y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, not certain.
@@ -45,7 +45,7 @@ class Arithmetic:
         return y * (2 - y)
 
     def hull(self, numbers: list[Number]) -> Number:
-        """A number that stands for all of them."""
+        """A number that contains all of these."""
         (only,) = numbers
         return only
 
@@ -119,7 +119,7 @@ class Rationals(Arithmetic):
 
 
 class Floats(Arithmetic):
-    """IEEE doubles, for a quick look; what they tell is no proof.
+    """IEEE doubles: fast, but their results prove nothing.
 
     >>> f"{Floats().cap_root(0.08):.4f}"
     '0.2980'
@@ -168,7 +168,7 @@ class Dual(Operators):
         self.value, self.slopes = value, slopes
 
     def scaled(self, value: Number, outer: Number) -> "Dual":
-        """A function of this number, from its value and its derivative."""
+        """A function of this number, given the function's value and derivative there."""
         return Dual(value, {name: outer * slope for name, slope in self.slopes.items()})
 
     def __neg__(self) -> "Dual":
@@ -233,7 +233,7 @@ class Duals(Arithmetic):
         return x.scaled(value, value / x.value * self.arithmetic.number(exponent))
 
     def least(self, x: Dual, bound: Dual) -> Dual:
-        """The lesser one; where it cannot be told which, its slopes are anything between both."""
+        """The smaller number; where it is unclear which that is, its slopes contain both's."""
         value = self.arithmetic.least(x.value, bound.value)
         below = self.arithmetic.below(x.value, bound.value)
         if below is not None:
@@ -297,7 +297,7 @@ class Ratio(Operators):
 
 
 class Ratios:
-    """Quotients of polynomials in some symbols; what is no polynomial gets a symbol of its own.
+    """Quotients of polynomials in some symbols; a root or a logarithm gets a symbol of its own.
 
     >>> ar = Ratios(["x", "y"])
     >>> x, y = ar.symbols["x"], ar.symbols["y"]
@@ -334,7 +334,7 @@ class Ratios:
 
     @staticmethod
     def constant(x: Ratio) -> Fraction | None:
-        """The value of what is the same number whatever the symbols stand for, else None."""
+        """The number that x is whatever the symbols stand for, or None if it varies with them."""
         if x.over == 0:
             return Fraction(0)
         value = x.over.leading_coefficient() / x.under.leading_coefficient()

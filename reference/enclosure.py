@@ -118,7 +118,7 @@ def _middle(box: Box) -> dict[str, Fraction]:
 
 
 def _halves(part: Box, whole: Box) -> list[Box]:
-    """A part cut across the side that is widest beside the numbers of that input in the whole."""
+    """A part cut in two across its widest side, relative to the size of that input."""
 
     def width(name: str) -> Fraction:
         return (part[name][1] - part[name][0]) / (max(map(abs, whole[name])) or 1)

@@ -72,7 +72,7 @@ _FACTORS = {"number", "symbol", "function", "fraction"}
 
 
 class _Reader:
-    """Reads one expression by the binding of its operators."""
+    """Reads one expression by the precedence of its operators."""
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
         self.text, self.symbols, self.at = text, symbols, 0

@@ -156,7 +156,7 @@ FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
     **{f"row_{column}": _cell(column) for column in Row._fields},
     "final_sheet_depth": _final_sheet_depth,
 }
-"""Computations that the report's notation does not say."""
+"""Computations that cannot be written in the report's notation."""
 
 
 # Derivations

@@ -196,7 +196,7 @@ def _ball(value: Fraction | int) -> arb:
 
 
 def _bounded(x: Number) -> tuple[arb, arb]:
-    """The balls at both ends, proven to be finite: nothing can be said of any other."""
+    """The balls at both ends. Raises ArithmeticError if one is not finite: it proves nothing."""
     low, high = _balls(x)
     if not (low.is_finite() and high.is_finite()):
         raise ArithmeticError(f"an enclosure is unbounded or undefined: {x}")

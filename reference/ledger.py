@@ -151,7 +151,7 @@ class Convention(msgspec.Struct, frozen=True):
 
 
 class Claim(Entry, frozen=True, dict=True, eq=False):
-    """A [[claim]]: one printed number, and what the ledger tells of it besides.
+    """A [[claim]]: one printed number, and what the ledger says about it.
 
     `given` is then the reason in words; `computations` has the computation as printed under the
     name "", and each other reading; `inputs` names for each input of the computations the
@@ -189,7 +189,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @cached_property
     def printed(self) -> Printed | None:
-        """What it prints, if that is a number."""
+        """The printed number; None for a comparison or a remark."""
         return None if self.kind in ("comparison", "remark") else parse(self.text)
 
     @property
@@ -204,7 +204,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @property
     def number(self) -> Printed:
-        """What it prints. Raises ValueError for a remark."""
+        """The printed number. Raises ValueError for a comparison or a remark."""
         if self.printed is None:
             raise ValueError(f"claim {self.id!r} prints no number")
         return self.printed
@@ -253,7 +253,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @property
     def computation(self) -> Computation | None:
-        """What computes it as printed."""
+        """What computes the claim as printed, if anything does."""
         return self.computations.get("")
 
     @cached_property

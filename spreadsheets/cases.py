@@ -1,8 +1,8 @@
 """The sheets `Inputs`, of each case (its rows to the stop, its result), and `Table A-1`.
 
-On `Inputs` stands every physical number, typed in the report's units. Yellow cells are typed;
-beside each stand the value in use in SI units, what the report has, and within what limits a number
-is taken. What follows from the inputs stands apart, below.
+`Inputs` has every physical number, typed into yellow cells in the report's units. Beside each stand
+the value in use in SI units, the report's, and the limits within which a number is accepted. What
+follows from the inputs stands below them.
 
 On the sheet of a case, rows below the stop stay blank until an input needs them. If even they do
 not suffice, the sheet says so instead of giving a depth; if the time step is too long for the
@@ -88,7 +88,7 @@ class CaseSheet:
         return f"{quantity}-beta-{self.beta}" if self.is_reports else ""
 
     def rules(self, cells: str) -> list[Rule]:
-        """How the cells look that tell whether the run can be trusted."""
+        """The styles of cells that tell whether the run can be trusted."""
         trust = f"=trust{self.suffix}="
         return [Rule(cells, f"{trust}0", "warning"), Rule(cells, f"{trust}1", "changed")]
 

@@ -79,8 +79,8 @@ _CORRECTIONS = (
 def is_own(path: Path) -> bool:
     """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
 
-    Its parts must give its seal, and make this file again. One that was packed by another version
-    of zlib is not told from one that somebody repacked.
+    Its parts must give its seal, and packing them again must give this file. One that another
+    version of zlib packed counts as changed.
     """
     content = path.read_bytes()
     try:

@@ -390,7 +390,7 @@ def tolerances(
 
 @dataclass(slots=True)
 class EngineCheck:
-    """What one engine makes of a file.
+    """The result of verifying a file in one engine.
 
     `outcome` is "verified"; "differs", if any cell is wrong; "missing"; "echoes", if it gives
     stored values back and so verifies nothing; or "failed". `reason` says more of the last three.
@@ -409,7 +409,7 @@ class EngineCheck:
 
     @property
     def passed(self) -> bool:
-        """Whether there is nothing to complain of; a missing engine is no complaint."""
+        """Whether the file is verified; an engine that is missing is no failure."""
         return self.outcome in ("verified", "missing")
 
 

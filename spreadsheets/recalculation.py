@@ -319,7 +319,7 @@ class Calculation:
 
     @cached_property
     def named(self) -> dict[Position, str]:
-        """The cells that have a name, with it."""
+        """The cells that have a defined name, and that name."""
         unnamed, here = replace(self.book, names={}), (next(iter(self.book.sheets)), 1, 1)
         names = {}
         for name, meaning in self.book.names.items():
@@ -414,7 +414,7 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
 
 
 def _filled(area: Area, book: Book) -> Area:
-    """The part of an area that may hold something."""
+    """The part of an area within the rows and columns that its sheet uses."""
     rows, columns = book.size[area.sheet]
     bottom, right = min(area.bottom, rows), min(area.right, columns)
     return area._replace(bottom=max(bottom, area.top), right=max(right, area.left))
