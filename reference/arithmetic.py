@@ -293,8 +293,6 @@ class Ratio(Operators):
         other = other if isinstance(other, Ratio) else Ratio(other)
         return bool(self.over * other.under == other.over * self.under)
 
-    __hash__ = None  # type: ignore[assignment]  # equal quotients may be written in many ways
-
 
 class Ratios:
     """Quotients of polynomials in some symbols; a root or a logarithm gets a symbol of its own.

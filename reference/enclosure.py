@@ -82,7 +82,7 @@ def _best(function: Function, box: Box, value: Number, slopes: Mapping[str, Numb
 
 
 def _points(point: Mapping[str, Fraction]) -> Box:
-    return {name: (x, x) for name, x in point.items()}
+    return {name: (value, value) for name, value in point.items()}
 
 
 def _plain(function: Function, box: Box) -> Ends:
@@ -317,7 +317,8 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
     the other by the shortest way, in coordinates that are measured in widths of the box.
     """
     middle, moved = _middle(box), dict.fromkeys(box, 0.0)
-    numbers = {name: _TANGENTS.variable(float(x), name) for name, x in middle.items()}
+    widths = {name: high - low for name, (low, high) in box.items()}
+    numbers = {name: _TANGENTS.variable(float(value), name) for name, value in middle.items()}
     planes = []
     for function, target in constraints:
         try:
@@ -329,21 +330,16 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
         low = -inf if target.lower is None else float(target.lower)
         high = inf if target.upper is None else float(target.upper)
         margin = 0.0 if isinf(high - low) else (high - low) / 100
-        slopes = {
-            name: slope * float(box[name][1] - box[name][0]) for name, slope in dual.slopes.items()
-        }
+        slopes = {name: slope * float(widths[name]) for name, slope in dual.slopes.items()}
         if steepness := sum(slope * slope for slope in slopes.values()):
             planes.append((dual.value, slopes, steepness, low + margin, high - margin))
     for _ in range(_SWEEPS):
         for value, slopes, steepness, low, high in planes:
-            at = value + sum(slope * moved[name] for name, slope in slopes.items())
-            short = max(low - at, 0.0) + min(high - at, 0.0)
+            reached = value + sum(slope * moved[name] for name, slope in slopes.items())
+            short = max(low - reached, 0.0) + min(high - reached, 0.0)
             for name, slope in slopes.items() if short else ():
                 moved[name] = min(0.49, max(-0.49, moved[name] + short * slope / steepness))
-    return {
-        name: x + (box[name][1] - box[name][0]) * Fraction(moved[name])
-        for name, x in middle.items()
-    }
+    return {name: value + widths[name] * Fraction(moved[name]) for name, value in middle.items()}
 
 
 _TANGENTS = Duals(Floats())

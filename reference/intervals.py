@@ -34,16 +34,12 @@ class Span(Operators):
         low, high = _balls(other)
         return Span(self.low + low, self.high + high)
 
-    __radd__ = __add__
-
     def __mul__(self, other: Number) -> "Span":
         low, high = _balls(other)
         if self.low >= _ZERO and low >= _ZERO:
             return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
         return Span(_least(*corners), _greatest(*corners))
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))

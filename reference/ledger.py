@@ -381,12 +381,9 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
-        return [] if equation in self.misprinted else self._constants[equation]
-
-    @cached_property
-    def _constants(self) -> Mapping[str, list[str]]:
-        claims = self.claims.values()
-        return {name: [c.id for c in claims if c.within == name] for name in self.equations}
+        if equation in self.misprinted:
+            return []
+        return [claim.id for claim in self.claims.values() if claim.within == equation]
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
         """The text of a claim, or of an equation, with other constants in it if they are given."""
