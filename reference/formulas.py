@@ -96,18 +96,18 @@ def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
 
 
 def _side(
-    wanted: Side, sides: tuple[Node, ...], names: Names, ar: Any, known: Mapping[str, Any]
+    entry: Side, sides: tuple[Node, ...], names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
     """A side of an equation, or its slope, at the known values and those put in for symbols."""
-    side = sides[wanted.side]
-    put = {symbol: _value(text, names, ar, known) for symbol, text in wanted.put.items()}
+    side = sides[entry.side]
+    put = {symbol: _value(text, names, ar, known) for symbol, text in entry.put.items()}
     values = {**known, **put}
-    if wanted.slope is None:
+    if entry.slope is None:
         return evaluate(side, ar, values)
     duals = Duals(ar)
     numbers = {name: Dual(value) for name, value in values.items()}
-    numbers[wanted.slope] = duals.variable(values[wanted.slope], wanted.slope)
-    return evaluate(side, duals, numbers).slopes.get(wanted.slope, ar.number(0))
+    numbers[entry.slope] = duals.variable(values[entry.slope], entry.slope)
+    return evaluate(side, duals, numbers).slopes.get(entry.slope, ar.number(0))
 
 
 # Computations

@@ -44,8 +44,9 @@ class Dimension(msgspec.Struct, frozen=True):
         return Dimension(tuple(power * exponent for power in self.powers))
 
     def __str__(self) -> str:
-        named = zip(("kg", "m", "s"), self.powers, strict=True)
-        return " ".join(f"{n}^{p}" if p != 1 else n for n, p in named if p) or "a pure number"
+        units = zip(("kg", "m", "s"), self.powers, strict=True)
+        shown = (unit if power == 1 else f"{unit}^{power}" for unit, power in units if power)
+        return " ".join(shown) or "a pure number"
 
 
 _POUND, _GRAVITY, _INCH = Fraction("0.45359237"), Fraction("9.80665"), Fraction("0.0254")

@@ -202,9 +202,9 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
     elif cell.limits:
         least, most = cell.limits
         words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
-        asked = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
-        said = {"input_message": words, "error_title": "Out of range", "error_message": words}
-        page.data_validation(address, asked | said)
+        limits = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
+        messages = {"input_message": words, "error_title": "Out of range", "error_message": words}
+        page.data_validation(address, limits | messages)
 
 
 def _absolute(sheet: str, cells: str) -> str:

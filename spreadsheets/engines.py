@@ -348,12 +348,11 @@ def compare(
     """
     allowed, differences = tolerances or {}, []
     for sheet in dict.fromkeys([*expected, *found]):
-        wanted, got = expected.get(sheet, {}), found.get(sheet, {})
-        for cell in dict.fromkeys([*wanted, *got]):
+        right_values, values = expected.get(sheet, {}), found.get(sheet, {})
+        for cell in dict.fromkeys([*right_values, *values]):
             # Engines cannot tell a blank cell from a formula that gives the empty text.
-            right, given = (
-                None if values.get(cell) == "" else values.get(cell) for values in (wanted, got)
-            )
+            pair = right_values.get(cell), values.get(cell)
+            right, given = (None if value == "" else value for value in pair)
             if right == given:  # TRUE, too, which LibreOffice hands out as 1.0
                 continue
             distance = math.inf

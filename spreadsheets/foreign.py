@@ -394,9 +394,9 @@ class _Sheet:
         What names a table of another sheet stays as it is.
         """
         head = re.sub(r"'(.)", r"\1", match["long"] or match["short"])
-        wanted = (match["table"] or "").lower()
-        named = (columns for name, columns in self.tables if wanted in ("", name))
-        column = next(named, {}).get(head)
+        table = (match["table"] or "").lower()
+        tables = (columns for name, columns in self.tables if table in ("", name))
+        column = next(tables, {}).get(head)
         return f"${get_column_letter(column)}{self.row}" if column else match[0]
 
     def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:

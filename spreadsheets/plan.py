@@ -201,7 +201,7 @@ class SheetPlan:
 
     def put(self, **cells: Cell | Literal[""] | None) -> None:
         """One row, by column; where there is no cell, nothing."""
-        self.cells |= {f"{at}{self.row}": cell for at, cell in cells.items() if cell}
+        self.cells |= {f"{column}{self.row}": cell for column, cell in cells.items() if cell}
         self.row += 1
 
     def say(self, words: str, style: str = "note", width: int = 165) -> None:
@@ -269,7 +269,9 @@ class SheetPlan:
 
     def description(self, values: Mapping[str, Value]) -> str:
         """What its chart shows, in words, with these values."""
-        return re.sub("{(.+?):(.+?)}", lambda of: format(values[of[1]], of[2]), self.described)
+        return re.sub(
+            "{(.+?):(.+?)}", lambda match: format(values[match[1]], match[2]), self.described
+        )
 
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""

@@ -67,12 +67,12 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
     """
     for path in (folder / name for name in names):
         # The nearest folder that is there; a link is there, wherever it leads.
-        there = next(p for p in path.parents if os.path.lexists(p))
-        if not there.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is no folder; give a folder", str(there))
-        if not os.access(there, os.W_OK):
-            raise PermissionError(EACCES, "cannot be written to", str(there))
-        if there == path.parent:
+        nearest = next(parent for parent in path.parents if os.path.lexists(parent))
+        if not nearest.is_dir():
+            raise NotADirectoryError(ENOTDIR, "is no folder; give a folder", str(nearest))
+        if not os.access(nearest, os.W_OK):
+            raise PermissionError(EACCES, "cannot be written to", str(nearest))
+        if nearest == path.parent:
             check_target(path)
 
 

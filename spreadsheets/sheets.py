@@ -136,9 +136,9 @@ def _overview(
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
     _block(page, "results", right="BCDE")
     for case in cases:
-        key, there, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"shown": "0.0000"}
+        key, sheet, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"shown": "0.0000"}
         # Beside the name of a sheet for another beta: the beta in use.
-        beta = "" if case.resistance_given else f'IF({there}I2="","",{there}I1&": ")&'
+        beta = "" if case.resistance_given else f'IF({sheet}I2="","",{sheet}I1&": ")&'
         end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
         page.put(
@@ -163,10 +163,10 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             first, *more = wrap(findings.explanations[name], 100)
             cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
             if claim.workbook:
-                there = "='{}'!{}".format(*place_of(claim.workbook))
+                reference = "='{}'!{}".format(*place_of(claim.workbook))
                 shown = "0.0" if ledger.value(name) > 100 else "0.0000"
                 looks = {"shown": shown, "transcendental": True}
-                cells["C"] = formula(f"overview.{name}", there, "result", **looks)
+                cells["C"] = formula(f"overview.{name}", reference, "result", **looks)
             page.put(**cells)
             for line in more:
                 page.put(D=text(line, "text"))
@@ -231,7 +231,7 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     page = SheetPlan.begun("Table A-1 check")
     page.row = 6
     page.table("DEFH", "B")
-    first, in_audit = page.row, {name: _HEAD_ROW + 1 + k for k, name in enumerate(ledger.claims)}
+    first, in_audit = page.row, {name: row for row, name in enumerate(ledger.claims, _HEAD_ROW + 1)}
     for address, claim in claims_in_table(ledger).items():
         assert claim.printed is not None
         row, key, computed = page.row, f"table_check.{address}", f"='{table.name}'!{address}"
@@ -313,11 +313,11 @@ def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
     curves, written = [], []
     page = SheetPlan.begun("Figure 3")
     page.single_cells()
-    for at, (columns, case) in enumerate(zip(("PQ", "RS"), cases, strict=False), start=3):
+    for row, (columns, case) in enumerate(zip(("PQ", "RS"), cases, strict=False), start=3):
         key = f"figure_3.{case.slug}"
         message = f"='{case.name}'!I1&\": \"&message{case.suffix}"
-        page.cells[f"A{at}"] = formula(f"{key}.message", message, "message")
-        page.rules += case.rules(f"A{at}")
+        page.cells[f"A{row}"] = formula(f"{key}.message", message, "message")
+        page.rules += case.rules(f"A{row}")
         page.row = 4
         page.put(**{columns[0]: text(case.name, "block")})
         entries = page.entry["columns"].values()
@@ -377,12 +377,12 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page.put(A=text("At rest, without steps"))
     ladder = page.entry["ladder"]
     for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
-        key, whose = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
+        key, label = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
         words = {"error": columns[2], "no_order": NO_ORDER}
         page.row = first - 2
         page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
         # Called as it was when it was computed.
-        page.cells[whose] = text(f"{case.name}, {case.label}", "block")
+        page.cells[label] = text(f"{case.name}, {case.label}", "block")
         at_rest = recorded(f"{key}.rest_um", shown=ladder["depth_um"]["shown"])
         page.cells[f"{columns[1]}{last + 1}"] = at_rest
         ends = (
@@ -391,7 +391,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         )
         written.append(f"{case.label} from {' to '.join(ends)}")
         size = f"{columns[3]}{first}:{columns[3]}{last}"
-        curves.append(Curve(("Convergence", whose), f"B{first}:B{last}", size))
+        curves.append(Curve(("Convergence", label), f"B{first}:B{last}", size))
     page.row = last + 4
     _same_inputs(page, run_inputs(cases))
     page.draw(curves, ", ".join(written))
