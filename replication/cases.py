@@ -56,9 +56,11 @@ def changed(impact: Impact, values: Mapping[str, float]) -> Impact:
     >>> changed(BETA_5, {"resistance": 2e9}).target_resistance
     2000000000.0
     """
-    product = {"beta", "flow_stress"}
-    instead = product if "resistance" in values else {"resistance"} if product & set(values) else ()
-    changes: dict[str, Any] = {**dict.fromkeys(instead), **values}
+    changes: dict[str, Any] = dict(values)
+    if "resistance" in values:
+        changes = {"beta": None, "flow_stress": None, **values}
+    elif "beta" in values or "flow_stress" in values:
+        changes = {"resistance": None, **values}
     return replace(impact, **changes)
 
 

@@ -170,8 +170,8 @@ def _verified(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
     yield from aligned(rows, right=True)
     for check in checks:
         wrong = [
-            f"{left.sheet}!{left.cell}: expected {left.expected!r}, found {left.found!r}"
-            for left in check.wrong
+            f"{cell.sheet}!{cell.cell}: expected {cell.expected!r}, found {cell.found!r}"
+            for cell in check.wrong
         ]
         if len(wrong) > _SHOWN:
             wrong[_SHOWN:] = [f"and {len(wrong) - _SHOWN} more"]
