@@ -51,11 +51,6 @@ class Assertion(Entry, frozen=True):
     words: str = ""
 
     @property
-    def relation(self) -> str:
-        """One of = >= <= > <, or "" where the computed number must print like the text."""
-        return self.says.rpartition(" ")[0]
-
-    @property
     def text(self) -> str:
         """The number, or yes or no."""
         return self.says.rpartition(" ")[2]
@@ -74,9 +69,10 @@ class Assertion(Entry, frozen=True):
         """
         if self.is_outcome:
             return computed is (self.text == "yes")
-        printed, value = parse(self.text), Fraction(computed)
-        if self.relation:
-            return _RELATIONS[self.relation](value, printed.value)
+        relation, _, text = self.says.rpartition(" ")
+        printed, value = parse(text), Fraction(computed)
+        if relation:
+            return _RELATIONS[relation](value, printed.value)
         return printed.interval().contains(value)
 
 
