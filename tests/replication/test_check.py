@@ -11,10 +11,12 @@ from foreign.drawn import drawn
 from foreign.layouts import DEPTH, Foreign, made
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
+from openpyxl import load_workbook
 from pages import HTML, sound
 from running import coldspray
 from workbooks import usable
 
+from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.check.examination import KINDS
 from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
@@ -23,6 +25,7 @@ from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
 from replication.models.impact import Impact
+from replication.workbook import build
 
 Edits = list[tuple[int, object]]
 
@@ -69,10 +72,11 @@ def test_the_rules_give_the_sheet_double_for_double(
 
 
 def test_json_has_the_promised_keys_and_every_digit(spoiled: Path) -> None:
-    status, out, err = coldspray("check", spoiled, "--json")
+    arguments = ("check", spoiled, "--map", "target-density=Données!C5")
+    status, out, err = coldspray(*arguments, "--json")
     record = json.loads(out)
     assert (status, err) == (1, "")
-    assert coldspray("check", spoiled) == (1, f"{text(record)}\n", "")
+    assert coldspray(*arguments) == (1, f"{text(record)}\n", "")
     assert {"differences", "summary", "first"} <= record.keys()
     keys = {"sheet", "cell", "kind", "expected", "found", "explanation"}
     assert all(keys <= entry.keys() for entry in record["differences"])
@@ -87,51 +91,50 @@ def test_json_has_the_promised_keys_and_every_digit(spoiled: Path) -> None:
     assert first["kind"] == "typed number"
     right = midpoint.run(BETA_5).rows[40]
     assert (first["found"], first["expected"]) == (3.7e-6, right.depth)
-    assert record["taken"][0]["columns"].keys() <= COLUMNS.keys()
-    assert record["taken"][0]["inputs"].keys() <= INPUTS.keys()
+    (taken,) = record["taken"]
+    assert taken["columns"].keys() <= COLUMNS.keys()
+    assert taken["inputs"].keys() <= INPUTS.keys()
+    assert taken["inputs"]["target_density"]["by"] == "--map"
+
+
+@pytest.fixture
+def emitted(record: Record, tmp_path: Path) -> Path:
+    """The report's workbook, as `coldspray workbook` writes it."""
+    path = tmp_path / "emitted.xlsx"
+    path.write_bytes(build(record=record).to_bytes())
+    return path
 
 
 @pytest.mark.parametrize("saved_by", ["us", "LibreOffice"])
-def test_our_own_workbook_is_clean(saved_by: str, tmp_path: Path) -> None:
-    from replication import workbook
-
-    path = tmp_path / "own.xlsx"
-    path.write_bytes(workbook.build().to_bytes())
+def test_our_own_workbook_is_clean(saved_by: str, emitted: Path, tmp_path: Path) -> None:
     if saved_by == "LibreOffice":
         usable("libreoffice")
-        (path,) = writers.with_libreoffice([path], tmp_path)
-    result = check(path)
+        (emitted,) = writers.with_libreoffice([emitted], tmp_path)
+    result = check(emitted)
     assert result.first is None
     sheets = {f.table.sheet: f for f in result.examinations}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
-        inputs = sheets[sheet].inputs
-        cells = {name: own.place and own.place[0] for name, own in inputs.items()}
-        assert set(cells.values()) <= {"Inputs", None}
-        assert [name for name, where in cells.items() if where is None] == ["resistance"]
+        places = {name: value.place for name, value in sheets[sheet].inputs.items()}
+        assert places.pop("resistance") is None
+        assert {place and place[0] for place in places.values()} == {"Inputs"}
 
 
-def test_a_text_over_an_input_of_our_own_workbook_is_named(tmp_path: Path) -> None:
+def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
     """Its formulas guard themselves: none gives an error, and there is no table."""
-    from openpyxl import load_workbook
-
-    from replication import workbook
-
-    path = tmp_path / "own.xlsx"
-    path.write_bytes(workbook.build().to_bytes())
-    book = load_workbook(path)
+    book = load_workbook(emitted)
     book["Inputs"]["C21"] = "three"  # beta of some tables: the others are found
-    book.save(path)
-    checked = check(path)
+    book.save(emitted)
+    checked = check(emitted)
     first, silent = checked.first, [d for d in checked.differences if d.rank == (8,)]
     assert first is not None
     assert (first.place, first.kind, first.found) == (("Inputs", 21, 3), "typed number", "'three'")
     assert {d.kind for d in silent} == {"not calculated"}
     assert {d.place for d in silent} == {("Sheet beta 3", 10, 4), ("Sheet beta 3 coarse", 10, 4)}
     book["Inputs"]["C12"] = "eleven"
-    book.save(path)
+    book.save(emitted)
     with pytest.raises(ValueError, match=r"Inputs!C12 holds the text 'eleven'; .* type a number"):
-        check(path)
+        check(emitted)
 
 
 @given(
@@ -159,18 +162,6 @@ def test_a_right_sheet_of_other_inputs_is_clean(
     result = check(written(made("plain", impact, rows), tmp_path_factory.mktemp("right")))
     assert result.first is None
     assert {own.how for own in result.examinations[0].inputs.values()} <= {"label", "follows"}
-
-
-def test_what_is_where_can_be_said(tmp_path: Path) -> None:
-    path = written(made("no-words", BETA_5), tmp_path)
-    given = ("depth=Sheet1!AC510:AC641", "velocity=AB510:AB641", "target-density=T503")
-    status, out, _ = coldspray("check", path, "--json", *(w for g in given for w in ("--map", g)))
-    (taken,) = json.loads(out)["taken"]
-    assert status == 0
-    assert taken["columns"]["depth"] == {
-        "cells": "AC510:AC641", "head": None, "unit": "m", "by": "--map",
-    }  # fmt: skip
-    assert taken["inputs"]["target_density"]["by"] == "--map"
 
 
 # ---- hostile contents
