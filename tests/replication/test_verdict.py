@@ -7,10 +7,9 @@ from functools import cache
 
 from reference.enclosure import enclose, satisfying
 from reference.ledger import Convention, load
-from reference.printed import Interval, Rounding
 from replication.audit.record import Record
 from replication.audit.replica import REPLICA, replica
-from replication.audit.verdict import Judge, Judgement, Reading, Verdict, restates
+from replication.audit.verdict import Judge, Judgement, Reading, restates
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
@@ -102,10 +101,3 @@ def test_restatements_agree_if_some_value_prints_like_both() -> None:
     about = LEDGER.claims["strain-rate-length"]  # about 20 um; the mean is 22
     assert not restates(LEDGER, about, {"mean-diameter": F(26, 10**6)})
     assert not restates(LEDGER, LEDGER.claims["copper-yield-bound"], {"copper-yield": F(10**8)})
-
-
-def test_a_value_on_the_end_of_a_print_is_decided_if_it_is_rational() -> None:
-    """22/2 um is 11 um, and 11 cut off from [11, 12); 1 kg/m3 less would not be."""
-    claim = LEDGER.claims["particle-radius"]
-    assert {j.verdict for j in readings(claim.id)[""].judgements} == {Verdict.REPRODUCED}
-    assert claim.interval(Rounding.CUT) == Interval(F(11), F(12), True, False)

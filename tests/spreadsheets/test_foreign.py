@@ -119,16 +119,11 @@ def test_this_row_of_a_table_is_an_address(tmp_path: Path) -> None:
     assert sheets["Sheet2"][2, 5].formula == "=Steps[@x]+$C2"
 
 
-@pytest.mark.parametrize(
-    "declared",
-    [
-        b'<!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>',
-        b'<!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]>',
-        b'<!DOCTYPE x SYSTEM "http://127.0.0.1/x.dtd">',
-    ],
-)
 @pytest.mark.parametrize("part", [SHEET, "xl/workbook.xml", "xl/sharedStrings.xml"])
-def test_document_types_are_refused(shared: Path, part: str, declared: bytes) -> None:
+def test_document_types_are_refused(shared: Path, part: str) -> None:
+    """Whether they declare entities, of which `said.txt` has a case, or lead outside."""
+    declared = b'<!DOCTYPE x SYSTEM "http://127.0.0.1/x.dtd">'
+
     def declare(data: bytes) -> bytes:
         start = data.index(b"<", data.index(b"?>") + 2) if data.startswith(b"<?xml") else 0
         return data[:start] + declared + data[start:]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +12,6 @@ import pytest
 from workbooks import usable
 
 from reference.ledger import load
-from replication.cases import BETA_5
-from replication.error import warnings
-from replication.models.sheet import run
 from spreadsheets.engines import Values
 from spreadsheets.plan import NOT_COMPUTED, Value
 from spreadsheets.sheets import OTHERWISE
@@ -116,19 +113,6 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
     of_switch = {"inputs.from", "inputs.taken", "inputs.message"}
     for key in report.emitted.book.values.keys() - another - of_switch:
         assert switched[key] == report[key], key
-
-
-def test_doubts_are_those_of_the_command() -> None:
-    """Where the workbook, above, doubts its run: as it reverses, or for more."""
-    slow = replace(BETA_5, velocity=20.0, particle_density=2700.0, radius=2.5e-6)
-    for impact, step, kinds in (
-        (BETA_5, 0.2e-9, ["reversed"]),
-        (BETA_5, 12e-9, ["reversed", "coarse", "shallow"]),  # the depth is not beyond
-        (BETA_5, 40e-9, ["reversed", "coarse", "deep"]),
-        (slow, 2.5e-9, ["shallow", "short"]),  # one step of it
-        (replace(BETA_5, stop_velocity=100.0), 0.2e-9, ["short"]),
-    ):
-        assert list(warnings(run(replace(impact, step=step)))) == kinds
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
