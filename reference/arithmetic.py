@@ -80,6 +80,8 @@ class Reals(Arithmetic):
         return x
 
     def cap_root(self, c: Number) -> Number:
+        if 3 * c > 4:
+            raise ArithmeticError("y^2 - y^3/3 is at most 4/3, at y = 2")
         # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
         root = self._real(self.context.sqrt(c))
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))

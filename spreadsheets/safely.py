@@ -2,10 +2,12 @@
 
 import os
 import re
+import signal
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
 from pathlib import Path
+from threading import current_thread, main_thread
 
 
 def check_target(path: Path) -> Path:
@@ -79,10 +81,10 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write files by name into a folder, made if needed. Raises OSError.
 
-    They take their names when all are drafted.
+    They take their names when all are drafted; an interruption waits until all of them have.
     """
     check_folder(folder, files)
-    with ExitStack() as drafts:
+    with ExitStack() as undisturbed, ExitStack() as drafts:
         for name, content in files.items():
             path = folder / name
             for parent in reversed(path.parents):
@@ -90,6 +92,29 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
                     parent.mkdir()
                     drafts.callback(_remove_if_empty, parent)
             drafts.enter_context(draft_of(path)).write_bytes(content)
+        undisturbed.enter_context(_signals_wait())
+
+
+@contextmanager
+def _signals_wait() -> Iterator[None]:
+    """Hold back what would end the program; only its main thread hears of signals."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    names = ("SIGINT", "SIGTERM", "SIGHUP")  # Windows has no hangup
+    ending, heard = [getattr(signal, name) for name in names if hasattr(signal, name)], list[int]()
+    before = {number: signal.getsignal(number) for number in ending}
+    for number, handler in before.items():
+        if handler not in (signal.SIG_IGN, None):
+            signal.signal(number, lambda number, _: heard.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            if handler is not None:
+                signal.signal(number, handler)
+        for number in heard[:1]:
+            signal.raise_signal(number)
 
 
 def _remove_if_empty(folder: Path) -> None:

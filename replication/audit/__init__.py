@@ -9,6 +9,7 @@ reproduced
 """
 
 import sys
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
@@ -18,6 +19,9 @@ class _Callable(ModuleType):
         from replication.audit.audit import audit
 
         return audit(*arguments, **options)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return import_module, (__name__,)
 
 
 sys.modules[__name__].__class__ = _Callable

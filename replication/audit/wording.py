@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from reference.ledger import Claim, Convention, Ledger
-from reference.printed import Rounding
+from reference.printed import Interval, Rounding
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord
 from replication.audit.verdict import Assessment, EquationAssessment, Judge, Reading, Verdict
@@ -118,25 +118,28 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
     for name in claim.inferred:
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
         admitted = between(judge.inference(name).inner.ends, 6, inward=True)
-        assumed.append(
-            f"{judge.ledger.title(name)} {value}, inferred: Table A-1 as printed admits {admitted}"
-        )
+        table = "Table A-1 as printed but the sphere's mass"
+        assumed.append(f"{judge.ledger.title(name)} {value}, inferred: {table} admits {admitted}")
     if claim.by_scheme:
         assumed.append("the drag at the velocity with which a row begins")
-    return assumed + _digits(claim, computed)
+    sources = [s.interval for s in judge.ledger.sources.values() if claim.id in s.claims]
+    values = sources if computed is None else [Interval.point(Fraction(computed) * claim.si)]
+    return assumed + _digits(claim, values)
 
 
-def _digits(claim: Claim, computed: float | None) -> list[str]:
-    """Which of an ambiguous number's digits were taken, and whether it matters."""
+def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
+    """Which of an ambiguous number's digits were taken, and whether it matters.
+
+    The number is compared with the values (SI): what is computed, or what public sources print.
+    """
     printed = claim.printed
-    if printed is None or computed is None or claim.is_exact or len(printed.quanta) == 1:
+    if printed is None or not values or claim.is_exact or len(printed.quanta) == 1:
         return []
     if claim.bound is not None:
         return []
     taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
-    inside = {
-        printed.interval(quantum=quantum).contains(Fraction(computed)) for quantum in printed.quanta
-    }
+    ranges = (printed.interval(quantum=quantum).scaled(claim.si) for quantum in printed.quanta)
+    inside = {any(map(range_.meets, values)) for range_ in ranges}
     depends = "depends" if len(inside) > 1 else "does not depend"
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
 

@@ -13,6 +13,7 @@ import signal
 import sys
 import tomllib
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 from typing import Any, NoReturn
@@ -45,15 +46,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _discard_output()  # the reader of the pipe has seen enough; the status might have been 1
         return 128 + 13  # as shells report a program that SIGPIPE ended
     except KeyboardInterrupt as interrupt:
-        print(f"{program}: interrupted, nothing written", file=sys.stderr)
+        _complain(f"{program}: interrupted; no file is left in part")
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except (ValueError, OSError) as error:
         if isinstance(error, OSError) and error.filename is None:
             _discard_output()  # its disk may be full
-        print(f"{program}: {one_line(_message(error))}", file=sys.stderr)
+        _complain(f"{program}: {one_line(_message(error))}")
         return 2
     assert isinstance(status, int)
     return status
+
+
+def _complain(line: str) -> None:
+    """Tell the user, if anybody listens: the status says it, too."""
+    if sys.stderr is not None:
+        with suppress(OSError):
+            print(line, file=sys.stderr, flush=True)
 
 
 def _discard_output() -> None:

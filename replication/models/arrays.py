@@ -42,7 +42,7 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
 
     @wraps(model)
     def function(*values: Any, **named: Any) -> Any:
-        if len(values) == count and _are_plain(values):
+        if len(values) == count and not named and _are_plain(values):
             result = model(*values)
             if result == result:  # not NaN
                 return result
@@ -55,6 +55,7 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
         return _each(ufunc(model), *values)
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
+    function.__module__ = __name__  # where pickle finds it
     return function
 
 

@@ -193,7 +193,9 @@ def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
         texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    return Table("Misprints, one edit of the text, that would give it", heads, rows)
+    return Table(
+        "Misprints, one edit of the text, that would give it, all else as printed", heads, rows
+    )
 
 
 def evidence(finding: r.FindingRecord) -> Table:

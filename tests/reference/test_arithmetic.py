@@ -262,3 +262,9 @@ def test_global_precision_is_left_alone() -> None:
         assert flint.ctx.dps == 33
     assert (mpmath.mp.dps, flint.ctx.prec) == before
     assert isinstance(Intervals(20).pi, flint.arb)
+
+
+def test_a_volume_that_no_cap_has_is_refused() -> None:
+    """A misprint of the volume ratio by a digit must not end the search for misprints."""
+    with pytest.raises(ArithmeticError, match="at most 4/3"):
+        REALS.cap_root(REALS.number(22))

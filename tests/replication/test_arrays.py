@@ -201,6 +201,24 @@ def test_a_refusal_can_be_sent_to_another_process() -> None:
     assert (str(error), error.index) == ("radius[3] is 0", (3,))
 
 
+@pytest.mark.parametrize("name", replication.__all__)
+def test_what_is_public_can_be_sent_to_another_process(name: str) -> None:
+    public = getattr(replication, name)
+    assert pickle.loads(pickle.dumps(public)) == public
+
+
+def test_an_input_given_twice_is_refused() -> None:
+    with pytest.raises(TypeError, match="velocity"):
+        arrays.final_depth(*BETA_5.motion.values(), velocity=100.0)
+
+
+@pytest.mark.parametrize("density", [1e-160, 1e160])
+def test_a_motion_whose_squares_overflow_is_refused(density: float) -> None:
+    """Its Taylor steps would not end."""
+    with pytest.raises(ValueError, match="ratio of the densities squared"):
+        arrays.stop_time(500.0, 11e-6, 8900.0, density, density)
+
+
 # Containers
 
 

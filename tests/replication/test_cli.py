@@ -138,3 +138,11 @@ def test_version_and_help() -> None:
         said = coldspray(command, "--help")[1]
         assert "--json" in said
         assert "--quiet" in said
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("arguments", [("depth", "--velocity", "x"), ("check", "nothing.xlsx")])
+def test_the_status_holds_where_nobody_can_be_told(arguments: tuple[str, ...]) -> None:
+    with Path("/dev/full").open("w") as full:
+        command = [sys.executable, "-m", "replication", *arguments]
+        assert subprocess.run(command, stderr=full, check=False).returncode == 2

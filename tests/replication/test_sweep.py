@@ -338,7 +338,7 @@ def test_an_interrupted_sweep_leaves_nothing(
     sweep = started(tmp_path)
     send(sweep.pid, number)
     _, err = sweep.communicate(timeout=60)
-    assert err == b"coldspray sweep: interrupted, nothing written\n"
+    assert err == b"coldspray sweep: interrupted; no file is left in part\n"
     assert sweep.returncode == 128 + number
     assert names(tmp_path) == ["plan.toml"]
 

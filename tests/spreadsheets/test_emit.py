@@ -6,14 +6,17 @@ That it holds every value with all digits is in `test_workbook.py`.
 from __future__ import annotations
 
 import io
+import os
 import re
+import signal
 import zipfile
+from pathlib import Path
 from typing import Any
 
 import pytest
 from openpyxl import load_workbook
 
-from spreadsheets import emit
+from spreadsheets import emit, safely
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
 
 
@@ -88,3 +91,18 @@ def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
         assert text.count('</c:yVal><c:smooth val="0"/>') == text.count("<c:ser>")  # straight lines
     drawings = [text for name, text in parts.items() if "drawings/drawing" in name]
     assert all('descr="Line chart' in text for text in drawings)
+
+
+def test_an_interruption_waits_until_all_files_have_their_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rename = Path.replace
+
+    def interrupted(draft: Path, target: Path) -> Path:
+        os.kill(os.getpid(), signal.SIGINT)
+        return rename(draft, target)
+
+    monkeypatch.setattr(Path, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        safely.write_folder(tmp_path, dict.fromkeys("abc", b""))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "b", "c"]
