@@ -40,7 +40,7 @@ class Audit(Known):
     """The audit of one ledger."""
 
     def record(self) -> r.Record:
-        """Everything, as data."""
+        """The finished audit, as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
         findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
@@ -142,9 +142,9 @@ class Audit(Known):
         )
 
     def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
-        """Its formula with the numbers in it, its equation, and how to reckon it by hand.
+        """The claim's formula with the numbers in it, its equation, and the steps by hand.
 
-        Of a claim that is not reproduced and takes one equation of the report; else nothing.
+        Only of a claim that is not reproduced and that one equation of the report gives.
         """
         nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
         premises = claim.computation.premises if claim.computation else {}
@@ -244,7 +244,7 @@ _UNREAD = SimpleNamespace(
     computed=None, reference=None, enclosure=None, enclosure_exact=None, witness=None, holds="",
     otherwise=[],
 )  # fmt: skip
-"""Of a claim that nothing computes."""
+"""In place of a reading, of a claim that nothing computes."""
 
 
 def _short(value: Fraction) -> str:
@@ -277,7 +277,7 @@ def _judged(judgement: Judgement) -> r.Judged:
 
 
 def _error(claim: Claim, reading: Reading | None) -> float | None:
-    """Computed minus printed, in units of the last digit; None where no digit counts."""
+    """Computed minus printed, in units of the last printed digit; None where that says nothing."""
     printed = claim.printed
     if reading is None or printed is None or claim.bound is not None or printed.quantum == 0:
         return None
@@ -294,7 +294,7 @@ def _proven(judgement: Judgement) -> dict[str, Any]:
 
 
 def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:
-    """Ends as doubles, so rounded that the interval is never narrower, or `inward` never wider."""
+    """Ends as doubles, rounded so that the interval never narrows, or if `inward` never widens."""
     if inward:
         return -_down(-lower), _down(upper)
     return _down(lower), -_down(-upper)
@@ -310,7 +310,7 @@ _LIBRARIES = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxW
 
 
 def _provenance() -> dict[str, object]:
-    """What the audit was made with, and of."""
+    """The programs that the audit was made with, and the hashes of the files that it read."""
     folder = resources.files("reference") / "report"
     names: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
     return {

@@ -1,4 +1,4 @@
-"""What stands beside the verdicts: all approaches, what the depth depends on, what scatter does."""
+"""What the record holds besides verdicts: all approaches to X/R, sensitivity, scatter, curves."""
 
 import math
 from dataclasses import replace
@@ -7,13 +7,7 @@ from statistics import NormalDist
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import (
-    DENSITY,
-    DERIVED,
-    Known,
-    case,
-    exact_ratio,
-)  # fmt: skip
+from replication.audit.findings import DENSITY, DERIVED, Known, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import Impact
@@ -23,7 +17,7 @@ BETAS = (3, 5)
 
 
 def approaches(known: Known) -> list[r.Approach]:
-    """Every approach to X/R [1] of the report, and one that prices the target's inertia."""
+    """Every approach to X/R [1] of the report, and one that leaves out the target's inertia."""
     claims = known.ledger.claims
 
     def computed(claim: str, reading: str = "") -> float | None:
@@ -62,8 +56,8 @@ def approaches(known: Known) -> list[r.Approach]:
 def constant_pressure_ratio(impact: Impact) -> float:
     """X/R [1] of a crater at the constant pressure R_t: the model without the target's inertia.
 
-    Its work R_t CV is the kinetic energy rho_p PV V^2 / 2, so CV/PV = rho_p V^2 / (2 R_t); beyond
-    half a sphere the crater goes on as a cylinder.
+    The work R_t CV equals the kinetic energy rho_p PV V^2 / 2, so CV/PV = rho_p V^2 / (2 R_t);
+    deeper than R the crater goes on as a cylinder.
     """
     ratio = impact.particle_density * impact.velocity**2 / (2 * impact.target_resistance)
     return crater_depth(ratio)
@@ -75,7 +69,7 @@ def constant_pressure_ratio(impact: Impact) -> float:
 def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     """How the exact depth of one of the report's cases depends on each input.
 
-    And what each input's own uncertainty does, as far as the report or its evidence states one.
+    By derivatives, and over the uncertainty that the report or its evidence gives of each input.
     """
     impact = case(known, beta)
     velocity, spread = impact.velocity, known["velocity-deviation"]
@@ -108,7 +102,7 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
 
 
 def _elasticities(impact: Impact) -> dict[str, float]:
-    """d ln X / d ln input: so many percent of depth for one percent of the input.
+    """d ln X / d ln input: by how many percent the depth changes for one percent of the input.
 
     With c = (4 rho_p / 3 rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and y^2 - y^3/3 = c (beyond R
     dy = dc): d ln y = s d ln c, where s = c / (y^2 (2 - y)), c/y beyond R; and
@@ -128,19 +122,19 @@ def _elasticities(impact: Impact) -> dict[str, float]:
 # What scatter does
 
 SHARES = 0.05, 0.5, 0.95
-"""Of the particles of the stream."""
+"""Shares of the particles of the stream, at which velocity and X/R are given."""
 
 
 def scatter(known: Known) -> list[r.Scatter]:
     """Velocity and exact X/R (beta = 5) over the particles of the stream, by three laws.
 
-    By Eq. 1 and by drag on a sphere a particle's velocity follows from its size, which is normally
-    distributed; by the third its deviation is the one that the report states. A "mean deviation" is
-    taken as what it says, the mean absolute one.
+    By Eq. 1, and by drag on a sphere, a particle's velocity follows from its size, which is
+    normally distributed; by the third law the velocity has the deviation that the report states.
+    "Mean deviation" is taken literally, as the mean absolute deviation.
     """
     impact = case(known, 5)
     size = NormalDist(known["mean-diameter"], known["diameter-deviation"])
-    mean = NormalDist().pdf(0) * 2  # mean absolute deviation over the standard one
+    mean = NormalDist().pdf(0) * 2  # mean absolute deviation over standard deviation
     stated = NormalDist(impact.velocity, known["velocity-deviation"] / mean)
 
     laws = []

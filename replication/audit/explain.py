@@ -19,7 +19,7 @@ from replication.audit.verdict import Judge, follows, restates
 
 _FLOATS = Floats()
 _CLOSE = Fraction(1, 10**9)
-"""How near to exact text, such as 2/3, a double must come."""
+"""How near a double must come to an exact number, such as 2/3; relative."""
 
 
 class Screen:
@@ -41,13 +41,13 @@ class Screen:
         try:
             value = Fraction(function(_FLOATS, **values))
         except (ArithmeticError, ValueError, TypeError):
-            return False  # no such input has a result, or only a complex one, in doubles
+            return False  # in doubles these inputs have no result, or only a complex one
         if target.is_point and target.lower is not None:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
 
     def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
-        """What an agreement takes that no change of an entry changes."""
+        """The claim's function, its inputs as printed, and the interval that it must meet."""
         known = self.assumed
         values = {
             name: float(known[name] if name in known else self.ledger.value(name))
@@ -69,8 +69,8 @@ def equation_of(ledger: Ledger, name: str) -> str | None:
 def dependents(ledger: Ledger, name: str) -> set[str]:
     """The claims whose verdict may change with an entry or an equation, itself among them.
 
-    Claims that depend on an inferred input depend on its evidence, and on all that this rests on;
-    an input that others show to be right depends on them.
+    A claim that rests on an inferred input also depends on the evidence for it, and on all that
+    this rests on; an input that other claims confirm depends on them.
     """
     within = equation_of(ledger, name)
     direct = {
@@ -155,10 +155,10 @@ class Explainer:
         return solve(function, name, (low, high), claim.target(), budget, others)
 
     def shown(self, chosen: Claim) -> Shown | None:
-        """The values around a chosen number for which what it shows comes out as printed.
+        """The values around a chosen number for which the claims that confirm it agree.
 
-        Found by bisection, in doubles: where those claims begin to disagree. None if the number
-        shows nothing, or if they disagree with it itself.
+        Where they begin to disagree is found by bisection, in doubles. None if no claim confirms
+        the number, or if one disagrees with the number itself.
         """
         if not chosen.shown_by or not self._is_shown(chosen, chosen.value):
             return None
@@ -172,17 +172,17 @@ class Explainer:
         return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
 
     def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
-        """Whether all that shows a number agrees with this value of it (SI)."""
-        shown = map(self.ledger.claims.__getitem__, chosen.shown_by)
-        return all(self._as_printed[-1].agrees(claim, "", {chosen.id: value}) for claim in shown)
+        """Whether all claims that confirm a number agree with this value of it (SI)."""
+        claims = map(self.ledger.claims.__getitem__, chosen.shown_by)
+        return all(self._as_printed[-1].agrees(claim, "", {chosen.id: value}) for claim in claims)
 
     # Misprints
 
     def repairs(self, name: str) -> list[RepairRecord]:
         """Texts one edit away with which a claim or an equation agrees; the likeliest first.
 
-        A repair that leaves fewer claims failing comes before one that puts others wrong; of equal
-        ones the likelier slip of a typist comes first. A constant is mended with its equation.
+        A repair with which fewer claims fail comes before one with which more do; of equal ones the
+        likelier typing error comes first. A constant is repaired together with its equation.
         """
         name = equation_of(self.ledger, name) or name
         return self._sorted(name, self._suspects(name))
@@ -212,7 +212,7 @@ class Explainer:
                 )
 
     def _suspects(self, name: str) -> list[str]:
-        """The claim or equation itself, its entries, and what its equations hold."""
+        """Where a misprint may be: in it, in its entries, in its equations and their constants."""
         if name in self.ledger.equations:
             premises = self.ledger.equations[name].premises.values()
             equations = dict.fromkeys([name, *(premise.equation for premise in premises)])
@@ -221,7 +221,7 @@ class Explainer:
         claim = claims[name]
         entries = claim.stated
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
-            # Its evidence has moved it: what the evidence rests on may be wrong.
+            # Its evidence does not admit the nominal value: what that rests on may be misprinted.
             evidence = self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence
             entries += [entry for piece in evidence for entry in claims[piece].stated]
         more = [key for key in (claim.against, claim.within) if key]
@@ -229,7 +229,7 @@ class Explainer:
         return list(dict.fromkeys([name, *entries, *more, *claim.uses, *constants]))
 
     def _mends(self, name: str, entry: str, text: str) -> str | None:
-        """The reading of the claim or equation that agrees with the edit, None if none does."""
+        """The first reading of the claim or equation that agrees with the edit, or None."""
         within = equation_of(self.ledger, name)
         if within is not None:
             return "" if follows(self.ledger.misprint(entry, text), within) else None
@@ -245,7 +245,7 @@ class Explainer:
         return next(agreeing, None)
 
     def _suits(self, claim: Claim, text: str) -> str | None:
-        """Whether another text of a number that nothing computes suits what rests on it."""
+        """As `_mends`, of a number that nothing computes: by its sources and what confirms it."""
         changed = self.ledger.misprint(claim.id, text).claims[claim.id]
         sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
         if sources and not any(changed.target().meets(source.interval) for source in sources):
@@ -253,7 +253,7 @@ class Explainer:
         return "" if self._is_shown(claim, changed.value) else None
 
     def _failing(self, entry: str, text: str) -> set[str]:
-        """The claims and equations that fail with the edit; those it does not touch, as before."""
+        """All claims and equations that fail with the edit, also those that it does not touch."""
         changed = self.ledger.misprint(entry, text)
         touched = dependents(self.ledger, entry)
         failing = min((s.failing(touched) for s in self._screens(changed)), key=len)
@@ -276,10 +276,9 @@ class Explainer:
         """The repairs that may explain all that fails at once, the best first.
 
         If one misprint is behind several failures, it stands in an entry that all of them rest on:
-        only such entries are searched. The fewer claims a repair leaves failing, the better; of
-        equal ones the likelier slip of a typist comes first. If no entry is common to all, the
-        repairs of the claim that is quickest to compute are given. An input that is doubted only
-        because of the claims that rest on it says no more than they do.
+        only such entries are searched, and the repairs are ordered as by `repairs`. If no entry is
+        common to all, the repairs of the claim that is quickest to compute are given. An input that
+        fails only because claims that rest on it do is left out: it says no more than they do.
         """
         claims = self.ledger.claims
         doubted = {c.id for c in claims.values() if c.computation is None and c.shown_by}
@@ -293,21 +292,21 @@ class Explainer:
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _cost(self, name: str) -> tuple[int, str]:
-        """How long a claim takes to compute: whole sheets last, repetitions first."""
+        """What claims are sorted by: the quickest to compute first, whole sheets last."""
         claim = self.ledger.claims.get(name)
         if claim is None or claim.computation is None or claim.computation.restates:
             return 2 if equation_of(self.ledger, name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
     def culprit(self, names: Collection[str]) -> RepairRecord | None:
-        """The one repair that makes everything agree that fails, if there is one."""
+        """The one repair with which all these claims agree, if there is one."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
 
     # Slips
 
     def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
-        """What the slips of the claim's equations make of it."""
+        """The claim computed with each slip that the ledger knows of its equations."""
         target, rounded = claim.target(), Convention(choices_exact=False)
         for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
             ledger = self.ledger
@@ -326,19 +325,19 @@ class Explainer:
 
 
 _BISECTIONS = 40
-"""Down to 1e-12 of the search, beyond what any page shows."""
+"""They narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
-"""Parts of a search: k_t, on which the depth hardly depends, takes some 200 of them.
+"""Most parts of a search: k_t, on which the depth hardly depends, takes some 200 of them.
 
-A tenth of it for whole sheets, of which each takes 10 ms, and 100 ms where it hardly stops.
+A tenth of it for whole sheets, each of which takes 10 ms, or 100 ms where it takes long to stop.
 """
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""
 
 
-# Texts that are one slip of a typist away from a printed number or equation
+# Texts that are one typing error away from a printed number or equation
 
 EQUATION_EDITS = (
     "number dropped",
@@ -347,7 +346,7 @@ EQUATION_EDITS = (
     "function changed",
     "fraction turned over",
 )
-"""Kinds of edits of an equation; its numbers are claims, with edits of their own."""
+"""Kinds of edits of an equation. Its numbers are claims, which are edited as all other numbers."""
 
 _LEADING_ZERO = re.compile(r"~?\s*0\d")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
@@ -392,7 +391,7 @@ def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
 
 
 def _digits(text: str) -> list[int]:
-    """Where the digits of the mantissa stand; an exponent has edits of its own."""
+    """Where the digits of the mantissa stand; exponents are edited by `_shifted`."""
     power = _EXPONENT.search(text)
     return [k for k, c in enumerate(text) if c.isdigit() and (power is None or k < power.start())]
 
@@ -462,16 +461,19 @@ def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
         rf"(?P<function>\\(?:frac|quad|ln|log))|(?P<symbol>{symbols})|(?P<number>\d+)|(?P<sign>[-+])"
     )
     for match in tokens.finditer(text):
-        token, kind, mistaken = match[0], f"{match.lastgroup} changed", list[str]()
+        token, kind, replacements = match[0], f"{match.lastgroup} changed", list[str]()
         if token.isdecimal():
-            kind, mistaken = "number dropped", [""]
+            kind, replacements = "number dropped", [""]
         elif token in _OPPOSITE:
-            mistaken = [_OPPOSITE[token]]
-        elif sign := written.get(token):
-            mistaken = [symbol for symbol, meant in written.items()
-                        if meant != sign and dimensions[meant] == dimensions[sign]]  # fmt: skip
-        for instead in mistaken:
-            edits.setdefault(text[: match.start()] + instead + text[match.end() :], kind)
+            replacements = [_OPPOSITE[token]]
+        elif symbol := written.get(token):
+            replacements = [
+                another
+                for another, meant in written.items()
+                if meant != symbol and dimensions[meant] == dimensions[symbol]
+            ]
+        for replacement in replacements:
+            edits.setdefault(text[: match.start()] + replacement + text[match.end() :], kind)
     for match in re.finditer(r"([^\s(){}^=+/]+)/([^\s(){}^=+/]+)", text):
         turned = text[: match.start()] + f"{match[2]}/{match[1]}" + text[match.end() :]
         edits.setdefault(turned, "fraction turned over")

@@ -42,7 +42,7 @@ _CONVENTIONS = {
     "usual": Convention(),
     "rounded": Convention(choices_exact=False),
 }
-"""How inputs are taken: header and choices exact, the header rounded, or both rounded."""
+"""How inputs are taken: header and choices exact, only the header rounded, or both rounded."""
 
 _READINGS = {"computed": "", "derived": DERIVED}
 
@@ -60,7 +60,6 @@ class Known:
         self.sources = cache(self._sources)
 
     def _assess(self, claim: Claim) -> Assessment:
-        """The verdict on one claim, and why."""
         if claim.kind == "remark":
             return Assessment(Verdict.REMARK, wording.REMARK)
         if claim.within is None and claim.computation is not None:
@@ -147,7 +146,7 @@ class Evidence:
         return float(self.value(name))
 
     def _value(self, name: str) -> Value:
-        """What stands for a name: a piece of evidence, as its keys say, or a name of a formula."""
+        """The value of a piece of evidence, found as its keys say, or of a name in a formula."""
         piece = self.finding.evidence.get(name)
         if name in self.formulas:
             value: Fraction | float = self.calculated(self.formulas[name])
@@ -231,9 +230,9 @@ class Evidence:
         return self.known.judge.answer(computed, scheme=scheme)
 
     def _verdicts(self, pattern: str, under: Mapping[str, object]) -> Iterator[str]:
-        """The verdicts on all that is computed with such a name, or those under some conventions.
+        """The verdicts on the claims, equations and sources whose ids have this pattern.
 
-        A part of the name says in which reading.
+        `under` asks for those under some conventions, what follows a point for those in a reading.
         """
         known = self.known
         if pattern in known.ledger.sources:
@@ -296,10 +295,8 @@ class _Exact(Floats):
 
 def _needed(known: Known, claim: str, entry: str) -> float:
     """The middle of the values of an entry (SI) with which the derived form gives a claim."""
-    return (
-        float(sum(known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry).inner[0]))
-        / 2
-    )
+    solutions = known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry)
+    return float(sum(solutions.inner[0])) / 2
 
 
 def _computed(known: Known, claim: str, reading: str = "") -> float:
@@ -329,7 +326,7 @@ _PARTS: Mapping[str, Callable[[Known, str], Value]] = {
         sum(bool(slip.fits) for slip in known.explainer.slips(known.ledger.claims[name]))
     ),
 }
-"""What the parts of a name say of an entry; explained at the head of findings.toml."""
+"""The value that each part of a name gives of an entry; explained at the head of findings.toml."""
 
 
 # What has no formula
@@ -338,7 +335,7 @@ _PARTS: Mapping[str, Callable[[Known, str], Value]] = {
 def _order(evidence: Evidence, scheme: str) -> float:
     """Observed order of the time-step error at 10 ns, from 0.2 to 0.1 ns, for beta = 5.
 
-    So early no stop rule interferes.
+    That is well before the stop, so that the stop rule has no part in it.
     """
     errors = []
     for parts in (1, 2):

@@ -23,13 +23,13 @@ class Admission(Enum):
 
 
 class Inference:
-    """The values of an input for which its evidence comes out as printed (SI units), by proof.
+    """The values (SI) of an input with which the numbers that are its evidence come out as printed.
 
     `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
-    sphere's. `each` gives the values for every piece of evidence alone, with the other inputs
-    exactly as printed. `agreeing` is the largest set of evidence that one value can serve; `odd`
-    the rest. Each value of `inner` is proven to serve the agreeing evidence, none outside `outer`
-    does. Where no value serves any, all evidence is odd, and the value that the ledger takes stays.
+    sphere's. `each` has the values for every piece of evidence alone, with the other inputs exactly
+    as printed. `agreeing` is the largest set of evidence that one value can satisfy; `odd` is the
+    rest. Every value of `inner` is proven to satisfy the agreeing evidence, and none outside
+    `outer` does. Where no value satisfies any, all evidence is odd, and the ledger's value stays.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class Inference:
 
     @cached_property
     def inputs(self) -> set[str]:
-        """What the evidence, and the header of Table A-1, rest on besides."""
+        """The other inputs of the evidence and of the header of Table A-1."""
         return {name for claim in self._joining for name in claim.entries} - {self.name}
 
     @cached_property
@@ -65,10 +65,10 @@ class Inference:
         return Inference(self.ledger, self.name, centered=self.centered, by_mass=True).inner
 
     def admitted(self, convention: Convention) -> Interval:
-        """All values that can serve the evidence where inputs are rounded as a convention says.
+        """All values that can satisfy the evidence where inputs are rounded as a convention says.
 
-        The printed mass and diameter are evidence, too. How the evidence itself is rounded is no
-        question: cut off, no value would serve it.
+        The printed mass and diameter are evidence, too. The evidence itself is rounded to nearest:
+        if it were cut off, no value would satisfy it.
         """
         if (convention.choices_exact and convention.header_exact) or not self.agreeing:
             return self.outer
@@ -80,7 +80,7 @@ class Inference:
         return Interval(*bounds(constraints, self.name, box))
 
     def rounded(self, name: str, convention: Convention) -> Ends:
-        """The values of an input that print like it, and for which what shows it alone does so.
+        """The values of an input that print like it and agree with what is computed from it alone.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
         """
@@ -97,10 +97,10 @@ class Inference:
     def joint(
         self, convention: Convention, box: Box, also: Sequence[Constraint] = ()
     ) -> tuple[list[Constraint], Box]:
-        """All evidence at once and what `also` must hold, and the box with all of their inputs.
+        """All evidence and the constraints `also`, and the box with all of their inputs.
 
-        The printed mass and density tell the radius more closely than its own print does: where
-        the header is rounded, the mass is free in its place.
+        The printed mass and density give the radius more closely than its own digits do: where the
+        header is rounded, the mass varies and the radius follows from it.
         """
         claims, entry, names = self.ledger.claims, self.entry, self.inputs
         constraints: list[Constraint] = [
@@ -129,7 +129,7 @@ class Inference:
         return by_mass
 
     def admits(self, value: Fraction, range_: Interval) -> Admission:
-        """What the evidence says of a value that is printed, with its range, somewhere else."""
+        """What the evidence says of a value that another source prints, and its printed range."""
         if self.inner.contains(value):
             return Admission.ADMITTED
         if not self.inner.excludes(*range_.ends):
@@ -145,9 +145,9 @@ class Inference:
 
 
 def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
-    """The largest set of evidence that one value serves; of several, that of the least value.
+    """The largest set of evidence that one value satisfies; of several, that of the least value.
 
-    Empty if no value of the search serves any of it.
+    Empty if no value of the search satisfies any of it.
     """
     best: tuple[str, ...] = ()
     for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):

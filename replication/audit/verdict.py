@@ -52,11 +52,12 @@ OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict
 class Judgement(msgspec.Struct, frozen=True):
     """The verdict under one convention.
 
-    `ends`: of a proven range of the value, in the claim's unit: over all admitted values of the
-    inferred inputs where the printed inputs give the number, else over all inputs that print like
-    the report's. `witness` holds entries (SI) that give the number where the printed ones do not,
-    the mass in place of a radius that it tells. `against_evidence`: values in the range print so,
-    but only for inputs that are proven not to give the numbers from which an input is inferred.
+    `ends`: of a range that is proven to hold the value, in the claim's unit. Where the printed
+    inputs give the number it covers all admitted values of the inferred inputs, else all inputs
+    that print like the report's. `witness`: where the printed inputs do not give the number, some
+    (SI) that do; a radius that was computed from the mass is given by the mass. `against_evidence`:
+    some values in the range print like the claim, but their inputs are proven not to give the
+    numbers from which an input is inferred.
     """
 
     convention: Convention
@@ -179,7 +180,7 @@ class Judge:
     def answer(self, claim: Claim, name: str = "", scheme: str = "published") -> float:
         """What the models give for a claim at its inputs as printed, in SI."""
         computation = claim.computations[name]
-        inputs = {key: float(prod(map(self.value, of))) for key, of in claim.inputs.items()}
+        inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
         if computation.by_scheme:
             settings["scheme"] = scheme
@@ -210,9 +211,9 @@ class Judge:
                     yield judged(Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
-        """The inputs as printed do not give the number: do any that print like them?
+        """The inputs as printed do not give the number: do others that print like them?
 
-        They must give the numbers, too, from which an input is inferred.
+        Those must also give the numbers from which an input is inferred.
         """
         target = claim.target(convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
@@ -232,9 +233,10 @@ class Judge:
     def _meeting(
         self, constraint: Constraint, claim: Claim, convention: Convention
     ) -> tuple[bool | None, dict[str, Fraction] | None]:
-        """Whether some inputs of a claim meet a constraint and give the evidence on inferred ones.
+        """Whether some inputs of a claim meet a constraint and agree with all evidence; and which.
 
-        With such inputs, the mass in place of a radius that it tells.
+        None where that could not be decided. A radius that was computed from the mass is given by
+        the mass.
         """
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         constraints, box, names = [constraint], self.box(claim, convention), set(claim.entries)
@@ -285,9 +287,10 @@ def _judgement(
 
 
 def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
-    """The function's only value, if it has one and that is a fraction: an end of a print is met.
+    """The function's value as a fraction, if the box allows only one value and that is rational.
 
-    `idle` inputs are proven to make no difference.
+    Only so can it be told to lie exactly on an end of a printed interval. `idle` inputs are proven
+    to make no difference.
     """
     if any(low != high and name not in idle for name, (low, high) in box.items()):
         return None
@@ -298,15 +301,16 @@ def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
 
 
 _BUDGET = 100
-"""Boxes that a search may try; a tenth of it for whole sheets, of which each takes 10 ms."""
+"""Most boxes that a search tries; a tenth of it for whole sheets, each of which takes 10 ms."""
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:
     """The conventions on inputs that make a difference to the claim, the usual one first.
 
-    Truncation of a sheet's result is judged with its inputs exact: which rounded inputs would do is
-    no question then, as the table, which the same sheet printed, is not truncated. Choices are
-    exact for a whole sheet: were the 5 of beta rounded to its one digit, any depth would do.
+    Where a sheet's result is taken as cut off, its inputs are exact: Table A-1, which the same
+    sheet printed, is not cut off, so it is not asked which rounded inputs would do. For a result of
+    the whole sheet the author's choices are exact: if the 5 of beta were rounded to its one digit,
+    any depth would do.
     """
     claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
@@ -368,7 +372,7 @@ def follows(ledger: Ledger, name: str) -> bool:
 
 
 def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
-    """Its derivation first: seldom is nothing but the dimensions wrong."""
+    """Its derivation first: the dimensions alone are seldom what is wrong."""
     try:
         ledger.read(ledger.printed_text(name))
     except EquationError as error:
@@ -395,14 +399,14 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
     printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
 
-    def passing(claim: str, right: Mapping[str, Fraction]) -> list[Fraction]:
-        """The values of a constant with which every check holds, another one put right."""
+    def passing(claim: str, corrected: Mapping[str, Fraction]) -> list[Fraction]:
+        """The values of a constant with which every check holds, another constant corrected."""
         number = printed[claim]
 
         def passes(value: Fraction) -> bool:
-            if value == number and not right:
+            if value == number and not corrected:
                 return holds
-            text = ledger.printed_text(name, {**right, claim: value})
+            text = ledger.printed_text(name, {**corrected, claim: value})
             return follows(ledger.misprint(name, text), name)
 
         return list(filter(passes, sorted({*_USUAL, number, 2 * number, number / 2})))
@@ -410,10 +414,10 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
-        # The others are judged with the one number put right.
+        # The others are judged with that one corrected.
         (culprit,) = repairs
-        right = {culprit: needed[culprit][0]}
-        needed |= {claim: passing(claim, right) for claim in printed if claim != culprit}
+        corrected = {culprit: needed[culprit][0]}
+        needed |= {claim: passing(claim, corrected) for claim in printed if claim != culprit}
     constants = {}
     for claim, values in needed.items():
         fits, alone = printed[claim] in values, len(values) == 1
