@@ -1,20 +1,20 @@
-"""The sheet against the exact motion; here, what a run of the sheet is to be warned of."""
+"""The sheet against the exact motion; in this module, the warnings about a run of the sheet."""
 
 from replication.models.depth import depth_at_velocity, final_depth
 from replication.models.sheet import Sheet
 
 COARSE = 0.1
-"""Share of the radius R that a step at the impact velocity V may pass: dt V / R. In the
-report's cases the published scheme is then some 1 % short of the exact depth, and as it is of first
-order, further with longer steps."""
+"""The largest dt V / R, the share of the radius R that a step at the impact velocity V covers. In
+the report's cases the published scheme then falls some 1 % short of the exact depth, and as it is
+of first order, further short with longer steps."""
 
 SHALLOW = 0.01
-"""By so much of itself may a depth fall short of the exact one at the stop velocity. In the
-report's cases the published scheme does where a step passes about `COARSE` R; a slow impact of few
-steps does with shorter ones."""
+"""The share by which a depth may fall short of the exact one at the stop velocity. In the report's
+cases the published scheme reaches it where a step covers about `COARSE` R; a slow impact of few
+steps does so with shorter steps."""
 
 DIGITS = 5e-4
-"""By so much of itself may the exact depth be exceeded, or the stop velocity leave it short: the
+"""The share by which a depth may exceed the exact one, or the stop velocity leave it short: the
 report prints three digits, and half a unit of the third is at least that much."""
 
 

@@ -34,7 +34,7 @@ def _buried(factor: float) -> dict[str, float]:
 
 
 def _shallow(velocity: float) -> dict[str, float]:
-    # An impact lasts about as long at any low velocity; stop at the report's share of it.
+    # At low velocities an impact lasts equally long: the stop velocity is the report's 1/500 of V.
     return {"velocity": velocity, "stop_velocity": velocity / 500}
 
 
@@ -83,16 +83,16 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
     "radius squared underflows": {"radius": 1e-170, "particle_density": 1e302},
     "dynamic pressure below 1e-250": _shallow(1e-130),
 }  # fmt: skip
-"""Why a case is hard, and the inputs by which it differs from the report's beta-5."""
+"""What makes a case hard, and the inputs in which it differs from the report's beta-5."""
 
 
 def outcome(name: str) -> Outcome:
-    """What became of a hard case; depths in m.
+    """The sheet, the closed form and the exact depth of a hard case; depths in m.
 
-    `refused` is the message where the inputs are, `sheet_refused` where only the sheet is.
+    `refused` is the message where the inputs are refused, `sheet_refused` where only the sheet is.
     `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units of its last
-    place, `sheet_error` the sheet's relative to the exact depth. What is not known is None. Inputs
-    that are no finite numbers are given as text.
+    place, `sheet_error` the sheet's error relative to the exact depth. What is not known is None.
+    Inputs that are no finite numbers are given as text.
     """
     changes = HARD_CASES[name]
     result: Outcome = {
@@ -126,7 +126,7 @@ _RANGES = {
     "target_density": (1e-1, 1e5),
     "resistance": (1.0, 1e15),
 }
-"""Ratios of densities from 1e-6 to 1e6; every input spread evenly over its logarithm."""
+"""Least and greatest inputs (SI) of the random cases; their logarithms are evenly distributed."""
 
 
 def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
@@ -143,8 +143,8 @@ def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
 def worst_of(count: int, seed: int) -> dict[str, Any]:
     """The closed form's greatest error over so many random cases, and the inputs that gave it.
 
-    The number of `cases`, the error in `ulps`, `inputs`. Depths that are no normal doubles are
-    left out, and counted as `skipped`.
+    Gives the number of `cases`, the error in `ulps`, and `inputs`. Cases whose depth is no normal
+    double are left out, and counted as `skipped`.
     """
     worst, inputs, skipped = 0.0, dict[str, float](), 0
     for case in random_cases(count, seed):
@@ -160,7 +160,7 @@ def worst_of(count: int, seed: int) -> dict[str, Any]:
 def _ulps(depth: float, case: dict[str, float]) -> float:
     """Error of a depth in ulp, from the residual of the energy integral at it, in Arb.
 
-    The residual's slope turns it into a distance; over a few ulp its curvature is nothing.
+    One Newton step turns the residual into a distance: over a few ulp the curvature is negligible.
     """
     velocity, radius, particle, target, resistance = map(arb, case.values())
     pressure = target * velocity * velocity / (2 * resistance)

@@ -20,20 +20,20 @@ Level = dict[str, Any]
 
 
 def exact_motion(impact: Impact) -> Trajectory:
-    """The exact motion for a case, its inputs taken as the doubles that they are; to 50 digits."""
+    """The exact motion of a case to 50 digits, its inputs taken as exact doubles."""
     return Trajectory(*map(Fraction, impact.motion.values()), digits=50)
 
 
 def split(sheet: Sheet) -> tuple[float, Budget]:
     """The sheet's final depth minus the exact depth at rest [m], and the four parts of that [m].
 
-    `time_step`: the scheme's depth, half a step on, against the depth at which the exact motion has
-    the last row's velocity (Eq. 13 holds for the motion back out of the crater, too, so a negative
-    velocity has one). `stop_rule`: that depth against the depth at rest. `half_step`: x stands half
-    a step behind the velocity that closes its row. `rounding`: doubles against the same scheme in
-    50 digits. The parts are None where the last velocity exceeds the impact's in size: no exact
-    motion has it. Each is rounded to a double once, so that they add up to the error within a few
-    units of the last digit of the largest.
+    `time_step`: the scheme's depth, moved on by half a step, against the depth at which the exact
+    motion has the last row's velocity (Eq. 13 also describes the motion back out of the crater, so
+    a negative velocity has such a depth). `stop_rule`: that depth against the depth at rest.
+    `half_step`: x stands half a step behind the velocity that closes its row. `rounding`: doubles
+    against the same scheme in 50 digits. The parts are None where the last velocity is larger in
+    size than the impact velocity, as no exact motion has it. Each part is rounded to a double once,
+    so that they add up to the error within a few units of the last digit of the largest.
 
     >>> from replication.cases import BETA_5
     >>> error, budget = split(run(BETA_5))
@@ -83,8 +83,8 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     `time_step_order` the same for the time-step part alone, and `regime` what governs the error.
     `limit`, which estimates the depth at the stop velocity, `observed_order` and `gci` come from
     the finest three depths without knowledge of the exact one; None where undefined, for the reason
-    in `limit_undefined`. Raises ValueError for less than two steps, for steps that do not fall, and
-    as `run` of a sheet.
+    in `limit_undefined`. Raises ValueError for less than two steps, for steps that do not decrease,
+    and where `run` does.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10])["levels"][-1]
@@ -141,7 +141,7 @@ def error_order(coarse: float | None, fine: float | None, ratio: float = 2.0) ->
 
 
 def regime(error: float, budget: Budget, time_step_order: float | None, order: int) -> str:
-    """What governs the error. A tenth of it is where a part begins to show in the order."""
+    """What governs the error: a part of more than a tenth of it shows in the observed order."""
     time_step, stop_rule, half_step, rounding = (budget[part] or 0.0 for part in _PARTS)
     if budget["time_step"] is None:
         return "meaningless"
@@ -158,7 +158,7 @@ def regime(error: float, budget: Budget, time_step_order: float | None, order: i
 
 
 def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) -> dict[str, Any]:
-    """What three depths alone tell (Richardson), or why they tell nothing."""
+    """The limit of three depths (Richardson), its order and uncertainty, or why there is none."""
     result = dict.fromkeys(("limit", "limit_undefined", "observed_order", "gci"))
     if len(steps) < 3:
         return result | {"limit_undefined": "needs three levels"}
@@ -172,7 +172,7 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
         why = "the depths oscillate" if shrink < 0 else "the depths do not draw together"
         return result | {"limit_undefined": why}
     order = math.log(shrink) / math.log(again)
-    # An observed order above the scheme's is chance, and would make the index too small.
+    # An observed order above the scheme's is an accident, and would make the index too small.
     cautious = min(max(order, 0.5), nominal)
     factor = SAFETY if abs(order - nominal) <= 0.1 * nominal else CAUTION
     gci = factor * abs((fine - middle) / fine) / (again**cautious - 1)
@@ -181,17 +181,17 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
 
 
 _HALVINGS = 3
-"""So often a step is halved to see that it did not meet the digits by chance."""
+"""How often a step is halved, to see that it did not give the digits by accident."""
 
 
 def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
-    """The largest step, of a grid of 1 %, that gives so many correct digits; so do its halvings.
+    """The largest step, to 1 %, that gives so many correct digits, as its halvings do.
 
-    Correct means: within half a unit of that digit of the exact depth at rest. As the last row
-    falls by chance, single steps between may do better or worse. Gives `digits`, `step`, `steps`,
-    `depth`, `error`, and as `fails` the next longer step of the grid, which does not. Raises
-    ValueError where no refinement gives them: the stop rule alone is off by more, or too many rows
-    are needed.
+    Correct means: within half a unit of that digit of the exact depth at rest. Where the last row
+    falls is an accident, so single steps in between may do better or worse. Gives `digits`, `step`,
+    `steps`, `depth`, `error`, and as `fails` the next longer step tried, which does not give them.
+    Raises ValueError where no step does: the stop rule alone is off by more, or too many rows are
+    needed.
     """
     motion = exact_motion(impact)
     rest = float(motion.final_depth)

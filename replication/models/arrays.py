@@ -20,11 +20,11 @@ Numbers = Mapping[str, Any]
 """The inputs by name, each a float or an array of doubles."""
 
 LEAST, GREATEST = 1e-40, 1e40
-"""Inputs within these form nothing that `check_range` refuses: six at most make a product."""
+"""Of inputs between these `check_range` refuses nothing: its products have at most six factors."""
 
 PIECE = 25_000
-"""Of two pieces of so many elements and more, each core takes some in turn. A piece takes a
-millisecond, ten times what it takes to hand out, and what it needs stays in the core's cache."""
+"""Elements of a piece of work: two pieces and more are shared out to the cores. A piece takes a
+millisecond, ten times what handing it out takes, and its data fit into a core's cache."""
 
 _DOC = """
 
@@ -99,7 +99,7 @@ def history(
 
 
 def _are_plain(values: Sequence[Any]) -> bool:
-    """Whether these are floats that need no other check: the short way for a single case."""
+    """Whether these are floats that need no other check: the fast path for a single case."""
     for value in values:  # noqa: SIM110 - a third of the time that `all` takes
         if type(value) is not float or not LEAST <= value <= GREATEST:
             return False
@@ -107,14 +107,14 @@ def _are_plain(values: Sequence[Any]) -> bool:
 
 
 def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
-    """Depth and the other result of a model that fills them in; of a history, at the first."""
+    """Depth and the other result of a model that fills them in; of a history, at one time."""
     depth, second = [0.0], [0]
     model([first] if model is motion.history else first, *values, depth, second)
     return depth[0], second[0]
 
 
 def _histories(*values: Any) -> Any:
-    """Histories; the times along an axis in which no case changes share the case's series."""
+    """Histories; times along an axis in which no case changes share that case's Taylor series."""
     import numpy as np
 
     time, *cases = map(np.asarray, values)
@@ -155,9 +155,9 @@ def run_many(
 
 
 def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -> Any:
-    """What the plain model gives for numbers, or the compiled one for arrays, if nothing is amiss.
+    """The results of the plain model for numbers, or of the compiled one for arrays, all checked.
 
-    Of a case and a result that is not finite, `explain` makes the error to raise.
+    For a case whose result is not finite, `explain` makes the error to raise of both.
     """
     numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
     _check(numbers)
@@ -184,7 +184,7 @@ def _real(name: str, value: Any) -> Any:
 
 
 def _check(numbers: Numbers) -> None:
-    """Refuse the first element that cannot be, if there is one."""
+    """Raise InputError for the first element that no model takes, if there is one."""
     for name, value in numbers.items():
         low, high = value, value
         if type(value) is not float:
@@ -226,11 +226,12 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 
 
 def _each(function: Any, *values: Any) -> Any:
-    """What a ufunc gives for values that broadcast; an axis of its own is that of times.
+    """The results of a ufunc for values that broadcast; histories have an axis of times besides.
 
-    Many cases are shared out to all cores by Python's threads, as compiled code lets go of its
-    lock: Numba's may not be started from two threads at once, nor outlive a fork. Only the main
-    thread starts any: a caller with threads, such as dask, has shared out its work already.
+    Many cases are shared out to all cores by Python's threads, as compiled code releases Python's
+    lock. Numba's own threads may not be started from two threads at once, and do not survive a
+    fork. Only the main thread starts any: a caller with threads, such as dask, has shared out its
+    work already.
     """
     import threading
 
@@ -277,7 +278,7 @@ def ufunc(model: Model) -> Any:
 
     _make_known()
     root = FunctionType(model.__code__, model.__globals__, model.__name__)
-    # Numba looks whether the file of this function has changed. It calls others: the name tells.
+    # Numba checks only whether this file has changed; the hash in the name covers what it calls.
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{digest[:16]}"
@@ -293,7 +294,7 @@ def ufunc(model: Model) -> Any:
         compiler = partial(numba.vectorize, [f8(*types)])
     try:
         folder = numba.njit(cache=True)(root).stats.cache_path
-        # Two processes that compile at once would keep halves that do not belong together.
+        # Two processes that compile at once would store files that do not belong together.
         with FileLock(Path(folder) / "coldspray.lock"):
             compiled = compiler(cache=True)(root)
     except (RuntimeError, OSError):
@@ -303,12 +304,12 @@ def ufunc(model: Model) -> Any:
 
 
 _KEPT: list[Any] = []
-"""What Numba has compiled: a ufunc in it must not outlive it, as it is its code."""
+"""What Numba has compiled: it owns the code of its ufuncs, so it must live as long as they do."""
 
 
 @cache
 def _make_known() -> None:
-    """Have Numba compile what the models call, with arrays for their lists of numbers."""
+    """Let Numba compile what the models call, with arrays in the place of their lists."""
     import numpy as np
     from numba.extending import overload, register_jitable
 
@@ -319,11 +320,14 @@ def _make_known() -> None:
     overload(motion.zeros)(lambda count: lambda count: np.zeros(count))  # noqa: ARG005
 
 
-# Containers of other libraries, told by their types, so that none is imported before it is in use
+# Containers of other libraries, recognized by their types, so that no unused library is imported
 
 
 def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
-    """What `compute` gives for numbers and arrays, for containers too: a result for each type."""
+    """The results of `compute`, which takes numbers and arrays, in the containers of the inputs.
+
+    `types` has the type of each result.
+    """
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
         return compute(**inputs)
@@ -338,7 +342,7 @@ def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type])
 
 @cache
 def _library(kinds: frozenset[type]) -> str:
-    """The library of these types that is to be asked first: each may hold those after it."""
+    """The outermost library of these types: its containers may hold those of the later ones."""
     libraries = {base.__module__.partition(".")[0] for kind in kinds for base in kind.__mro__}
     return next((library for library in ("pint", *_CONTAINED) if library in libraries), "")
 

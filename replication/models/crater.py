@@ -34,9 +34,9 @@ def depth_from_volume_ratio(ratio: float) -> float:
     """Normalized depth y = X/R [1] of a crater of volume ratio CV/PV [1] (inverse of Eqs. 2-3).
 
     The root of y^2 (3 - y) / 4 = ratio in [0, 1]: y = 2t (t + sqrt 3) / (1 + t^2) with t = tan(h)
-    and sin(3h)^2 = ratio, in which nothing cancels for shallow craters; one Newton step on y/2
-    takes out what rounding left. NaN for ratios outside 0 to 1/2, which no cap of the
-    sphere has.
+    and sin(3h)^2 = ratio, a form without cancellation for shallow craters; one Newton step on y/2
+    removes most of the rounding error. NaN for ratios outside 0 to 1/2, which no cap up to half
+    the sphere has.
 
     >>> f"{depth_from_volume_ratio(0.06):.3f}"
     '0.298'

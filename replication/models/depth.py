@@ -65,7 +65,8 @@ def velocity_at_depth(
 
     v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13.
 
-    Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.
+    Close to rest the velocity varies as the square root of the depth left, so that fewer digits of
+    the result are right.
 
     >>> f"{velocity_at_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9):.3f}"
     '353.533'
@@ -75,7 +76,7 @@ def velocity_at_depth(
     left = (radius * final - at_depth) / radius
     if left < 0:
         return math.nan
-    # The work from y - left to rest, in a form that does not cancel: beyond the radius, and within.
+    # The work from y - left to rest, beyond the radius and within, in a form without cancellation.
     beyond = min(left, max(final - 1, 0.0))
     left, y = left - beyond, min(final, 1.0)
     work = beyond + left * (y * (2 - y) - left * (1 - y) - left * left / 3)

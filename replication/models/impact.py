@@ -9,9 +9,9 @@ MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 
 class InputError(ValueError):
-    """An input, or what is formed of the inputs, that cannot be: its name, and what is wrong.
+    """An input, or a value computed from the inputs, that is refused: its name and what is wrong.
 
-    Of an element of an array, with its index, or in a pandas Series with its label.
+    For an element of an array also its index, in a pandas Series its label.
 
     >>> print(InputError("radius", "is -1.0: it must not be", (0, 3)))
     radius[0, 3] is -1.0: it must not be

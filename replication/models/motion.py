@@ -5,9 +5,9 @@ u' = -(b u^2 + c) (2y - y^2), b = 3 rho_t / (8 rho_p), c = 3 R_t / (4 rho_p V^2)
 factor is 1. So the coefficients of the series follow from each other by products of series.
 
 Order and step are those of Jorba and Zou (2005) for double precision: the radius of convergence r
-follows from the last two coefficients of the velocity, and a step is r / e^2 long. Term k is then
-about e^(-2k) of the first ones: what order 20 leaves out is e^(-42) / (1 - e^(-2)) = 7e-19 of the
-velocity a step, and only rounding counts. The impact ends at the depth and the velocity of the
+is estimated from the last two coefficients of the velocity, and a step is r / e^2 long. Term k is
+then about e^(-2k) of the first ones, so that order 20 leaves out e^(-42) / (1 - e^(-2)) = 7e-19 of
+the velocity in a step, far less than rounding. The impact ends at the depth and velocity of the
 energy integral; the time of a known state is found by Newton's method along the series.
 """
 
@@ -83,7 +83,8 @@ def time_to_depth(
 ) -> float:  # fmt: skip
     """Time [s] from touch to a depth [m]; NaN beyond the final one.
 
-    Close to rest it goes as the root of the depth that is left, so fewer of its digits are right.
+    Close to rest the time left varies as the square root of the depth left, so that fewer digits
+    of the result are right.
 
     >>> f"{time_to_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.6f}"
     '11.192312'
@@ -116,8 +117,8 @@ def _steps(
 ) -> Iterator[tuple[float, float, float]]:
     """The Taylor steps from touch to rest: start, unit of time, and length in this unit.
 
-    `y` is filled with the series of the depth in the time since the start in this unit, and `w`
-    with that of dy by it.
+    `y` is filled with the series of the depth in the time since the start, in this unit, and `w`
+    with that of its derivative dy.
     """
     b = 0.375 * rho_t / rho_p
     c = b / (rho_t * V * V / (2 * R_t))
@@ -149,7 +150,7 @@ def _expand(
     stress[0] = b * w[0] * w[0] + c
     y[1], w[1] = w[0], -stress[0] * area[0]
     for k in range(1, ORDER):
-        # From both ends to the middle: sums that do not wait for each other.
+        # From both ends to the middle, in sums that the processor can form at the same time.
         yy, ww, first, last = y[0] * y[k], w[0] * w[k], 0.0, 0.0
         for j in range(1, (k + 1) // 2):
             yy += y[j] * y[k - j]
@@ -174,9 +175,9 @@ def _expand(
 
 
 def _states(y: Series, w: Series, s: Series, at: Series, dy: Series, count: int) -> None:
-    """Fill in depth and dy at so many times s since the start of the step.
+    """Fill in depth and dy at the first `count` times s since the start of the step.
 
-    In arrays of their own, so that what is compiled takes several at a time.
+    As arrays, so that the compiled code takes several times at once.
     """
     for i in range(count):
         depth, speed = y[ORDER], w[ORDER]
@@ -197,10 +198,11 @@ def _state(y: Series, w: Series, s: float) -> tuple[float, float, float]:
 
 
 def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float:
-    """Where along the series the motion has this depth and dy, which it is known to have.
+    """The time along the series at which the motion has this depth and dy, which must occur there.
 
-    Newton's method on what is left in the direction of motion: at touch, where the velocity does
-    not change yet, the depth tells where; at rest, where the depth does not, the velocity.
+    Newton's method on the distance left, projected on the direction of the motion in the plane of
+    depth and velocity: at touch, where the velocity does not change yet, the depth decides; at
+    rest, where the depth no longer changes, the velocity does.
     """
     for _ in range(10):
         at, dy, ddy = _state(y, w, s)
@@ -212,5 +214,5 @@ def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float
 
 
 def zeros(count: int) -> list[float]:
-    """Room for so many numbers: a list, and where it is compiled an array."""
+    """So many zeros: a list, or in compiled code an array."""
     return [0.0] * count

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Scheme(NamedTuple):
-    """What a scheme is: the order of its time-step error, and at which velocity the drag is."""
+    """A scheme: the order of its time-step error, and the velocity of a row that sets the drag."""
 
     order: int
     drag_at: str
@@ -98,7 +98,7 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
         if k > MAX_STEPS:
             raise refusal(math.nan, dt, v_stop)
         rows.append(Row(k * dt, v, x, a, v_final))
-    last = rows[-1]  # it only overflows in a last row
+    last = rows[-1]  # only a last row can overflow
     if not math.isfinite(last.depth + last.deceleration + (last.velocity_final or 0.0)):
         raise refusal(math.inf, dt, v_stop)
     return Sheet(impact, tuple(rows), scheme)
@@ -108,7 +108,7 @@ def last_row(
     velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float, step: float, stop_velocity: float, centered: bool, depth: Any, steps: Any,
 ) -> None:  # fmt: skip
-    """Fill in depth x [m] and number of the sheet's last row, each in the one place that it has.
+    """Fill in depth x [m] and number of the sheet's last row, each as the one element of its array.
 
     NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. SI units.
 
@@ -132,7 +132,8 @@ def _rows(
 ) -> Iterator[tuple[int, float, float, float, float]]:  # fmt: skip
     """Number, initial velocity, depth, deceleration and final velocity of the rows from 1 on.
 
-    Where more than `MAX_STEPS` are needed a number beyond that comes; at once, where it is plain.
+    Where more than `MAX_STEPS` rows are needed a larger number is given, in the first row if that
+    is clear from the start.
     """
     k, x, v, M = 0, 0.0, V, particle_mass(R, rho_p)
     if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
@@ -165,15 +166,15 @@ def deceleration(x: float, v: float, R: float, M: float, rho_t: float, R_t: floa
 def _fewest_steps(
     v: float, v_stop: float, dt: float, R: float, M: float, rho_t: float, R_t: float
 ) -> float:
-    """A number of rows that the sheet takes at least, from V = v.
+    """A lower bound on the number of rows that the sheet takes from V = v.
 
-    A row takes off at most a dt, a with the whole area pi R^2 and at V.
+    A row reduces the velocity by at most a dt, with the deceleration a at V and the area pi R^2.
     """
     return (v - v_stop) / deceleration(R, v, R, M, rho_t, R_t) / dt
 
 
 def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
-    """What to say of a sheet whose step is much too long, or much too short (its depth is NaN)."""
+    """The error of a sheet whose step is much too long, or much too short (its depth is NaN)."""
     problem = f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
     if math.isnan(depth):
         steps = f"more than {MAX_STEPS:,} steps of {step!r} s"
