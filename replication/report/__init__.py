@@ -45,7 +45,7 @@ def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str
 
 
 def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Every file of the folder by its name; the record names the hashes of those beside it."""
+    """Every file of the folder by its name; the record has the hashes of those beside it."""
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
     record = msgspec.structs.replace(record, provenance=provenance)
@@ -68,7 +68,7 @@ _COLUMNS = (
 
 
 def _csv(record: Record) -> str:
-    """A line for each claim; what does not apply is empty."""
+    """A line for each claim; fields that do not apply are empty."""
     rows = []
     for claim in record.claims:
         row = {name: getattr(claim, name, None) for name in _COLUMNS}
@@ -86,18 +86,19 @@ def page(record: Record, drawings: Mapping[str, str]) -> str:
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
     digest = b64encode(sha256(style.encode()).digest()).decode()
     more = {"drawings": drawings, "style": style, "style_hash": digest}
-    prose = Prose(record.symbols, told.names_of(record))
-    return _filled("page.html.j2", prose.html, _parts(record) | more).lstrip()
+    parts = _parts(record)
+    prose = Prose(record.symbols, parts["names"])
+    return _filled("page.html.j2", prose.html, parts | more).lstrip()
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    prose = Prose(record.symbols, told.names_of(record))
-    return _filled("page.md.j2", prose.markdown, _parts(record)).lstrip()
+    parts = _parts(record)
+    return _filled("page.md.j2", Prose(record.symbols, parts["names"]).markdown, parts).lstrip()
 
 
 def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
-    """One of the templates beside this file, filled; at most one empty line stands in a row."""
+    """One of the templates beside this file, filled; outside HTML no two empty lines in a row."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -106,13 +107,13 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        optimized=False,  # nothing in the templates could be computed before they are filled
+        optimized=False,  # the templates hold no constant expressions that this could compute
     )
     environment.filters |= {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
-        "prose": cache(lambda sentence: prose(str(sentence))),  # of a macro it is markup
+        "prose": cache(lambda sentence: prose(str(sentence))),  # what a macro gives is Markup
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
@@ -121,7 +122,7 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
 
 
 def _parts(record: Record) -> dict[str, Any]:
-    """What both templates show: the record, and its parts in the order in which they stand."""
+    """What both templates need: the record, its claims as they are arranged, and helpers."""
     groups, names = _groups(record), told.names_of(record)
     by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
     concerned = {name for finding in record.findings for name in finding.claims}
@@ -163,7 +164,7 @@ def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
 
 
 def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
-    """Table A-1 as it stands in the report, and a letter for each verdict and its conventions."""
+    """Table A-1 as the report prints it, and a letter for each verdict with its conventions."""
     cells = {str(claim.cell): claim for claim in claims.values()}
     said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
     letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
@@ -193,7 +194,7 @@ FINDINGS = 3
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
-    """The audit on one screen: what it found, the counts, all that fails, the main results."""
+    """The audit on one screen: the headline, the counts, all that fails, main results, findings."""
     main = [
         (c.title, told.printed(c), told.measured(c.computed, c.unit), c.verdict)
         for c in record.claims
@@ -211,7 +212,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
 
 
 def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
-    """One claim with all that its verdict rests on; the ledger names what it refers to."""
+    """One claim with all that its verdict rests on; titles of other entries are the ledger's."""
     names = (
         {name: Named(e.title) for name, e in ledger.equations.items()}
         | {f"{INFERRED}{name}": Named(e.title, "", told.measured(float(e.nominal), e.unit))

@@ -40,9 +40,9 @@ def draw(record: Record) -> dict[str, str]:
 
 @dataclass
 class _Plot:
-    """A plot in a box of a figure, of given ranges (from left to right, from bottom to top).
+    """A plot: its box in the figure (left, top, width, height) and the ranges of x and y in it.
 
-    `words`: what it shows, for those who do not see it; `below`: how much stands under the box.
+    `words`: what it shows, for those who do not see it; `below`: the height under the box.
     """
 
     title: str
@@ -99,7 +99,7 @@ class _Plot:
             self.text(12, middle, y_label, "middle", f' transform="rotate(-90 12 {_n(middle)})"')
 
     def rows(self, labels: Sequence[str]) -> None:
-        """Labels of rows 0, 1, ... at the left; a semicolon begins a second line."""
+        """Labels of the rows y = 0, 1, ... at the left; a semicolon begins a second line."""
         for row, label in enumerate(labels):
             _, down = self.at(self.x[0], row)
             lines = label.split("; ")
@@ -121,7 +121,7 @@ class _Plot:
         )
 
     def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
-        """Words below each other, each with its mark (of a kind and a color) or line."""
+        """Entries one below another, each with a mark or line of a kind and a color."""
         for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
             if kind.endswith("line"):
                 dashes = "5 3" if kind.startswith("dashed") else ""
@@ -130,7 +130,7 @@ class _Plot:
                 self.parts.append(_mark(kind, color, x, down))
             self.text(x + 15, down + 4, words)
 
-    # In places of the figure, not of the plot
+    # In coordinates of the figure, not of the plot
 
     def path(
         self, points: Points, color: str = INK, dashes: str = "", opacity: float = 1.0

@@ -1,7 +1,6 @@
-"""What is said of a record and its claims: each fact once, for page, Markdown and terminal alike.
+"""The sentences and tables on a record and its claims, the same for page, Markdown and terminal.
 
-Texts are sentences for `Prose`, which sets Greek letters, subscripts, powers and references: ids
-stand between backticks.
+`Prose` sets Greek letters, subscripts, powers and references in them; ids stand between backticks.
 """
 
 import re
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Named(NamedTuple):
-    """What an id between backticks names, where a page shows it, and its value as printed."""
+    """What an id between backticks stands for: a title, its place on the page, its value."""
 
     title: str
     anchor: str = ""
@@ -51,7 +50,7 @@ _SCALES = {"radius": (1e6, "um"), "flow_stress": (1e-6, "MPa")}
 
 
 def shown_range(effect: r.Effect) -> str:
-    """The range of an effect's input in the unit that a reader wants.
+    """The range of an effect's input in a unit that suits it.
 
     >>> effect = r.Effect(input="radius", low=8.2e-6, high=1.38e-5, ratios=[], depths=[], why="")
     >>> shown_range(effect)
@@ -62,7 +61,7 @@ def shown_range(effect: r.Effect) -> str:
 
 
 def names_of(record: r.Record) -> dict[str, Named]:
-    """What the ids of a record name, and where the page shows it."""
+    """What each id of a record stands for."""
     equations = {
         e.id: Named(f"Eq. {e.number}" if e.number else e.title, f"equation-{e.id}")
         for e in record.equations
@@ -127,7 +126,8 @@ def failing(record: r.Record) -> Table:
     names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
     rows = []
     for claim in claims:
-        values = {"": claim.computed, **{r.name: r.computed for r in claim.readings}}
+        values = {"": claim.computed}
+        values |= {reading.name: reading.computed for reading in claim.readings}
         texts = {name: f"{value:#.{significant(claim.printed)}g}"
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
@@ -148,7 +148,7 @@ def significant(text: str) -> int:
 
 
 def tried(claim: r.ClaimRecord) -> list[Table]:
-    """What was tried to explain a claim that fails, and the figures that a remark is judged by."""
+    """The explanations tried of a claim that fails, and the figures that a remark is judged by."""
     figures = [(f.means, measured(f.value, f.unit, 5)) for f in claim.figures]
     slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
     tables = (
@@ -183,9 +183,10 @@ def _needed(solved: r.BackSolvedRecord) -> str:
 
 
 def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
-    """The misprints that would give a number as printed; `claim` is its id.
+    """The misprints with which a number agrees; `claim` is its id.
 
-    Read otherwise than printed this claim agrees; as printed it does not, which goes unsaid.
+    That claim is not listed among those that still fail: it does only as printed, if another
+    reading agrees.
     """
     rows = []
     for repair in records:
@@ -208,7 +209,7 @@ def evidence(finding: r.FindingRecord) -> Table:
 
 
 def computed(piece: r.EvidenceRecord) -> str:
-    """What was computed for a finding, to two digits more than asserted; a bound, safely rounded.
+    """What was computed for a finding, to two digits more than asserted; bounds rounded safely.
 
     >>> piece = r.EvidenceRecord(
     ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
@@ -259,7 +260,7 @@ def ladders(record: r.Record) -> Table:
 
 
 def sensitivity(case: r.Sensitivity) -> Table:
-    """What the inputs' own ranges do to the depth of a case."""
+    """How the depth of a case changes over the range of each input."""
     rows = [
         (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
          " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
@@ -298,7 +299,7 @@ class Prose:
     """Turns the record's plain sentences into HTML, Markdown or text for a terminal.
 
     `symbols` are written as "ρ_t"; in a sentence the Greek letter may be spelled out. An id stands
-    between backticks, and `names` tells what it names.
+    between backticks, and `names` tells what it stands for.
 
     >>> prose = Prose(["ρ_t", "V"], {"a1-density": Named("particle density", "claim-a1-density")})
     >>> prose.text("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
@@ -371,14 +372,14 @@ def _typographic(text: str) -> str:
     return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
 
 
-_TOGETHER = re.compile(  # beginning with what is searched for, it is found fast
+_TOGETHER = re.compile(  # the space comes first, as that makes the search fast
     r" (?=[\dA])(?:(?<=\bEq\. )|(?<=\bEqs\. )|(?<=\bTable )|(?<=\bFigure ))"
     r"| (?<=\d )(?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
 )
 
 
 class _Form(NamedTuple):
-    """How a text is escaped, a subscript and a power in brackets set, an id and what it names."""
+    """How to escape a text, and to set a subscript, a power in brackets, an id and its title."""
 
     escaped: Callable[[str], str]
     lowered: Callable[[str, str], str]
