@@ -325,6 +325,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         sources = tables("sources.toml", dict[Literal["source"], list[Source]])["source"]
         return {source.id: source for source in sources}
 
+    def sources_of(self, name: str) -> list[Source]:
+        """The public sources for a claim or an inferred input."""
+        return [source for source in self.sources.values() if name in source.claims]
+
     @cached_property
     def computations(self) -> Mapping[str, Computation]:
         """What computes claims, by name."""

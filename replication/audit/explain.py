@@ -247,7 +247,7 @@ class Explainer:
     def _suits(self, claim: Claim, text: str) -> str | None:
         """As `_mends`, of a number that nothing computes: by its sources and what confirms it."""
         changed = self.ledger.misprint(claim.id, text).claims[claim.id]
-        sources = [s for s in self.ledger.sources.values() if claim.id in s.claims]
+        sources = self.ledger.sources_of(claim.id)
         if sources and not any(changed.target().meets(source.interval) for source in sources):
             return None
         return "" if self._is_shown(claim, changed.value) else None

@@ -88,9 +88,7 @@ class Known:
     def _sources(self, name: str) -> list[r.SourceRecord]:
         """The public sources for a claim or an inferred input, and whether each agrees with it."""
         records = []
-        for source in self.ledger.sources.values():
-            if name not in source.claims:
-                continue
+        for source in self.ledger.sources_of(name):
             if name.startswith(INFERRED):
                 admission = self.admission(source)
                 agrees, outcome = admission is Admission.ADMITTED, f"is {admission.value}"

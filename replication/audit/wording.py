@@ -122,8 +122,10 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
         assumed.append(f"{judge.ledger.title(name)} {value}, inferred: {table} admits {admitted}")
     if claim.by_scheme:
         assumed.append("the drag at the velocity with which a row begins")
-    sources = [s.interval for s in judge.ledger.sources.values() if claim.id in s.claims]
-    values = sources if computed is None else [Interval.point(Fraction(computed) * claim.si)]
+    if computed is None:
+        values = [source.interval for source in judge.ledger.sources_of(claim.id)]
+    else:
+        values = [Interval.point(Fraction(computed) * claim.si)]
     return assumed + _digits(claim, values)
 
 

@@ -145,8 +145,9 @@ def _mapped(
 def _named_line(given: str, where: str, area: Area, calculation: Calculation) -> Line:
     """The column or row that the user named."""
     across = area.top == area.bottom
-    ways = {(line.sheet, line.across): line.left_out for line in lines(calculation)}
-    blank = ways.get((area.sheet, across), ())
+    direction = (area.sheet, across)
+    alike = (line for line in lines(calculation) if (line.sheet, line.across) == direction)
+    blank = next((line.left_out for line in alike), ())  # the same for all of them
     number = area.top if across else area.left
     line = Line(calculation, area.sheet, across, blank, number, given=given)
     cells = [(at, calculation.number(p)) for p in area.places() if (at := line.index(p))]
