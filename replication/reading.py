@@ -145,6 +145,7 @@ def read_number(text: str, unit: str) -> float:
     >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
     (5e-10, 1.1e-05)
     """
+    text = text.replace("\N{MINUS SIGN}", "-")  # as word processors write it
     match = _NUMBER.fullmatch(text.strip()) if len(text) < _DIGITS else None
     if match is None:
         raise ValueError(

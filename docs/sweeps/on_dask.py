@@ -35,5 +35,7 @@ def run(client: Client, plan: Plan, folder: Path) -> None:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) not in (3, 4):
+        sys.exit("on_dask.py: give PLAN.toml FOLDER, and maybe the address of a scheduler")
     with Client(*sys.argv[3:]) as client:
         run(client, read_plan(Path(sys.argv[1])), Path(sys.argv[2]).resolve())

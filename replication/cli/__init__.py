@@ -126,7 +126,10 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     for argument in arguments:
         if _DASHES.fullmatch(argument):
             parser.error(f"{quoted(argument)}: two dashes are no value")
-    return parser.parse_args(arguments)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:  # said by the command, whose help lists what it knows
+        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
+    return options
 
 
 class _Version(argparse.Action):
@@ -165,12 +168,17 @@ def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
     """--case, --case-file and every input of a case."""
     from replication.cases import INPUTS
 
-    command.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
-    command.add_argument("--case-file", type=_path, metavar="FILE", help="TOML, table [impact]")
+    group = command.add_argument_group(
+        "the case",
+        "An input that is not given is the named case's; a resistance takes the place of beta and "
+        "flow stress. A plain number is in the unit shown; others are understood, such as "
+        '"11 um", "98 ksi" and "0.2 ns".',
+    )
+    group.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
+    group.add_argument("--case-file", type=_path, metavar="FILE", help="TOML, table [impact]")
     for name, unit in INPUTS.items():
-        measured = "" if unit == "1" else f" in {unit}, or with its unit"
-        meaning = f"{name.replace('_', ' ')}{measured}"
-        command.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=meaning)
+        meaning = name.replace("_", " ") + ("" if unit == "1" else f" [{unit}]")
+        group.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=meaning)
 
 
 # How argparse reads the value of an option

@@ -28,11 +28,25 @@ millisecond, ten times what handing it out takes, and its data fit into a core's
 
 _DOC = """
 
-Inputs are in SI units: velocity V [m/s], radius R [m], densities rho_p and rho_t [kg/m^3], target
-resistance R_t [Pa]. Each is a number, an array, a pandas Series, or an xarray or dask array; they
-broadcast, and the result is of their kind. Raises ValueError, naming the first element that is out
-of range, where the model by itself would give NaN.
+Inputs, in SI units:
+
+{inputs}
+
+Each is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and the
+result is of their kind. Raises ValueError, naming the first element that is out of range, where the
+model by itself would give NaN; TypeError for what holds no real numbers.
 """
+
+_SYMBOLS = {
+    "at_velocity": "v [m/s]",
+    "at_depth": "x [m]",
+    "stop_velocity": "[m/s]",
+    "velocity": "V [m/s]",
+    "radius": "R [m]",
+    "particle_density": "rho_p [kg/m^3]",
+    "target_density": "rho_t [kg/m^3]",
+    "resistance": "R_t [Pa]",
+}
 
 
 def _for_anything(model: Model, explain: Model | None = None) -> Model:
@@ -54,7 +68,8 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
     def many(*values: Any) -> Any:
         return _each(ufunc(model), *values)
 
-    function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
+    symbols = "\n".join(f"- {name}: {_SYMBOLS[name]}" for name in signature.parameters)
+    function.__doc__ = f"{inspect.getdoc(model)}{_DOC.format(inputs=symbols)}"
     function.__module__ = __name__  # where pickle finds it
     return function
 
@@ -171,16 +186,20 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
 
 
 def _real(name: str, value: Any) -> Any:
-    if isinstance(value, float | int):
+    if isinstance(value, float | int) and abs(value) <= GREATEST:
         return float(value)
     import numpy as np
 
     if isinstance(value, np.ma.MaskedArray):
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
     array = np.asarray(value)
-    if array.dtype.kind not in "biufO":
-        raise TypeError(f"{name} holds {array.dtype}: it must hold real numbers, in SI units")
-    return array.astype(float, copy=False) if array.ndim else float(array)
+    try:
+        if array.dtype.kind in "biufO":
+            return array.astype(float, copy=False) if array.ndim else float(array)
+    except (TypeError, ValueError, OverflowError):
+        pass  # objects that are no numbers, or beyond a double
+    kind = array.dtype if array.dtype.kind != "O" else type(array.item(0)).__name__
+    raise TypeError(f"{name} holds {kind}: give real numbers of a double's range, in SI units")
 
 
 def _check(numbers: Numbers) -> None:
@@ -360,7 +379,11 @@ def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)
-    return results.rename(None) if len(types) == 1 else tuple(r.rename(None) for r in results)
+
+    def unnamed(result: Any) -> Any:  # a Variable has no name
+        return result if isinstance(result, xarray.Variable) else result.rename(None)
+
+    return unnamed(results) if len(types) == 1 else tuple(map(unnamed, results))
 
 
 def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
@@ -377,17 +400,22 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
 
 
 def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
+    import numpy as np
     import pandas as pd
 
     index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
-    if index is None:
-        raise TypeError("a DataFrame is no input: give its columns, each a Series")
     numbers = dict(inputs)
     for name, value in inputs.items():
+        if isinstance(value, pd.DataFrame):
+            raise TypeError(f"{name} is a DataFrame: give its columns, each a Series")
         if isinstance(value, pd.Series):
             for label in index.symmetric_difference(value.index, sort=False)[:1]:
                 raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
             numbers[name] = value.reindex(index).to_numpy()
+        elif name in _of("pandas", inputs):  # an Index, say
+            numbers[name] = np.asarray(value)
+    if index is None:
+        return within(*numbers.values())
     try:
         results = within(*numbers.values())
     except InputError as error:

@@ -30,8 +30,8 @@ from spreadsheets.safely import check_folder, write_folder
 
 def check(folder: Path) -> None:
     """Raise OSError, naming the path, where the audit's files could not be written."""
-    names = ("audit.html", "audit.md", "audit.json", "audit.csv", "workbook.xlsx", "figures/x.svg")
-    check_folder(folder, names)
+    texts = ("audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt")
+    check_folder(folder, (*texts, "workbook.xlsx", "figures/x.svg"))
 
 
 def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
