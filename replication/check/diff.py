@@ -116,9 +116,14 @@ class Comparison:
 
     def align(self, name: str, partner: str) -> None:
         """Match the cells of two sheets in the way that leaves the fewest that differ."""
-        ways = pairings(self.before, name, self.after, partner)
-        trials = [self.trial(name, partner, pairs) for pairs in ways]
-        best = min(trials, key=Comparison.size) if len(trials) > 1 else trials[0]
+        least = math.inf
+        for pairs in pairings(self.before, name, self.after, partner):
+            trial = self.trial(name, partner, pairs)
+            size = trial.size()
+            if size < least:
+                best, least = trial, size
+            if least <= 1:  # no other way can leave fewer
+                break
         self.where |= best.where
         self.differences += [d for d in best.differences if d.kind not in ("formula", "value")]
 

@@ -191,14 +191,13 @@ def touching(cells: Iterable[Cell]) -> list[list[Cell]]:
     """Cells that touch each other, block by block."""
     left, blocks = set(cells), list[list[Cell]]()
     for start in sorted(left):
-        block, edge = set(), {start} & left
-        left -= edge
+        block, edge = list[Cell](), [start]
         while edge:
-            row, column = edge.pop()
-            block.add((row, column))
-            near = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
-            left -= near
-            edge |= near
+            row, column = cell = edge.pop()
+            if cell in left:
+                left.remove(cell)
+                block.append(cell)
+                edge += [(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
         if block:
             blocks.append(sorted(block))
     return blocks
