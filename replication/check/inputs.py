@@ -14,7 +14,7 @@ from itertools import islice, product
 from statistics import median
 
 from reference.ledger import claims_of_case, load
-from reference.units import to_si
+from reference.units import same_dimension, to_si
 from replication.check.examination import Examination, Input
 from replication.check.scheme import BRAKES, REPORT, Case, Rows, contact
 from replication.check.table import FEW, Table, address
@@ -23,6 +23,7 @@ from replication.check.words import (
     between_units,
     input_roles,
     is_unit,
+    number_in,
     power_of_ten,
     scaled,
     title,
@@ -74,6 +75,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     from_table = _read((place for place in table.places if place in formulas), calculation)
     read = {place: far for place, far in from_table.items() if place not in table.places}
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
+    reads = _told_by_mass(reads, calculation)
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
@@ -111,6 +113,21 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
+
+
+_DENSITIES = frozenset({"particle_density", "target_density"})
+
+
+def _told_by_mass(cells: Sequence[Input], calculation: Calculation) -> Sequence[Input]:
+    """The cells; of densities whose labels do not say of what, the mass reads the particle's."""
+    unsaid = {cell.place for cell in cells if cell.place and cell.roles == _DENSITIES}
+    masses = (c.place for c in cells if c.place and (c.roles == {"mass"} or c.unit in ("kg", "g")))
+    for place in masses:
+        of_particle = unsaid & _read([place], calculation).keys()
+        if len(of_particle) == 1 < len(unsaid):
+            said = {p: {f"{'particle' if p in of_particle else 'target'}_density"} for p in unsaid}
+            return [replace(c, roles=frozenset(said.get(c.place, c.roles))) for c in cells]
+    return cells
 
 
 def _typed_first(
@@ -171,6 +188,11 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             label, how = calculation.named[place], "name"
             roles = input_roles(label, unit)
         value = calculation.number(place) or 0.0
+        named, number = number_in(label)
+        if named in roles and number != value:  # "1: beta 5, 2: beta 3" is no beta, but a choice
+            roles -= {named}
+        if not roles and unit and same_dimension(unit, INPUTS["particle_density"]):
+            roles = _DENSITIES  # in a language that is not known
         yield Input("", value, place, how, label, unit, roles=roles)
     for name, meaning in calculation.book.names.items():
         try:
@@ -282,7 +304,8 @@ def _settled(
     pi: float,
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
-    choices = dict(choices)
+    numbers = _typed(table.calculation) | {cell.si for cells in choices.values() for cell in cells}
+    choices = {role: [_as_converted(c, numbers) for c in cells] for role, cells in choices.items()}
     if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
         # It is in the unit of the time column, or in that which gives it the report's size.
         typed = replace(step, si=scaled(step.si, 1 / step.factor))
@@ -309,6 +332,17 @@ def _settled(
         where = " and ".join(list(alike)[:3])
         raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
     return examination
+
+
+def _as_converted(cell: Input, numbers: Iterable[float]) -> Input:
+    """An input in a unit such as ksi by the factor that formulas have, of four digits or more."""
+    if power_of_ten(float(cell.factor)) is None:
+        for number in numbers:
+            power = _round(number / float(cell.factor))
+            factor = Fraction(repr(number)) / Fraction(10) ** power if number > 0 else Fraction()
+            if abs(factor / cell.factor - 1) < 1e-4:
+                return replace(cell, si=scaled(cell.si, factor / cell.factor), factor=factor)
+    return cell
 
 
 def _examined(

@@ -61,13 +61,16 @@ def unit_in(text: str) -> str | None:
 
     >>> unit_in("Eindringtiefe [µm]"), unit_in("v1 / (m/s)"), unit_in("t in s"), unit_in("dx/dt")
     ('um', 'm/s', 's', None)
+    >>> unit_in("Density, g/cm3"), unit_in("m/kg")
+    ('g/cm3', 'kg')
     """
-    text = text[:_MAX_LABEL].strip().rstrip("=: ").strip()
+    text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).strip().rstrip("=: ").strip()
     pieces = [
         *reversed(re.findall(r"[\[(]([^\[\]()]+)[\])]", text)),
         *re.findall(r"\b(?:in|en)\s+(\S+)$", text),
-        *(text.partition(mark)[2] for mark in (" / ", "/", ", ")),
-        *re.findall(r"[^ _]{2,}$", text),  # a single letter there is a symbol: "Weg s"
+        *re.findall(r"[ ,]([^ _,]{2,})$", text),  # a single letter there is a symbol: "Weg s"
+        *(text.partition(mark)[2] for mark in (" / ", "/", ",")),
+        *re.findall(r"[^ _]{2,}$", text),
     ]
     return next((unit for piece in pieces if (unit := is_unit(piece))), None)
 
@@ -109,7 +112,10 @@ def column_roles(head: str) -> frozenset[str]:
     if role is None or (
         role != "other" and unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))
     ):
-        return frozenset()
+        # What is behind an underscore may be the end of a unit only: a_m_s2.
+        measured = unit in (None, "1") or "_" in head
+        known = measured or any(same_dimension(str(unit), each) for each in COLUMNS.values())
+        return frozenset(() if known else {"other"})
     if role != "velocity":
         return frozenset({role})
     ends = _words("velocities", _symbol(head))
