@@ -168,7 +168,7 @@ def _nearest(
 ) -> list[Input]:
     """Of the cells for one role those that are read most directly; constants behind conversions."""
     far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
-    near = [cell for cell in cells if far[cell] == min(far.values())]
+    near = [cell for cell in cells if far[cell] == min(far.values()) or cell.roles == _DENSITIES]
     sources = {calculation.source(cell.place) for cell in near if cell.place}
     return [cell for cell in cells if cell.place in sources] or near
 
@@ -239,6 +239,10 @@ def _by_role(
         if len(cell.roles) == 1:
             (role,) = cell.roles
             by_role.setdefault(role, []).append(as_role(cell, role, report))
+    unsaid = [cell for cell in cells if cell.roles == _DENSITIES]
+    if len(unsaid) == 2 and not by_role.keys() & _DENSITIES:
+        # Neither label says of what: the rows decide, as each may be that of either.
+        by_role |= {role: [as_role(c, role, report) for c in unsaid] for role in sorted(_DENSITIES)}
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
@@ -319,6 +323,9 @@ def _settled(
     tried: list[tuple[float, float, Examination]] = []
     for picked in islice(product(*several.values()), _MAX_CHOICES):
         inputs = chosen | dict(zip(several, picked, strict=True))
+        densities = [inputs[role].place for role in _DENSITIES & several.keys()]
+        if len(densities) == 2 and densities[0] == densities[1]:
+            continue  # a cell is not both
         examination = _examined(table, inputs, pi, feeding)
         advances = examination.share("advance", REPORT["advance"])
         tried.append((examination.agreement(), advances, examination))

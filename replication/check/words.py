@@ -156,12 +156,14 @@ def result_of(label: str) -> str | None:
 
     >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("Depth [m]"), result_of("radius")
     ('depth', 'ratio', 'any depth', None)
-    >>> result_of("X (beta 3), um"), result_of("x [m]")
-    ('any depth', None)
+    >>> result_of("X (beta 3), um"), result_of("x [m]"), result_of("Final depth / D")
+    ('any depth', None, None)
     """
     beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
     bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
     named = _words("results", _plain(bare)) or _symbols("result_symbols", bare)
+    if named[:1] == ["depth"] and _words("beside_results", _plain(bare)):
+        return None
     # The report calls the final depth X, and that of every row x.
     final = bare.startswith("X") and _symbol(bare) == "x"
     return next(iter(named), "any depth" if final else None)
