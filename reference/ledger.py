@@ -8,6 +8,7 @@ what each entry must have and that its quote stands in the report once; that ent
 import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property, reduce
 from importlib import resources
@@ -345,6 +346,17 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
+        texts = self.misprinted
+        claims = {**self._claims_as_printed}
+        for name in texts.keys() & claims.keys():
+            claims[name] = replace(claims[name], text=texts[name])
+        for name, claim in claims.items():
+            if name in texts or claim.against in texts:
+                claims[name] = replace(claim, bound=_bound(claim, claims))
+        return claims
+
+    @cached_property
+    def _claims_as_printed(self) -> Mapping[str, Claim]:
         placed = sorted(map(self._placed, self.claim), key=lambda claim: claim.place.start)
         claims = {claim.id: claim for claim in placed}
         return {
@@ -383,6 +395,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         """The dimension of every symbol."""
         return {name: unit_dimension(symbol.unit) for name, symbol in self.symbols.items()}
 
+    def equation_of(self, name: str) -> str | None:
+        """The equation with this id, or that the number with this id is a constant of."""
+        return name if name in self.equations else self.claims[name].within
+
     def constants_of(self, equation: str) -> list[str]:
         """The claims that are constants of an equation, in its order."""
         if equation in self.misprinted:
@@ -413,13 +429,16 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         Where a misprint makes one unreadable, they are those that the report prints. Raises
         EquationError if even these cannot be read.
         """
-        return {name: self._sides_of(equation) for name, equation in self.equations.items()}
+        sides = {**self._sides_as_printed}
+        for name in filter(None, map(self.equation_of, self.misprinted)):
+            with suppress(EquationError):
+                sides[name] = self.read(self.printed_text(name))
+        return sides
 
-    def _sides_of(self, equation: Equation) -> tuple[Node, ...]:
-        try:
-            return self.read(self.printed_text(equation.id))
-        except EquationError:
-            return self.read(self.text[equation.place.start : equation.place.end])
+    @cached_property
+    def _sides_as_printed(self) -> Sides:
+        places = {name: equation.place for name, equation in self.equations.items()}
+        return {name: self.read(self.text[at.start : at.end]) for name, at in places.items()}
 
     def read(self, text: str) -> tuple[Node, ...]:
         """The sides of an equation of this report, given as text. Raises EquationError."""
@@ -490,22 +509,23 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     def misprint(self, name: str, text: str) -> "Ledger":
         """A copy with other text in the place of a claim's or an equation's.
 
-        Raises ValueError if a claim's text is no number.
+        The claims that it does not touch stay the same objects. Raises ValueError if a claim's text
+        is no number, KeyError for an unknown name.
         """
-        copy = replace(self, misprinted={**self.misprinted, name: text})
-        copy.__dict__.update(self.__dict__)  # what the text does not decide is as it was
-        equation: str | None = name
-        if name not in self.equations:
-            claims = {**self.claims, name: replace(self.claims[name], text=text)}
+        if name in self.claims:
             parse(text)
-            for claim in [c for c in claims.values() if name in (c.id, c.against)]:
-                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
-            copy.__dict__["claims"] = claims
-            equation = claims[name].within
-        if equation:
-            sides = copy._sides_of(self.equations[equation])
-            copy.__dict__["sides"] = {**self.sides, equation: sides}
+        elif name not in self.equations:
+            raise KeyError(name)
+        copy = replace(self, misprinted={**self.misprinted, name: text})
+        copy.__dict__.update({same: getattr(self, same) for same in _AS_PRINTED})
         return copy
+
+
+_AS_PRINTED = (
+    "text", "sources", "computations", "equations", "written", "dimensions", "_claims_as_printed",
+    "_sides_as_printed",
+)  # fmt: skip
+"""What a ledger works out once and no misprint changes."""
 
 
 def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:

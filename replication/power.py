@@ -14,7 +14,7 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.explain import Screen, dependents, edits_of, equation_of
+from replication.audit.explain import Screen, dependents, edits_of
 from replication.audit.verdict import OPEN, Verdict
 from replication.text import Table
 
@@ -101,7 +101,7 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit = Audit(ledger, every_convention=False)
     claims, wrong = dependents(truth.ledger, plant.entry), set()
-    inside = equation_of(ledger, plant.entry)
+    inside = ledger.equation_of(plant.entry)
     for name in ledger.equations if inside else ():  # its own, and those derived from it
         assessed = audit.equation(name, constants=False)
         # One that fails in the report, too, must fail in another way.

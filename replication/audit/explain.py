@@ -61,18 +61,13 @@ class Screen:
         return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
 
 
-def equation_of(ledger: Ledger, name: str) -> str | None:
-    """The equation with this id, or that the number with this id is a constant of."""
-    return name if name in ledger.equations else ledger.claims[name].within
-
-
 def dependents(ledger: Ledger, name: str) -> set[str]:
     """The claims whose verdict may change with an entry or an equation, itself among them.
 
     A claim that rests on an inferred input also depends on the evidence for it, and on all that
     this rests on; an input that other claims confirm depends on them.
     """
-    within = equation_of(ledger, name)
+    within = ledger.equation_of(name)
     direct = {
         claim.id
         for claim in ledger.claims.values()
@@ -184,7 +179,7 @@ class Explainer:
         A repair with which fewer claims fail comes before one with which more do; of equal ones the
         likelier typing error comes first. A constant is repaired together with its equation.
         """
-        name = equation_of(self.ledger, name) or name
+        name = self.ledger.equation_of(name) or name
         return self._sorted(name, self._suspects(name))
 
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
@@ -230,13 +225,13 @@ class Explainer:
 
     def _mends(self, name: str, entry: str, text: str) -> str | None:
         """The first reading of the claim or equation that agrees with the edit, or None."""
-        within = equation_of(self.ledger, name)
+        within = self.ledger.equation_of(name)
         if within is not None:
             return "" if follows(self.ledger.misprint(entry, text), within) else None
         claim, screens, values = self.ledger.claims[name], self._as_printed, {}
         if claim.computation is None:
             return self._suits(claim, text) if entry == name else None
-        if entry in (name, claim.against) or equation_of(self.ledger, entry):
+        if entry in (name, claim.against) or self.ledger.equation_of(entry):
             changed = self.ledger.misprint(entry, text)
             claim, screens = changed.claims[name], self._screens(changed)
         else:
@@ -257,7 +252,7 @@ class Explainer:
         changed = self.ledger.misprint(entry, text)
         touched = dependents(self.ledger, entry)
         failing = min((s.failing(touched) for s in self._screens(changed)), key=len)
-        within, bad = equation_of(self.ledger, entry), self._bad_equations
+        within, bad = self.ledger.equation_of(entry), self._bad_equations
         if within is not None:
             bad = (bad - {within}) | (set() if follows(changed, within) else {within})
         return (self._failing_now - touched) | failing | bad
@@ -295,7 +290,7 @@ class Explainer:
         """What claims are sorted by: the quickest to compute first, whole sheets last."""
         claim = self.ledger.claims.get(name)
         if claim is None or claim.computation is None or claim.computation.restates:
-            return 2 if equation_of(self.ledger, name) else 0, name
+            return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
     def culprit(self, names: Collection[str]) -> RepairRecord | None:
