@@ -151,15 +151,8 @@ class Convention(msgspec.Struct, frozen=True):
     centered: bool = False
 
 
-class Claim(Entry, frozen=True, dict=True, eq=False):
-    """A [[claim]]: one printed number, and what the ledger says about it.
-
-    `given` is then the reason in words; `computations` has the computation as printed under the
-    name "", and each other reading; `inputs` names for each input of the computations the
-    entries whose product it is; `within` the equation that the number is a constant of; `chosen`
-    says that the author set it, here or where this claim repeats it; `bound` is the number that a
-    relation compares with.
-    """
+class ClaimEntry(Entry, frozen=True):
+    """A [[claim]] of the file: one printed number, and what the ledger says about it."""
 
     id: str
     title: str
@@ -180,11 +173,23 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     quantity: str | None = None
     workbook: str | None = None
 
-    text: str = ""
-    place: Place = Place()
-    computations: Mapping[str, Computation] = {}
-    inputs: Mapping[str, tuple[str, ...]] = {}
-    within: str | None = None
+
+class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
+    """A claim as it stands in the report.
+
+    `given` is the key of a reason why nothing computes it, `why` that reason in words;
+    `computations` has the computation as printed under the name "", and each other reading;
+    `inputs` names for each input of the computations the entries whose product it is; `within` the
+    equation that the number is a constant of; `chosen` says that the author set it, here or where
+    this claim repeats it; `bound` is the number that a relation compares with.
+    """
+
+    text: str
+    place: Place
+    why: str | None
+    computations: Mapping[str, Computation]
+    inputs: Mapping[str, tuple[str, ...]]
+    within: str | None
     chosen: bool = False
     bound: Fraction | None = None
 
@@ -310,7 +315,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     quantities: dict[str, Quantity]
     furniture: list[dict[Literal["pattern", "reason"], str]]
     equation: list[Equation]
-    claim: list[Claim]
+    claim: list[ClaimEntry]
     slip: list[Slip]
     computation: list[Computation]
     misprinted: Mapping[str, str] = {}
@@ -364,23 +369,21 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             for name, claim in claims.items()
         }
 
-    def _placed(self, claim: Claim) -> Claim:
-        """A claim with its place, its inputs, and the reason why nothing decides it in words."""
+    def _placed(self, claim: ClaimEntry) -> Claim:
         readings = {"": claim.computed_by, **claim.readings}
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
         equations = ((equation.id, equation.place) for equation in self.equations.values())
         around = (name for name, whole in equations if whole.start <= place.start < whole.end)
-        return replace(
-            claim,
-            given=claim.given and self.reasons[claim.given],
+        return Claim(
+            **msgspec.structs.asdict(claim),
+            why=claim.given and self.reasons[claim.given],
             text=self.text[place.start : place.end],
             place=place,
             computations={key: self.computations[name] for key, name in readings.items() if name},
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
-            chosen=claim.given == "choice",
         )
 
     # The printed equations
@@ -531,7 +534,7 @@ _AS_PRINTED = (
 def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
     """Whether the author set the number, here or where this claim repeats it."""
     repeated = claim.stated if claim.computed_by == "same_as" else []
-    return claim.chosen or any(_is_chosen(claims[name], claims) for name in repeated)
+    return claim.given == "choice" or any(_is_chosen(claims[name], claims) for name in repeated)
 
 
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:

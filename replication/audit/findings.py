@@ -77,7 +77,7 @@ class Known:
             shown = self.shown(claim)
             verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
             return Assessment(verdict, reason or wording.chosen(self.ledger, shown))
-        undecided = f"Nothing in the report decides it: {claim.given}."
+        undecided = f"Nothing in the report decides it: {claim.why}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
     def admission(self, source: Source) -> Admission:

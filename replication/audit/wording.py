@@ -193,5 +193,5 @@ def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord)
             return f"With {needed} instead of {claim.shown} {passes}."
         case Verdict.UNDECIDED:
             return f"With no number that was tried in its place {passes}."
-    reason = f": {claim.given}" if claim.given else ""
+    reason = f": {claim.why}" if claim.why else ""
     return f"Dimensions, limits and signs do not decide it{reason}."

@@ -81,8 +81,8 @@ def test_claim(claim: Claim, record: Record) -> None:
     assert len(set(listed)) == len(listed)
     same = [j for j in judged.otherwise if (j.verdict, j.scheme) == (judged.verdict, "published")]
     assert same == [], "only what differs is listed"
-    if judged.verdict == "not checkable" and claim.given:
-        assert claim.given in judged.explanation
+    if judged.verdict == "not checkable" and claim.why:
+        assert claim.why in judged.explanation
 
 
 def test_nothing_is_expected_that_is_not_there() -> None:
