@@ -174,6 +174,11 @@ class ClaimEntry(Entry, frozen=True):
     workbook: str | None = None
 
 
+def in_header(cell: str | None) -> bool:
+    """Whether a cell is one of those above the rows of Table A-1; they are all in column B."""
+    return cell is not None and cell.startswith("B")
+
+
 class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
     """A claim as it stands in the report.
 
@@ -246,13 +251,12 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
-        in_header = self.cell is not None and self.cell.startswith("B")
         if (
             self.is_exact
             or self.number.quantum == 0
             or self.bound is not None
             or (self.chosen and convention.choices_exact)
-            or (in_header and convention.header_exact)
+            or (in_header(self.cell) and convention.header_exact)
         ):
             return Interval.point(self.value)
         return self.target(convention.rounding)

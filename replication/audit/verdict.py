@@ -15,7 +15,7 @@ from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, Constraint, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
+from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, in_header
 from reference.printed import Interval, Rounding
 from reference.units import Dimension, DimensionError
 from replication.audit.inference import Inference
@@ -314,7 +314,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     """
     claims = [ledger.claims[entry] for entry in claim.stated]
     chosen = any(entry.chosen for entry in claims)
-    header = bool(claim.inferred) or any((entry.cell or "").startswith("B") for entry in claims)
+    header = bool(claim.inferred) or any(in_header(entry.cell) for entry in claims)
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return

@@ -17,7 +17,7 @@ from typing import Any
 import msgspec
 
 from reference import findings as asserted
-from reference.ledger import INFERRED, Ledger
+from reference.ledger import INFERRED, Ledger, in_header
 from replication.audit.record import ClaimRecord, Record
 from replication.audit.verdict import Verdict
 from replication.power import measured
@@ -168,11 +168,11 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
     cells = {str(claim.cell): claim for claim in claims.values()}
     said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
     letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
-    below = [cell for cell in cells if not cell.startswith("B")]
+    below = [cell for cell in cells if not in_header(cell)]
     columns = sorted({cell[0] for cell in below})
     rows = sorted({int(cell[1:]) for cell in below})
     return {
-        "header": [claim for cell, claim in cells.items() if cell.startswith("B")],
+        "header": [claim for cell, claim in cells.items() if in_header(cell)],
         "rows": [[cells.get(f"{column}{row}") for column in columns] for row in rows],
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
