@@ -97,7 +97,7 @@ class Audit(Known):
         """One claim, as data."""
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
-        read: Any = self._reading(claim, first) if first else _UNREAD
+        read: r.ReadingRecord | SimpleNamespace = self._reading(claim, first) if first else _UNREAD
         verdict = assessment.verdict
         fails = verdict in OPEN if first else verdict.is_failure
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
@@ -106,6 +106,7 @@ class Audit(Known):
         return r.filled(
             r.ClaimRecord,
             *(claim, claim.place, read),
+            cell=claim.cell,
             where=str(claim.place),
             quote=" ".join(claim.quote.split()),
             printed=claim.text,

@@ -369,10 +369,15 @@ _Filled = TypeVar("_Filled", bound=_Part)
 
 
 def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
-    """A part of the record; what is not given is what a source has under the same name."""
-    for name in kind.__struct_fields__:
-        if name not in given:
-            given[name] = next(getattr(s, name) for s in sources if hasattr(s, name))
+    """A part of the record; what is not given is what one of the sources has by that name.
+
+    Raises TypeError for what no source has, or more than one.
+    """
+    for name in sorted(set(kind.__struct_fields__) - given.keys()):
+        values = [getattr(source, name) for source in sources if hasattr(source, name)]
+        if len(values) != 1:
+            raise TypeError(f"{kind.__name__}.{name}: {len(values)} sources have it")
+        given[name] = values[0]
     return kind(**given)
 
 

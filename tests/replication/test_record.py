@@ -16,7 +16,7 @@ import pytest
 from reference.ledger import load
 from reference.printed import parse
 from replication.audit.audit import audit
-from replication.audit.record import Record, schema
+from replication.audit.record import Figure, Record, filled, schema
 from replication.cases import BETA_5
 from replication.models.impact import Impact
 from replication.text import json_text
@@ -81,6 +81,13 @@ def test_numbers_and_symbols_are_marked_as_such(record: Record) -> None:
             r"<(m[ni])>([^<]+)</m[ni]>", re.sub("<msub>.*?</msub>", "", formula)
         ):
             assert (tag == "mn") == text[0].isdigit(), text
+
+
+def test_what_no_source_has_or_more_than_one_is_refused_by_name() -> None:
+    figure = Figure(means="depth", value=1.0, unit="m")
+    for sources in ((), (figure, figure)):
+        with pytest.raises(TypeError, match=f"Figure.unit: {len(sources)} sources"):
+            filled(Figure, *sources, means="depth", value=2.0)
 
 
 def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None:
