@@ -15,7 +15,6 @@ import msgspec
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
 from replication.audit.explain import Screen, dependents, edits_of
-from replication.audit.verdict import OPEN, Verdict
 from replication.text import Table
 
 
@@ -111,8 +110,8 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
     failing = wrong | {
         name
         for name in claims
-        if audit.assessment(ledger.claims[name]).verdict in _WORSE
-        and truth.assessment(truth.ledger.claims[name]).verdict not in _WORSE
+        if audit.assessment(ledger.claims[name]).verdict.is_doubtful
+        and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
     }
     repairs = audit.explainer.ranked(sorted(failing))
     true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
@@ -126,10 +125,6 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
         repaired=any(true),
         repaired_first=any(true[:1]),
     )
-
-
-_WORSE = {*OPEN, Verdict.DIFFERS}
-"""Verdicts by which a reader is told that something is wrong, or may be."""
 
 
 def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:

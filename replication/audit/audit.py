@@ -22,7 +22,7 @@ from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.findings import Evidence, Known, case
-from replication.audit.verdict import OPEN, Judgement, Reading, Verdict
+from replication.audit.verdict import Judgement, Reading, Verdict
 from replication.models import sheet
 from replication.text import number, powers_of_ten, quantity
 
@@ -98,8 +98,7 @@ class Audit(Known):
         assessment = self.assessment(claim)
         first = assessment.readings[0] if assessment.readings else None
         read: r.ReadingRecord | SimpleNamespace = self._reading(claim, first) if first else _UNREAD
-        verdict = assessment.verdict
-        fails = verdict in OPEN if first else verdict.is_failure
+        fails = assessment.is_explained
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
         restates = claim.computation is not None and claim.computation.restates
@@ -113,7 +112,7 @@ class Audit(Known):
             interval=ends and tuple(end if end is None else float(end) for end in ends),
             interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
             interval_text=str(interval) if interval else None,
-            verdict=verdict,
+            verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
             error_in_last_digit=_error(claim, first),
             readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],

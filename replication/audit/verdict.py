@@ -41,12 +41,18 @@ class Verdict(StrEnum):
 
     @property
     def is_failure(self) -> bool:
-        """Whether the number contradicts what the report prints."""
+        """Whether the number contradicts what the report prints; the exit code tells of these."""
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it fails or does not plainly come out as printed; a page begins with these."""
+        return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
 
-OPEN = {Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT, Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING}
-"""The verdicts on claims that do not plainly come out as printed."""
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether it is open or differs from the sources; `power` takes these as noticed."""
+        return self.is_open or self is Verdict.DIFFERS
 
 
 class Judgement(msgspec.Struct, frozen=True):
@@ -97,6 +103,11 @@ class Assessment(msgspec.Struct, frozen=True):
     verdict: Verdict
     reason: str = ""
     readings: tuple[Reading, ...] = ()
+
+    @property
+    def is_explained(self) -> bool:
+        """Whether explanations are tried: of what is open, or fails where nothing computes it."""
+        return self.verdict.is_open if self.readings else self.verdict.is_failure
 
 
 def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:

@@ -15,7 +15,7 @@ from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
 from replication.audit.comparison import SHARES
-from replication.audit.verdict import OPEN
+from replication.audit.verdict import Verdict
 from replication.cases import INPUTS
 from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
@@ -97,7 +97,7 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
         "to 25 digits": claim.reference,
         "proven range": claim.enclosure and between(claim.enclosure),
         "off by": off is not None
-        and claim.verdict in OPEN
+        and Verdict(claim.verdict).is_open
         and f"{number(off, 3)} units of the last printed digit",
         "from": claim.computed is not None and ", ".join(inputs),
         "for instance (SI)": claim.witness and _values(claim.witness),
@@ -119,9 +119,9 @@ def _values(values: Mapping[str, float]) -> str:
 # Tables
 
 
-def failing(record: r.Record) -> Table:
+def not_as_printed(record: r.Record) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
-    claims = [claim for claim in record.claims if claim.verdict in OPEN]
+    claims = [claim for claim in record.claims if Verdict(claim.verdict).is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
     names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
     rows = []

@@ -10,7 +10,6 @@ from kept import kept
 
 from reference.ledger import load
 from replication.audit.audit import Audit
-from replication.audit.verdict import OPEN, Verdict
 from replication.power import Plant, measured, plants, power, trial
 
 LEDGER = load()
@@ -44,12 +43,11 @@ def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
     for first in random.Random(3).sample(EVERYTHING, 50):
         failing, _ = trial(TRUTH, first)
         audit = Audit(LEDGER.misprint(first.entry, first.text), every_convention=False)
-        worse = {*OPEN, Verdict.DIFFERS}
         everything = {
             name
             for name, claim in audit.ledger.claims.items()
-            if audit.assessment(claim).verdict in worse
-            and TRUTH.assessment(LEDGER.claims[name]).verdict not in worse
+            if audit.assessment(claim).verdict.is_doubtful
+            and not TRUTH.assessment(LEDGER.claims[name]).verdict.is_doubtful
         }
         everything |= {
             name
