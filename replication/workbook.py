@@ -12,8 +12,8 @@ from fractions import Fraction
 from itertools import chain, pairwise, starmap
 from typing import TYPE_CHECKING, Any
 
-from reference.ledger import Ledger, load
-from reference.printed import Interval, Printed, Rounding
+from reference.ledger import Convention, Ledger, load
+from reference.printed import Interval, Printed
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DIGITS, SHALLOW
@@ -141,14 +141,15 @@ def rounding_bound(sheet: Sheet) -> float:
 
 def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under the workbook's scheme."""
+    from replication.audit.record import in_words
     from replication.audit.verdict import Verdict
 
-    usual = (Rounding.AWAY.value, "exact", "rounded", scheme)
+    usual = in_words(Convention(centered=scheme == "centered"))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
         for judged in claim.otherwise:
-            if (judged.rounding, judged.choices, judged.header, judged.scheme) == usual:
+            if all(getattr(judged, key) == word for key, word in usual.items()):
                 verdicts[claim.id] = judged.verdict
         if scheme != "published" and ledger.claims[claim.id].by_scheme:
             explanations[claim.id] = f"With the published scheme: {claim.explanation}"

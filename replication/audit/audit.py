@@ -265,15 +265,8 @@ _NUMBERS = replace(
 
 
 def _judged(judgement: Judgement) -> r.Judged:
-    convention = judgement.convention
-    return r.Judged(
-        rounding=convention.rounding.value,
-        choices="exact" if convention.choices_exact else "rounded",
-        header="exact" if convention.header_exact else "rounded",
-        scheme="centered" if convention.centered else "published",
-        verdict=judgement.verdict,
-        **_proven(judgement),
-    )
+    words = r.in_words(judgement.convention)
+    return r.Judged(verdict=judgement.verdict, **words, **_proven(judgement))
 
 
 def _error(claim: Claim, reading: Reading | None) -> float | None:

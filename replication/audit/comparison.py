@@ -29,16 +29,16 @@ def approaches(known: Known) -> list[r.Approach]:
     line = depth_from_volume_ratio(known["volume-ratio-line"])
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
     forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED))
-    models = {f"beta = {beta}": case(known, beta) for beta in BETAS}
+    models = {beta: case(known, beta) for beta in BETAS}
     rows = [
         ("observed", f"CV/PV = {drawn}, the line in Figure 1", line, ""),
         ("observed", f"CV/PV = {taken}, as taken for Eq. 4", computed("observed-depth-ratio"),
          "observed-depth-ratio"),
-        *(("sheet", name, sheet.run(impact).normalized_depth, f"ratio-beta-{name[-1]}")
-          for name, impact in models.items()),
-        *(("exact", name, exact_ratio(impact), "") for name, impact in models.items()),
-        *(("constant pressure", name, constant_pressure_ratio(impact), "")
-          for name, impact in models.items()),
+        *(("sheet", f"beta = {beta}", sheet.run(impact).normalized_depth, f"ratio-beta-{beta}")
+          for beta, impact in models.items()),
+        *(("exact", f"beta = {beta}", exact_ratio(impact), "") for beta, impact in models.items()),
+        *(("constant pressure", f"beta = {beta}", constant_pressure_ratio(impact), "")
+          for beta, impact in models.items()),
         *(("Frank-Zook", f"{name}, {form}", computed(claim, reading), claim)
           for name, claim in (("armor", "frank-zook-rha"),
                               ("stainless steel", "frank-zook-stainless"))

@@ -12,7 +12,7 @@ from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
 from reference.printed import Interval, parse
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, RepairRecord, Shown, SlipRecord
+from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
 # A quick look
@@ -120,13 +120,13 @@ class Explainer:
 
     def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
         solutions, unit = self.solutions(claim, reading, name), self.ledger.unit(name)
-        si, proof = to_si(unit), "proven inside, and none beyond"
+        si, proof = to_si(unit), Proof.INSIDE
         if not solutions.outer:
-            proof = "proven: none in the range does"
+            proof = Proof.NONE
         elif not solutions.inner:
-            proof = "undecided"
+            proof = Proof.UNDECIDED
         elif solutions.reaches_an_end:
-            proof = "proven, up to an end of the range"
+            proof = Proof.TO_AN_END
         spans = (solutions.search, *solutions.inner)
         search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
         return BackSolvedRecord(

@@ -5,11 +5,12 @@ it and compute nothing. Lengths, velocities and the like are in SI units unless 
 otherwise.
 """
 
+from enum import StrEnum
 from typing import Any, TypeVar
 
 import msgspec
 
-from reference.ledger import Report
+from reference.ledger import Convention, Report
 
 SCHEMA = "coldspray-audit-2"
 """Name and version of the record's keys."""
@@ -42,6 +43,16 @@ class Judged(_Part, frozen=True):
     enclosure_exact: ExactEnds
 
 
+def in_words(convention: Convention) -> dict[str, Any]:
+    """A convention as `Judged` has it."""
+    return {
+        "rounding": convention.rounding.value,
+        "choices": "exact" if convention.choices_exact else "rounded",
+        "header": "exact" if convention.header_exact else "rounded",
+        "scheme": "centered" if convention.centered else "published",
+    }
+
+
 class ReadingRecord(_Part, frozen=True):
     """What one reading of the words makes of a claim."""
 
@@ -57,6 +68,15 @@ class ReadingRecord(_Part, frozen=True):
     otherwise: list[Judged]
 
 
+class Proof(StrEnum):
+    """What is proven of the intervals of a `BackSolvedRecord`."""
+
+    INSIDE = "proven inside, and none beyond"
+    TO_AN_END = "proven, up to an end of the range"
+    NONE = "proven: none in the range does"
+    UNDECIDED = "undecided"
+
+
 class BackSolvedRecord(_Part, frozen=True):
     """The values of one entry, all others as printed, for which the claim would agree."""
 
@@ -68,7 +88,7 @@ class BackSolvedRecord(_Part, frozen=True):
     intervals: list[tuple[float, float]]
     search: tuple[float, float]
     search_reason: str
-    proof: str
+    proof: Proof
 
 
 class RepairRecord(_Part, frozen=True):

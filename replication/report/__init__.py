@@ -200,11 +200,9 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         for c in record.claims
         if c.id in MAIN and c.computed is not None
     ]
-    table = told.not_as_printed(record)
-    titles = [(record.claim(row[0].strip("`")).title, *row[1:]) for row in table.rows]
     context = {
         "record": record,
-        "not_as_printed": table._replace(rows=titles),
+        "not_as_printed": told.not_as_printed(record, by_title=True),
         "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
         "shown": FINDINGS,
     }

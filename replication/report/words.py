@@ -119,7 +119,7 @@ def _values(values: Mapping[str, float]) -> str:
 # Tables
 
 
-def not_as_printed(record: r.Record) -> Table:
+def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
     claims = [claim for claim in record.claims if Verdict(claim.verdict).is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
@@ -132,7 +132,8 @@ def not_as_printed(record: r.Record) -> Table:
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
             texts[""] = f"derived: {' or '.join(needed[claim.id])}"
-        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(name, "") for name in names)))
+        title = claim.title if by_title else f"`{claim.id}`"
+        rows.append((title, printed(claim), *(texts.get(name, "") for name in names)))
     heads = ("number", "printed", "computed as printed", *list(names)[1:])
     return Table("What does not come out as printed", heads, rows)
 
@@ -176,9 +177,9 @@ def _back_solved(solved: Sequence[r.BackSolvedRecord]) -> Table:
 
 def _needed(solved: r.BackSolvedRecord) -> str:
     if not solved.intervals:
-        return "undecided" if solved.proof == "undecided" else "none"
+        return "undecided" if solved.proof == r.Proof.UNDECIDED else "none"
     ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
-    beyond = " or beyond" if "end of the range" in solved.proof else ""
+    beyond = " or beyond" if solved.proof == r.Proof.TO_AN_END else ""
     return quantity(ends, solved.unit) + beyond
 
 
