@@ -202,16 +202,15 @@ class Judge:
         printed = self.printed(claim)
         for centered in (False, True) if claim.by_scheme else (False,):
             inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
-            at_print = self._range(claim, name, centered, printed)
-            everywhere = at_print
+            at_print = everywhere = self._range(claim, name, centered, printed)
             if inferred:
                 everywhere = self._range(claim, name, centered, {**printed, **inferred})
             for rounding in Rounding:
                 convention, target = Convention(rounding, centered=centered), claim.target(rounding)
                 judged = partial(_judgement, claim, convention)
                 if target.excludes(*at_print):
-                    for rounded in _input_conventions(self.ledger, claim, convention):
-                        yield self._search(claim, name, rounded)
+                    conventions = _input_conventions(self.ledger, claim, convention)
+                    yield from map(partial(self._search, claim, name), conventions)
                 elif target.encloses(*everywhere):
                     yield judged(Verdict.REPRODUCED, everywhere)
                 elif target.encloses(*at_print):
