@@ -171,34 +171,29 @@ def solve(
     >>> [f"{float(end):.3f}" for end in found.inner[0]]
     ['1.000', '1.500']
     """
-    queue = deque([search])
+    parts = [search]
     inner, outer, given = list[Ends](), list[Ends](), _points(others)
 
     def value(x: Fraction) -> Ends:
         return _plain(function, {**given, name: (x, x)})
 
-    while queue:
-        part, budget = queue.popleft(), budget - 1
+    for tried, part in enumerate(parts, 1):  # halves are added while there is a budget
         try:
             range_ = enclose(function, {**given, name: part})
         except ArithmeticError:  # no value, or no bounded one, on some of it
             range_ = None
-        if range_ is not None and target.excludes(*range_.ends):
-            continue
-        if range_ is not None and target.encloses(*range_.ends):
+        if range_ is None or not (range_.is_monotone or target.decides(*range_.ends)):
+            middle = (part[0] + part[1]) / 2
+            (parts if tried < budget else outer).extend([(part[0], middle), (middle, part[1])])
+        elif target.encloses(*range_.ends):
             inner.append(part)
             outer.append(part)
-        elif range_ is not None and range_.is_monotone:
+        elif not target.excludes(*range_.ends):
             first, last = _crossings(value, part, target, range_.signs[name] > 0)
             outer.append((first[0], last[1]))
             within = first[1], last[0]
             if within[0] <= within[1] and all(target.encloses(*value(x)) for x in within):
                 inner.append(within)
-        elif budget > 0:
-            middle = (part[0] + part[1]) / 2
-            queue += [(part[0], middle), (middle, part[1])]
-        else:
-            outer.append(part)
     return Solutions(search, _merged(inner), _merged(outer))
 
 
@@ -273,7 +268,7 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
             if target.encloses(*_plain(function, _points({**others, name: outer[top]}))):
                 continue  # it bounds the input farther out
             if beyond := solve(function, name, box[name], target, others=others).outer:
-                bound = beyond[-top][top]
+                bound = (beyond[0][0], beyond[-1][1])[top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
     return outer[0], outer[1]
 
@@ -304,7 +299,7 @@ def satisfying(
         if undecided is None:
             continue
         point = _aimed(undecided, part)
-        if not undecided or _undecided(undecided, _points(point)) == []:
+        if _undecided(undecided, _points(point)) == []:
             return True, point
         queue += [(half, undecided) for half in _halves(part, box)]
     return None, None
@@ -352,7 +347,7 @@ def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] 
     undecided = []
     for function, target in constraints:
         ends = _plain(function, box)  # what it decides needs no derivatives
-        if not (target.excludes(*ends) or target.encloses(*ends)):
+        if not target.decides(*ends):
             ends = enclose(function, box).ends
         if target.excludes(*ends):
             return None

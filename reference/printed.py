@@ -83,6 +83,10 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
         """Whether no value from lower to upper lies inside."""
         return (upper, 0) < self._starts or self._stops < (lower, 0)
 
+    def decides(self, lower: Fraction, upper: Fraction) -> bool:
+        """Whether all values from lower to upper lie inside, or none."""
+        return self.encloses(lower, upper) or self.excludes(lower, upper)
+
     def meets(self, another: "Interval") -> bool:
         """Whether some value lies in both.
 

@@ -281,8 +281,7 @@ class Judge:
         """A proven range of a claim's values, in SI; one exact value where that can be told."""
         function = self.ledger.function(claim, reading=name, centered=centered)
         range_, computation = enclose(function, box), claim.computations[name]
-        targets = [claim.target(rounding) for rounding in Rounding]
-        decided = all(t.excludes(*range_.ends) or t.encloses(*range_.ends) for t in targets)
+        decided = all(claim.target(rounding).decides(*range_.ends) for rounding in Rounding)
         # Of a whole sheet, or where a row squares twice, the fractions grow very long.
         long = computation.by_scheme and (not computation.by_row or (centered and decided))
         exact = None if long else _exactly(function, box, range_.idle)
