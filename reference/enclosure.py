@@ -54,13 +54,15 @@ def enclose(function: Function, box: Box) -> Range:
     [0.5, 0.6666666666666666]
     """
     wide = [name for name, (low, high) in box.items() if low != high]
-    value, slopes = _tangent(function, box, wide) if wide else (None, {})
-    # No slope is known where the function may jump.
-    signs = {name: _INTERVALS.sign(slopes[name]) if slopes else 0 for name in wide}
+    tangent = _tangent(function, box, wide) if wide else None
+    if tangent is None:
+        return Range(_plain(function, box), dict.fromkeys(wide, 0))
+    slopes = {name: tangent.slopes.get(name, _INTERVALS.number(0)) for name in wide}
+    signs = {name: _INTERVALS.sign(slope) for name, slope in slopes.items()}
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign > 0 for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(_best(function, box, value, slopes), signs)
+        return Range(_best(function, box, tangent.value, slopes), signs)
     lower, upper = (
         {**box, **_points({name: box[name][rises == top] for name, rises in fixed.items()})}
         for top in (False, True)
@@ -71,9 +73,7 @@ def enclose(function: Function, box: Box) -> Range:
 
 def _best(function: Function, box: Box, value: Number, slopes: Mapping[str, Number]) -> Ends:
     """The range by plain interval arithmetic, cut to what the middle and the slopes allow."""
-    low, high = _plain(function, box) if value is None else _INTERVALS.ends(value)
-    if not slopes:
-        return low, high
+    low, high = _INTERVALS.ends(value)
     at_middle, reach = _plain(function, _points(_middle(box))), Fraction(0)
     for name, slope in slopes.items():
         steepest = max(map(abs, _INTERVALS.ends(slope)))
@@ -92,13 +92,11 @@ def _plain(function: Function, box: Box) -> Ends:
     return (value, value) if isinstance(value, Fraction) else _INTERVALS.ends(value)
 
 
-def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dict[str, Number]]:
+def _tangent(function: Function, box: Box, wide: list[str]) -> Dual | None:
     """Numbers that contain the value, and every derivative, all over the box.
 
-    The value is None where the function may jump (then there are no derivatives either), or where
-    it is known exactly.
+    None where the function may jump: then it has no derivatives.
     """
-    zero = _INTERVALS.number(0)
     with _INTERVALS.working():
         numbers = {}
         for name, ends in box.items():
@@ -107,10 +105,8 @@ def _tangent(function: Function, box: Box, wide: list[str]) -> tuple[Number, dic
         try:
             value = function(_DUALS, **numbers)
         except (DiscontinuityError, ZeroDivisionError):
-            return None, {}
-    if isinstance(value, Fraction):
-        return None, dict.fromkeys(wide, zero)
-    return value.value, {name: value.slopes.get(name, zero) for name in wide}
+            return None
+    return Dual(value) if isinstance(value, Fraction) else value
 
 
 def _middle(box: Box) -> dict[str, Fraction]:
