@@ -214,7 +214,7 @@ class Explainer:
             return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
         claims = self.ledger.claims
         claim = claims[name]
-        entries = claim.stated
+        entries = [*claim.stated]
         for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
             # Its evidence does not admit the nominal value: what that rests on may be misprinted.
             evidence = self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence
