@@ -48,7 +48,10 @@ _READINGS = {"computed": "", "derived": DERIVED}
 
 
 class Known:
-    """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
+    """What the evidence is computed from: a ledger and the verdicts on it, each computed once.
+
+    A method that is cached in `__init__` keeps its results as long as the object, and no longer.
+    """
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger = ledger
