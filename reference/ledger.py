@@ -355,8 +355,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
-        texts = self.misprinted
-        claims = {**self._claims_as_printed}
+        texts, claims = self.misprinted, {**self._claims}
         for name in texts.keys() & claims.keys():
             claims[name] = replace(claims[name], text=texts[name])
         for name, claim in claims.items():
@@ -365,7 +364,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return claims
 
     @cached_property
-    def _claims_as_printed(self) -> Mapping[str, Claim]:
+    def _claims(self) -> Mapping[str, Claim]:
+        """The claims as the report prints them."""
         placed = sorted(map(self._placed, self.claim), key=lambda claim: claim.place.start)
         claims = {claim.id: claim for claim in placed}
         return {
@@ -436,14 +436,15 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         Where a misprint makes one unreadable, they are those that the report prints. Raises
         EquationError if even these cannot be read.
         """
-        sides = {**self._sides_as_printed}
+        sides = {**self._sides}
         for name in filter(None, map(self.equation_of, self.misprinted)):
             with suppress(EquationError):
                 sides[name] = self.read(self.printed_text(name))
         return sides
 
     @cached_property
-    def _sides_as_printed(self) -> Sides:
+    def _sides(self) -> Sides:
+        """The sides as the report prints them."""
         places = {name: equation.place for name, equation in self.equations.items()}
         return {name: self.read(self.text[at.start : at.end]) for name, at in places.items()}
 
@@ -524,15 +525,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         elif name not in self.equations:
             raise KeyError(name)
         copy = replace(self, misprinted={**self.misprinted, name: text})
-        copy.__dict__.update({same: getattr(self, same) for same in _AS_PRINTED})
+        # What no misprint changes is worked out once.
+        for same in ("text", "sources", "equations", "written", "dimensions", "_claims", "_sides"):
+            copy.__dict__[same] = getattr(self, same)
         return copy
-
-
-_AS_PRINTED = (
-    "text", "sources", "computations", "equations", "written", "dimensions", "_claims_as_printed",
-    "_sides_as_printed",
-)  # fmt: skip
-"""What a ledger works out once and no misprint changes."""
 
 
 def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
