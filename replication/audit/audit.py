@@ -48,6 +48,7 @@ class Audit(Known):
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if Verdict(verdict).is_failure]
         counts = self._counts(claims, equations)
+        inferred = product(self.ledger.inferred, (False, True))
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else f"{counts.failing} numbers fail.",
@@ -59,11 +60,7 @@ class Audit(Known):
             claims=claims,
             equations=equations,
             findings=[finding for finding in findings if finding is not headline],
-            inferred=[
-                self._inferred(name, centered)
-                for name in self.ledger.inferred
-                for centered in (False, True)
-            ],
+            inferred=[self._inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
             sensitivity=[comparison.sensitivity(self, beta) for beta in comparison.BETAS],
             scatter=comparison.scatter(self),
@@ -78,14 +75,13 @@ class Audit(Known):
     @staticmethod
     def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
+        calculations = {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
         return r.Counts(
             numbers=len(claims) - remarks,
             remarks=remarks,
             reproduced=len(reproduced),
-            calculations=len(
-                {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
-            ),
+            calculations=len(calculations),
             failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),

@@ -379,20 +379,14 @@ class Record(_Part, frozen=True):
 
     def claim(self, name: str) -> ClaimRecord:
         """The claim with this id. Raises KeyError if there is none."""
-        for claim in self.claims:
-            if claim.id == name:
-                return claim
-        raise KeyError(name)
+        return {claim.id: claim for claim in self.claims}[name]
 
 
 _Filled = TypeVar("_Filled", bound=_Part)
 
 
 def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
-    """A part of the record; what is not given is what one of the sources has by that name.
-
-    Raises TypeError for what no source has, or more than one.
-    """
+    """A part of the record; what is not given is what exactly one source has by that name."""
     for name in sorted(set(kind.__struct_fields__) - given.keys()):
         values = [getattr(source, name) for source in sources if hasattr(source, name)]
         if len(values) != 1:

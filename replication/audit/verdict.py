@@ -391,12 +391,8 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
         yield from derive(ledger.equations[name], ledger.sides, ledger.written)
     except (EquationError, ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
-    known: dict[str, Dimension | Fraction] = {
-        key: ledger.value(symbol.value)
-        for key, symbol in ledger.symbols.items()
-        if symbol.value is not None
-    }
-    known = {**ledger.dimensions, **known}
+    known: dict[str, Dimension | Fraction] = {**ledger.dimensions}
+    known |= {key: ledger.value(s.value) for key, s in ledger.symbols.items() if s.value}
     says = "both sides have the same dimensions"
     try:
         units = [dimension(side, known) for side in ledger.sides[name]]
@@ -433,9 +429,7 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
         verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
         if fits:
             verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
-        constants[claim] = ConstantRecord(
-            claim=claim, verdict=verdict, needed=list(map(str, values))
-        )
+        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 
 

@@ -135,9 +135,8 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
     The number is compared with the values (SI): what is computed, or what public sources print.
     """
     printed = claim.printed
-    if printed is None or not values or claim.is_exact or len(printed.quanta) == 1:
-        return []
-    if claim.bound is not None:
+    unambiguous = claim.is_exact or claim.bound is not None
+    if printed is None or unambiguous or not values or len(printed.quanta) == 1:
         return []
     taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
     ranges = (printed.interval(quantum=quantum).scaled(claim.si) for quantum in printed.quanta)
