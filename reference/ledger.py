@@ -520,10 +520,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         The claims that it does not touch stay the same objects. Raises ValueError if a claim's text
         is no number, KeyError for an unknown name.
         """
-        if name in self.claims:
+        if self.equation_of(name) != name:
             parse(text)
-        elif name not in self.equations:
-            raise KeyError(name)
         copy = replace(self, misprinted={**self.misprinted, name: text})
         # What no misprint changes is worked out once.
         for same in ("text", "sources", "equations", "written", "dimensions", "_claims", "_sides"):

@@ -134,7 +134,10 @@ class Audit(Known):
             **_proven(judgement),
             witness=witness or None,
             holds=wording.holds(claim, reading),
-            otherwise=[_judged(j) for j in reading.otherwise],
+            otherwise=[
+                r.Judged(verdict=j.verdict, **r.in_words(j.convention), **_proven(j))
+                for j in reading.otherwise
+            ],
         )
 
     def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
@@ -258,11 +261,6 @@ _NUMBERS = replace(
     fraction=lambda over, under: over if under == "1" else f"{over}/{under}",
 )
 """The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
-
-
-def _judged(judgement: Judgement) -> r.Judged:
-    words = r.in_words(judgement.convention)
-    return r.Judged(verdict=judgement.verdict, **words, **_proven(judgement))
 
 
 def _error(claim: Claim, reading: Reading | None) -> float | None:

@@ -71,10 +71,7 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     direct = {
         claim.id
         for claim in ledger.claims.values()
-        if claim.id == name
-        or name in claim.entries
-        or claim.against == name
-        or within in claim.uses
+        if name in (claim.id, claim.against, *claim.entries) or within in claim.uses
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
@@ -335,12 +332,8 @@ _SHOWN = 20
 # Texts that are one typing error away from a printed number or equation
 
 EQUATION_EDITS = (
-    "number dropped",
-    "symbol changed",
-    "sign changed",
-    "function changed",
-    "fraction turned over",
-)
+    "number dropped", "symbol changed", "sign changed", "function changed", "fraction turned over",
+)  # fmt: skip
 """Kinds of edits of an equation. Its numbers are claims, which are edited as all other numbers."""
 
 _LEADING_ZERO = re.compile(r"~?\s*0\d")
@@ -365,8 +358,7 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
     >>> [text for text, kind in edits("3E+08") if kind == "exponent changed"]
     ['3E+07', '3E+09', '3E-08']
     """
-    seen = {text}
-    original = _number(text)
+    seen, original = {text}, _number(text)
     for kind, edit in _EDITS.items():
         for edited in edit(text):
             if edited in seen or _LEADING_ZERO.match(edited):

@@ -48,15 +48,13 @@ _READINGS = {"computed": "", "derived": DERIVED}
 
 
 class Known:
-    """What the evidence is computed from: a ledger and the verdicts on it, each computed once.
-
-    A method that is cached in `__init__` keeps its results as long as the object, and no longer.
-    """
+    """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger = ledger
         self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
+        # Cached here, not where they are defined, so that the results go when this object goes.
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)

@@ -122,9 +122,8 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
         assumed.append(f"{judge.ledger.title(name)} {value}, inferred: {table} admits {admitted}")
     if claim.by_scheme:
         assumed.append("the drag at the velocity with which a row begins")
-    if computed is None:
-        values = [source.interval for source in judge.ledger.sources_of(claim.id)]
-    else:
+    values = [source.interval for source in judge.ledger.sources_of(claim.id)]
+    if computed is not None:
         values = [Interval.point(Fraction(computed) * claim.si)]
     return assumed + _digits(claim, values)
 

@@ -84,8 +84,7 @@ def test_numbers_and_symbols_are_marked_as_such(record: Record) -> None:
 
 
 def test_what_no_source_has_or_more_than_one_is_refused_by_name() -> None:
-    figure = Figure(means="depth", value=1.0, unit="m")
-    for sources in ((), (figure, figure)):
+    for sources in ((), 2 * (Figure(means="", value=1.0, unit="m"),)):
         with pytest.raises(TypeError, match=f"Figure.unit: {len(sources)} sources"):
             filled(Figure, *sources, means="depth", value=2.0)
 
