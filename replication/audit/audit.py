@@ -92,9 +92,9 @@ class Audit(Known):
     def claim(self, claim: Claim) -> r.ClaimRecord:
         """One claim, as data."""
         assessment = self.assessment(claim)
+        is_open = assessment.verdict.is_open
         first = assessment.readings[0] if assessment.readings else None
         read: r.ReadingRecord | SimpleNamespace = self._reading(claim, first) if first else _UNREAD
-        fails = assessment.is_explained
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
         restates = claim.computation is not None and claim.computation.restates
@@ -119,9 +119,9 @@ class Audit(Known):
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
             figures=self._figures(claim),
-            back_solved=self.explainer.back_solved(claim) if fails and first else [],
-            repairs=self.explainer.repairs(claim.id) if fails else [],
-            slips=self.explainer.slips(claim) if fails and first else [],
+            back_solved=self.explainer.back_solved(claim) if is_open and first else [],
+            repairs=self.explainer.repairs(claim.id) if is_open else [],
+            slips=self.explainer.slips(claim) if is_open and first else [],
         )
 
     @staticmethod

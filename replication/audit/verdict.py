@@ -46,7 +46,7 @@ class Verdict(StrEnum):
 
     @property
     def is_open(self) -> bool:
-        """Whether it fails or does not plainly come out as printed; a page begins with these."""
+        """Whether it fails or does not plainly come out as printed; explanations are tried."""
         return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
 
     @property
@@ -103,11 +103,6 @@ class Assessment(msgspec.Struct, frozen=True):
     verdict: Verdict
     reason: str = ""
     readings: tuple[Reading, ...] = ()
-
-    @property
-    def is_explained(self) -> bool:
-        """Whether explanations are tried: of what is open, or fails where nothing computes it."""
-        return self.verdict.is_open if self.readings else self.verdict.is_failure
 
 
 def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
