@@ -115,11 +115,8 @@ def _middle(box: Box) -> dict[str, Fraction]:
 
 def _halves(part: Box, whole: Box) -> list[Box]:
     """A part cut in two across its widest side, relative to the size of that input."""
-
-    def width(name: str) -> Fraction:
-        return (part[name][1] - part[name][0]) / (max(map(abs, whole[name])) or 1)
-
-    name = max(part, key=width)
+    sizes = {name: max(map(abs, ends)) or 1 for name, ends in whole.items()}
+    name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
     low, high = part[name]
     middle = (low + high) / 2
     return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
