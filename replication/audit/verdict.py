@@ -175,10 +175,8 @@ class Judge:
         exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
-        if self.ledger.misprinted:
-            # With a misprint planted in an equation, the models, which have it right, do not serve.
-            computed = float(reference)
-        else:
+        computed = float(reference)
+        if not self.ledger.misprinted:  # of a misprint in an equation the models know nothing
             computed = float(Fraction(self.answer(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
         return Reading(name, computation.summary, computed, digits, tuple(judgements))
@@ -332,11 +330,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
 
 
 class EquationAssessment(msgspec.Struct, frozen=True):
-    """The verdict on an equation with the checks that it comes from.
-
-    `factor` is the number by which the printed equation differs from the derived one, None where it
-    does not, or differs in more than a number.
-    """
+    """The verdict on an equation with the checks that it comes from."""
 
     equation: Equation
     verdict: Verdict
@@ -345,7 +339,7 @@ class EquationAssessment(msgspec.Struct, frozen=True):
 
     @property
     def factor(self) -> Fraction | None:
-        """Printed over derived, where that is a number other than 1."""
+        """Printed over derived; None where they do not differ, or in more than a number."""
         return next((check.factor for check in self.checks if check.factor is not None), None)
 
 
