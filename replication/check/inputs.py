@@ -118,15 +118,21 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
 _DENSITIES = frozenset({"particle_density", "target_density"})
 
 
-def _told_by_mass(cells: Sequence[Input], calculation: Calculation) -> Sequence[Input]:
+def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
     """The cells; of densities whose labels do not say of what, the mass reads the particle's."""
     unsaid = {cell.place for cell in cells if cell.place and cell.roles == _DENSITIES}
     masses = (c.place for c in cells if c.place and (c.roles == {"mass"} or c.unit in ("kg", "g")))
     for place in masses:
         of_particle = unsaid & _read([place], calculation).keys()
         if len(of_particle) == 1 < len(unsaid):
-            said = {p: {f"{'particle' if p in of_particle else 'target'}_density"} for p in unsaid}
-            return [replace(c, roles=frozenset(said.get(c.place, c.roles))) for c in cells]
+            return [
+                replace(cell, roles=_DENSITIES - {"target_density"})
+                if cell.place in of_particle
+                else replace(cell, roles=_DENSITIES - {"particle_density"})
+                if cell.place in unsaid
+                else cell
+                for cell in cells
+            ]
     return cells
 
 
@@ -189,7 +195,7 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             roles = input_roles(label, unit)
         value = calculation.number(place) or 0.0
         named, number = number_in(label)
-        if named in roles and number != value:  # "1: beta 5, 2: beta 3" is no beta, but a choice
+        if named == "beta" in roles and number != value:  # "1: beta 5, 2: beta 3" says a choice
             roles -= {named}
         if not roles and unit and same_dimension(unit, INPUTS["particle_density"]):
             roles = _DENSITIES  # in a language that is not known
@@ -387,9 +393,10 @@ def _with_inputs(
     """A table with these cells as inputs, and the report's where there are none."""
     columns = {
         role: {
-            k: scaled(value, Fraction(10) ** powers[role])
+            k: si
             for k in range(table.steps + 1)
             if (value := table.number(role, k)) is not None
+            and math.isfinite(si := scaled(value, Fraction(10) ** powers[role]))
         }
         for role in table.lines
     }

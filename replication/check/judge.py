@@ -34,7 +34,7 @@ from replication.check.scheme import (
     Case,
     march,
 )  # fmt: skip
-from replication.check.table import Line, address
+from replication.check.table import ROUNDED, Line, address
 from replication.check.words import (
     INPUTS,
     between_units,
@@ -78,7 +78,7 @@ def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
         _texts(f)
         order(f)
     else:
-        _as_rounded(f, f.table.digits)
+        _as_rounded(f)
     _stop(f)
     _effects(f)
 
@@ -587,6 +587,8 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
         what, base, constant = "force", math.pi, "pi"
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", column
+    if part == "brake" and near(ratio * math.pi, 1.0):
+        return "other scheme", "pi is missing in the force", column
     for line in (column, *f.table.helpers):
         formulas = [f.calculation.formulas.get(place) for place in line.cells]
         numbers = {abs(number) for formula in formulas if formula for number in formula.literals}
@@ -609,16 +611,14 @@ def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
     return actual - start, wanted - start
 
 
-def _as_rounded(f: Examination, digits: int) -> None:
+def _as_rounded(f: Examination) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
     others = [REPORT | {part: rule} for part in parts for rule in KNOWN[part][1:]]
     runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
     # Some rules need another brake to go with them: by themselves they give no rows.
     tried = [
-        (list(_misprints(f, run, digits)), rules)
-        for rules, run in runs
-        if f.table.steps in run["depth"]
+        (list(_misprints(f, run)), rules) for rules, run in runs if f.table.steps in run["depth"]
     ]
     misprints, rules = min(tried, key=lambda each: len(each[0]))
     f.rows = replace(f.rows, rules=rules)
@@ -629,7 +629,7 @@ def _as_rounded(f: Examination, digits: int) -> None:
 
 
 def _misprints(
-    f: Examination, run: Mapping[str, Mapping[int, float]], digits: int
+    f: Examination, run: Mapping[str, Mapping[int, float]]
 ) -> Iterator[tuple[str, int, float | None]]:
     """Numbers that do not round as a scheme's do: role, row, and what it should be if finite."""
     for role in set(run) & set(f.table.lines):
@@ -637,11 +637,13 @@ def _misprints(
             value, wanted = f.table.number(role, k), f.shown(role, right)
             if value is None or wanted is None or (k == 0 and role == "velocity_final"):
                 continue
-            expected = float(f"{wanted:.{digits}g}") if math.isfinite(wanted) else None
-            last = 0.0
-            if wanted and expected is not None:
-                last = 10.0 ** (math.floor(math.log10(abs(wanted))) + 1 - digits)
-            if not abs(value - wanted) <= last * (0.5 + 1e-9):
+            digits, least = f.table.roundings[role]
+            expected, place = None, least
+            if wanted and math.isfinite(wanted):
+                digits = min(digits, ROUNDED)  # the last ones depend on the order of operations
+                place = max(math.floor(math.log10(abs(wanted))) + 1 - digits, least)
+                expected = float(round(Fraction(wanted), -place))
+            if not abs(value - wanted) <= 10.0**place * (0.5 + 1e-9):
                 yield role, k, expected
 
 
@@ -661,6 +663,11 @@ def _stop(f: Examination) -> None:
     stop = f"the stop at {case.stop_velocity:g} m/s"
     text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
     if below is not None:
+        named = (r.place for r in f.table.results if r.where == "first" and r.kind == "depth")
+        depths, at_stop = map(f.calculation.number, named), rows("depth", below) or math.nan
+        if any(depth and power_of_ten(depth / at_stop) is not None for depth in depths):
+            _end_at(f, below)  # the final depth is looked up where the stop is
+            return
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
         f.add("other scheme", cells, None, text, change=OTHER_STOP)
@@ -684,6 +691,14 @@ def _stop(f: Examination) -> None:
         f.add("not calculated", [place], None, text)
     else:
         f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
+
+
+def _end_at(f: Examination, steps: int) -> None:
+    """Leave out the rows after this one, which were filled in to be enough: nothing shows them."""
+    f.table = replace(f.table, steps=steps)
+    columns = f.rows.columns.items()
+    kept = {role: {k: x for k, x in column.items() if k <= steps} for role, column in columns}
+    f.rows = replace(f.rows, columns=kept)
 
 
 def stops_elsewhere(f: Examination) -> bool:

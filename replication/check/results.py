@@ -5,6 +5,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 
+from reference.units import to_si
 from replication.check.examination import Examination, near
 from replication.check.inputs import report_inputs
 from replication.check.judge import stops_elsewhere
@@ -43,11 +44,13 @@ def misread(tables: Sequence[Examination]) -> None:
     One that reads two tables is a difference, and a list whose cells are not said to be of one
     table each may be of all rows.
     """
-    order, wrong = tables[0].calculation.order, set[Position]()
+    calculation, wrong = tables[0].calculation, set[Position]()
     results = {result.place: result for f in tables for result in f.table.labelled}
     said = _said(tables, results.values()) if len(tables) > 1 else {}
+    order = calculation.order
     for place, result in sorted(results.items(), key=lambda each: order.get(each[0], -1)):
         read = [f for f in tables if f.table.gives_depth(place)]
+        read = read or [f for f in tables if f.table.is_read_by(place)]
         if len(read) != 1 or (result.where == "listed" and place not in said):
             continue
         if result.where == "beyond" and len(tables) == 1:
@@ -73,7 +76,7 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     says = str(f.calculation.values[label])
     is_ratio = kind == "ratio" and where != "beyond"
     says_radius = is_ratio and _RADIUS.search(says) and not _DIAMETER.search(says)
-    row, power = _row_shown(f, kind, value)
+    row, power = _row_shown(f, kind, value) if f.table.gives_depth(place) else (None, 0)
     is_near = (row or 0) >= last - _NEAR_END or "MAX(" in (formula or "").upper()
     is_near = is_near or result_of(says) != "any depth"
     if row not in (None, last) and (_ANOTHER_ROW.search(says) or not is_near):
@@ -90,7 +93,8 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
         text = f"{what} reads row {row} of the table, not {last}, its last"
         f.add("odd formula", [place], shown, text, formula)
     elif row is not None and kind == "ratio" and power != -(named or 0):
-        f.add("unit", [place], None, f"{what} is {times_too(power)}: a unit is not converted")
+        size = times_too(power + (named or 0))
+        f.add("unit", [place], None, f"{what} is {size}: a unit is not converted")
     elif row is not None and kind == "depth" and named not in (None, -power):
         in_unit = unit_text("depth", -power)
         text = f"the label gives {what} in {unit}, but the number is in {in_unit}"
@@ -98,9 +102,28 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     elif says_radius and value and near(value * 2 * f.case.radius, f.final_depth or 0.0):
         text = "the number is the depth over the diameter, not over the radius"
         f.add("odd formula", [place], 2 * value, text)
+    elif (
+        row is None
+        and (says_radius or (kind == "depth" and result_of(says) == "depth"))
+        and where == "first"
+        and formula
+        and not _is_about(f, kind, value, unit)
+    ):
+        text = f"{what} is not that of the last row of the table"
+        f.add("odd formula", [place], shown, text, formula)
     else:
         return False
     return True
+
+
+def _is_about(f: Examination, kind: str, value: float, unit: str | None) -> bool:
+    """Whether a value is the last depth, or its ratio to the radius, but for a hundredth of it.
+
+    It may be rounded, or computed between two rows. In which power of ten is not judged here.
+    """
+    wanted = (f.final_depth or 0.0) / (f.case.radius if kind == "ratio" else 1.0)
+    ratio = value * float(to_si(unit or "1")) / wanted if wanted else 0.0
+    return ratio > 0 and abs(ratio / 10.0 ** round(math.log10(ratio)) - 1) < 0.01
 
 
 def _row_shown(f: Examination, kind: str, value: float) -> tuple[int | None, int]:

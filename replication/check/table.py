@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from functools import cached_property
 from itertools import groupby, pairwise, product, takewhile
 from statistics import median
@@ -27,7 +28,7 @@ _GAP = 3
 _ABOVE = 6
 """How far above its first number a line's head may stand."""
 _MAX_LINES = 60
-_ROUNDED = 12
+ROUNDED = 12
 """Numbers without formulas and with at most so many digits are taken as rounded."""
 _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
@@ -404,6 +405,10 @@ class Table:
                 readers |= {place} - self.places.keys()
         return readers
 
+    def is_read_by(self, place: Position) -> bool:
+        """Whether a cell's formula reads any cell of the table, through cells beside it or not."""
+        return any(p in self.places for area in self.sources(place) for p in _looked_at(area))
+
     def reads_last(self, place: Position) -> bool:
         """Whether what a cell's formula reads has the last depth of the table in it."""
         last = self.place("depth", self.steps)
@@ -430,15 +435,31 @@ class Table:
 
     @cached_property
     def digits(self) -> int | None:
-        """How many digits its numbers have, if they are typed and rounded; else None."""
-        lines = [line for role, line in self.lines.items() if role in ("depth", "deceleration")]
+        """How many digits its numbers have, if they are typed and rounded; else None.
+
+        Of the column that has the fewest: each may be rounded otherwise.
+        """
+        lines = [line for role, line in self.lines.items() if role != "time"]
         rows = range(self.zero + 1, self.zero + self.steps + 1)
         if any(line.formula(at) for line in lines for at in rows):
             return None
-        numbers = (number for line in lines for at in rows if (number := line.at(at)))
-        texts = (repr(abs(number)).partition("e")[0].replace(".", "") for number in numbers)
-        most = max((len(text.strip("0")) for text in texts), default=17)
-        return most if most <= _ROUNDED else None
+        fewest = min(digits for role, (digits, _) in self.roundings.items() if role != "time")
+        return fewest if fewest <= ROUNDED else None
+
+    @cached_property
+    def roundings(self) -> dict[str, tuple[int, int]]:
+        """The most digits of a number of each column, and the least power of ten that one has.
+
+        Numbers may be rounded to so many digits, or to so many decimals.
+        """
+        roundings = {}
+        for role in self.lines:
+            numbers = (self.number(role, k) for k in range(1, self.steps + 1))
+            parts = [Decimal(repr(x)).normalize().as_tuple() for x in numbers if x]
+            digits = max((len(number.digits) for number in parts), default=17)
+            least = min((int(number.exponent) for number in parts), default=-300)
+            roundings[role] = digits, least
+        return roundings
 
 
 def _looked_at(area: Area) -> Iterable[Position]:
@@ -537,7 +558,7 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
         and line not in (depth, speed)
         and min(line.last, last) - max(line.first, first) >= 0.5 * (last - first)
     ]
-    initial = _at_beginning(speed, beside)
+    initial = _at_beginning(depth, speed, beside)
     roles = {"depth": depth, "velocity_initial" if initial else "velocity_final": speed}
     for role in ("velocity_final" if initial else "velocity_initial", "deceleration", "time"):
         left = [line for line in beside if line not in roles.values()]
@@ -555,7 +576,7 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
     return Table(ordered, zero, last - zero, helpers)
 
 
-def _at_beginning(speed: Line, beside: Sequence[Line]) -> bool:
+def _at_beginning(depth: Line, speed: Line, beside: Sequence[Line]) -> bool:
     """Whether a velocity is that at the beginning of its row, not at its end.
 
     The deceleration of a row takes the velocity at its beginning to that of the next row, and that
@@ -564,6 +585,13 @@ def _at_beginning(speed: Line, beside: Sequence[Line]) -> bool:
     if len(speed.roles) == 1 and not any("velocity_initial" in line.roles for line in beside):
         return speed.roles == {"velocity_initial"}
     brakes = [line for line in beside if "deceleration" in line.roles or not line.roles]
+    if not brakes:  # the depth moves on by the velocity at the beginning
+        rows = range(depth.first + 1, depth.last + 1)
+        moved = [
+            _constant(((depth.change(at), speed.at(at - back)) for at in rows), 1e-9)
+            for back in (0, 1)
+        ]
+        return moved[0] >= moved[1] - 0.05
     later = max((_braking(line, speed, 1) for line in brakes), default=0.0)
     return later >= max((_braking(line, speed, 0) for line in brakes), default=0.0) - 0.05
 

@@ -175,17 +175,25 @@ _NUMBER = r"\d+(?:[.,]\d+)?"
 
 @cache
 def number_in(text: str) -> tuple[str | None, float]:
-    """The beta that a text names, or the number that it begins with, of no known role; NaN if none.
+    """The beta, velocity or time step that a text names; or the number that it begins with.
 
-    >>> number_in("X/R (β = 5)"), number_in("Final depth, b=3"), number_in("0.2 ns")
-    (('beta', 5.0), ('beta', 3.0), (None, 0.2))
-    >>> number_in("X (B3)")
-    (None, nan)
+    The number is as it stands there, in whatever unit; NaN if there is none.
+
+    >>> number_in("X/R (β = 5)"), number_in("Final depth, b=3"), number_in("V = 400 m/s: depth")
+    (('beta', 5.0), ('beta', 3.0), ('velocity', 400.0))
+    >>> number_in("2"), number_in("X (B3)")
+    ((None, 2.0), (None, nan))
     """
     text = text[:_MAX_LABEL]
     beta = re.search(f"{_BETA}({_NUMBER})", text, re.IGNORECASE)
     number = beta or re.match(rf"\s*({_NUMBER})", text)
-    return "beta" if beta else None, float(number[1].replace(",", ".")) if number else math.nan
+    role = "beta" if beta else None
+    for quantity in () if beta else re.finditer(rf"({_NUMBER}) ?([^\s\d,;:()\[\]]+)", text):
+        unit = is_unit(quantity[2]) or "1"
+        for named in ("velocity", "step"):
+            if same_dimension(unit, INPUTS[named]):
+                role, number = named, quantity
+    return role, float(number[1].replace(",", ".")) if number else math.nan
 
 
 # What this program calls them, and numbers in their units.

@@ -101,8 +101,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     misread(examinations)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     silent = list(_without_numbers(calculation))
-    differences = [
-        *(d for v in examinations for d in v.differences),
+    beside_tables = [
         *_stale(calculation, examinations),
         *(number.unmet(examinations[0]) for number in numbers if not number.met),
         *_uncalculated(calculation),
@@ -110,10 +109,13 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         *silent,
     ]
     # Tables side by side see each other's cells; inputs in no cell share the table's first.
-    once = {
-        (d.place, d.kind, d.explanation if d.kind == "other input" else ""): d
-        for d in reversed(differences)
-    }.values()
+    told: set[tuple[Position, str, str]] = set()
+    once: list[Difference] = []
+    for group in (*(f.differences for f in examinations), beside_tables):
+        keys = [(d.place, d.kind, d.explanation if d.kind == "other input" else "") for d in group]
+        once += [d for d, key in zip(group, keys, strict=True) if key not in told]
+        told.update(keys)
+    once.reverse()
     ordered = tuple(sorted(once, key=lambda d: d.rank))
     return Check(calculation, tuple(examinations), ordered, tuple(numbers))
 
@@ -202,7 +204,8 @@ def _nothing(calculation: Calculation) -> str:
     for place in sorted(calculation.unknown & calculation.uncomputed.keys())[:1]:
         nothing += f"; {address(place, True)} is not computed: {calculation.uncomputed[place]}"
     if first:
-        errors = f"{count(len(wrong), 'formula')} give errors, {address(first, True)} first"
+        give = "gives an error" if len(wrong) == 1 else "give errors"
+        errors = f"{count(len(wrong), 'formula')} {give}, {address(first, True)} first"
         return f"{nothing}; {errors}: {calculation.error(first)}"
     if instead:
         return f"{nothing}: type a number there"

@@ -339,7 +339,10 @@ def run_check(options: argparse.Namespace) -> int:
         name, _, where = text.partition("=")
         if not where:
             raise ValueError(f"--map {text[:60]!r}: give NAME=RANGE, such as depth=D8:D139")
-        mapping[name.strip().replace("-", "_")] = where.strip()
+        name = name.strip().replace("-", "_")
+        if name in mapping:
+            raise ValueError(f"--map {name[:40]}: it is given twice")
+        mapping[name] = where.strip()
     checked = check(options.file, mapping)
     return _put_found(
         options, check_record(checked), checked.differences, checked.calculation, KINDS
