@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from pathlib import Path, PurePosixPath
 from posixpath import join, normpath
 from tempfile import TemporaryDirectory
@@ -234,7 +235,7 @@ class _Reader:
         self.archive, self.path = archive, path
         self.parts = {name.lstrip("/"): name for name in archive.namelist()}
         self.left = MAX_UNPACKED
-        self.cells = self.formulas = 0
+        self.cells = self.formulas = self.filled = 0
 
     def book(self) -> Book:
         root = self.relations("")
@@ -418,10 +419,16 @@ class _Sheet:
 
     def filled(self) -> dict[tuple[int, int], Cell]:
         """The cells, with the text of an array formula in each cell that it fills."""
+        last_row, last_column = (max(each) for each in zip((1, 1), *self.cells, strict=True))
         for ref, text in self.arrays:
             left, top, right, bottom = (end or 1 for end in range_boundaries(ref))
-            for place, cell in self.cells.items():
-                if top <= place[0] <= bottom and left <= place[1] <= right:
+            rows = range(top, min(bottom, last_row) + 1)
+            columns = range(left, min(right, last_column) + 1)
+            self.reader.filled += len(rows) * len(columns)
+            if self.reader.filled > MAX_CELLS:
+                raise WorkbookError(f"is refused: array formulas fill too many cells; {_LIMITS}")
+            for place in product(rows, columns):
+                if cell := self.cells.get(place):
                     self.cells[place] = cell._replace(formula=text, array=True)
         return self.cells
 

@@ -132,6 +132,7 @@ def test_document_types_are_refused(shared: Path, part: str) -> None:
 
 
 ROW = b"<row>" + 100 * b"<c>%s</c>" + b"</row>"
+ARRAY = b'<row><c><f t="array" ref="A1:XFD1048576">A9</f></c></row>'
 
 
 @pytest.mark.parametrize(
@@ -141,8 +142,9 @@ ROW = b"<row>" + 100 * b"<c>%s</c>" + b"</row>"
         ("MAX_ELEMENTS", 2**15, b"<row/>" * 2**15, "too many bytes"),
         ("MAX_CELLS", 500, 20 * ROW.replace(b"%s", b"<v>1</v>"), "too many cells"),
         ("MAX_FORMULAS", 500, 20 * ROW.replace(b"%s", b"<f>1+1</f><v>2</v>"), "too many cells"),
+        ("MAX_CELLS", 500, 30 * ARRAY + ROW.replace(b"%s", b"<v>1</v>"), "array formulas fill"),
     ],
-    ids=["bytes", "elements", "cells", "formulas"],
+    ids=["bytes", "elements", "cells", "formulas", "arrays"],
 )
 def test_what_is_too_much_is_refused(
     plain: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int, rows: bytes, words: str
