@@ -70,8 +70,10 @@ class Area(NamedTuple):
 
     @property
     def ends(self) -> tuple[Position, Position]:
-        """The first cell and the last."""
-        return self.corner, (self.sheet, self.bottom, self.right)
+        """The first cell and the last; of whole columns and rows, the last cells of the two."""
+        top = self.bottom if (self.top, self.bottom) == (1, LAST_ROW) else self.top
+        left = self.right if (self.left, self.right) == (1, LAST_COLUMN) else self.left
+        return (self.sheet, top, left), (self.sheet, self.bottom, self.right)
 
     def places(self) -> Iterator[Position]:
         """Every cell, row by row."""

@@ -17,7 +17,7 @@ from pathlib import Path
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.examination import Difference
-from replication.check.matching import Cell, pairings, same_sheets, touching
+from replication.check.matching import Cell, Shifts, pairings, same_sheets, touching
 from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
@@ -81,9 +81,12 @@ class Comparison:
 
     def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
-        self.where: dict[Position, Position] = {}
-        self.there: set[Position] = set()
+        self.matched({})
         self.differences: list[Difference] = []
+
+    def matched(self, where: Mapping[Position, Position]) -> None:
+        """Take cells of the two workbooks as the same."""
+        self.where, self.there, self.shifts = {**where}, set(where.values()), Shifts(where)
 
     def add(
         self, kind: str, cells: Sequence[Position], was: Value | None, now: Value | None, text: str
@@ -112,7 +115,7 @@ class Comparison:
             if name != partner:
                 self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
             self.align(name, partner)
-        self.there = set(self.where.values())
+        self.matched(self.where)
 
     def align(self, name: str, partner: str) -> None:
         """Match the cells of two sheets in the way that leaves the fewest that differ."""
@@ -130,8 +133,7 @@ class Comparison:
     def trial(self, name: str, partner: str, pairs: Mapping[Cell, Cell]) -> "Comparison":
         """A comparison that takes these cells as the same, the rest as gone or new."""
         trial = Comparison(self.before, self.after, self.tolerance)
-        trial.where = {(name, *cell): (partner, *there) for cell, there in pairs.items()}
-        trial.there = set(trial.where.values())
+        trial.matched({(name, *cell): (partner, *there) for cell, there in pairs.items()})
         old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
         trial.moves(name, partner)
         trial.left_over("removed", name, old.keys() - pairs.keys())
@@ -177,11 +179,11 @@ class Comparison:
         }
         for axis, what, show in ((0, "rows", str), (1, "columns", get_column_letter)):
             lines = {cell[axis]: by[axis] for by, cells in whole.items() for cell in cells}
-            self.shifts(name, sheet, lines, what, show)
+            self.lines(name, sheet, lines, what, show)
         for distance in sorted(groups.keys() - whole.keys() - {(0, 0)}):
             self.blocks(name, sheet, sorted(groups[distance]), distance)
 
-    def shifts(
+    def lines(
         self, name: str, sheet: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
     ) -> None:
         """Rows or columns that stand so much further down or right, each run of them once."""
@@ -277,16 +279,14 @@ class Comparison:
         if p.area is None or q.area is None:
             texts = [each.text.upper() if each.kind == "function" else each.text for each in (p, q)]
             return p.kind == q.kind and texts[0] == texts[1]
+        stays = p.area == q.area and p.area.corner in p.area.ends  # no whole column or row
         return all(
-            self.where[old] == new if old in self.where else self.replaced(old, new)
+            self.where[old] == new
+            if old in self.where
+            else (stays and new not in self.there)  # gone, or blank as before
+            or (old not in self.before.values and self.shifts.allow(old, new))
             for old, new in zip(p.area.ends, q.area.ends, strict=True)
         )
-
-    def replaced(self, old: Position, new: Position) -> bool:
-        """Whether a cell that is gone, or was blank, is where another is read now."""
-        if old == new:
-            return old not in self.before.values or new not in self.there
-        return old not in self.before.values and new not in self.after.values
 
     def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
         a, b = _value(self.before, old), _value(self.after, new)

@@ -3,6 +3,7 @@
 Cells are matched by what they are: a text, the operations of a formula, a number.
 """
 
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
@@ -10,6 +11,7 @@ from itertools import groupby, takewhile
 from operator import itemgetter
 from typing import TypeVar
 
+from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Position
 from spreadsheets.recalculation import Calculation
 
 _MAX_BLOCKS, _MAX_TRIES = 200, 8
@@ -185,6 +187,39 @@ def _matched(
 def _alike_first(a: Sequence[object], b: Sequence[object]) -> int:
     """How many entries two lists have in common before the first that differs."""
     return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
+
+
+class Shifts:
+    """How far the rows (axis 0) and columns (axis 1) of each sheet moved, by the cells matched."""
+
+    def __init__(self, where: Mapping[Position, Position]) -> None:
+        moved: dict[tuple[str, str, int], dict[int, set[int]]] = {}
+        for (sheet, *old), (partner, *new) in where.items():
+            for axis in (0, 1):
+                lines = moved.setdefault((sheet, partner, axis), {0: {0}})
+                lines.setdefault(old[axis], set()).add(new[axis] - old[axis])
+        self.lines = {
+            key: sorted((line, min(by), max(by)) for line, by in lines.items())
+            for key, lines in moved.items()
+        }
+
+    def allow(self, old: Position, new: Position) -> bool:
+        """Whether a blank cell may be there now.
+
+        A row or column moves as its cells do. One without cells moves as far as the nearest with
+        cells on either side, or by a number between.
+        """
+        each = zip((LAST_ROW, LAST_COLUMN), old[1:], new[1:], strict=True)
+        for axis, (last, line, to) in enumerate(each):
+            lines = self.lines.get((old[0], new[0], axis))
+            if lines is None:
+                return False
+            first, end = (bisect_left(lines, (number,)) for number in (line, line + 1))
+            near = lines[first:end] or lines[first - 1 : first + 1]
+            _, least, most = zip(*near, strict=True)
+            if not min(least) <= to - line <= max(most) and not line == to == last:
+                return False
+        return True
 
 
 def touching(cells: Iterable[Cell]) -> list[list[Cell]]:
