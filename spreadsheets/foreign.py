@@ -15,7 +15,7 @@ import zlib
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path, PurePosixPath
@@ -81,7 +81,8 @@ class Cell(NamedTuple):
 class Book:
     """The worksheets in their order, cell by (row, column); the names; what else there is.
 
-    A stored number is known to within its `resolution`.
+    A stored number is known to within its `resolution`. `columns` are those of tables, called as in
+    formulas: "Steps[x]" -> its cells.
     """
 
     path: Path
@@ -89,6 +90,7 @@ class Book:
     names: Mapping[str, str]
     notes: tuple[str, ...] = ()
     resolution: float = 0.0
+    columns: Mapping[str, str] = field(default_factory=dict)
 
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
@@ -101,8 +103,8 @@ class Book:
 
     @cached_property
     def meanings(self) -> dict[str, str]:
-        """The defined names in capitals -> what they stand for."""
-        return {name.upper(): meaning for name, meaning in self.names.items()}
+        """The defined names and the columns of tables, in capitals -> what they stand for."""
+        return {name.upper(): cells for name, cells in {**self.columns, **self.names}.items()}
 
     @cached_property
     def size(self) -> dict[str, tuple[int, int]]:
@@ -150,7 +152,7 @@ def read(path: Path) -> Book:
         book = reader.book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     resolution = _OF_ODS if path.suffix.lower() == ".ods" else 0.0
-    return Book(path, book.sheets, book.names, (note, *book.notes), resolution)
+    return replace(book, path=path, notes=(note, *book.notes), resolution=resolution)
 
 
 def _is_xlsx(path: Path) -> bool:
@@ -236,6 +238,7 @@ class _Reader:
         self.parts = {name.lstrip("/"): name for name in archive.namelist()}
         self.left = MAX_UNPACKED
         self.cells = self.formulas = self.filled = 0
+        self.columns: dict[str, str] = {}
 
     def book(self) -> Book:
         root = self.relations("")
@@ -254,23 +257,30 @@ class _Reader:
             identity = next(sheet.attrib[key] for key in sheet.attrib if key.endswith("}id"))
             kind, part = related[identity]
             if kind == "worksheet":
-                cells = _Sheet(self, texts, self.tables(part))
+                name = sheet.attrib["name"]
+                cells = _Sheet(self, texts, self.tables(name, part))
                 self.tree(part, _Tree(row=cells.take))
-                sheets[sheet.attrib["name"]] = cells.filled()
+                sheets[name] = cells.filled()
         if not sheets:
             raise WorkbookError("has no worksheet")
         notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
-        return Book(self.path, sheets, _names(tree, names), tuple(notes))
+        return Book(self.path, sheets, _names(tree, names), tuple(notes), columns=self.columns)
 
-    def tables(self, sheet_part: str) -> _Tables:
-        tables = []
+    def tables(self, sheet: str, sheet_part: str) -> _Tables:
+        tables, called = [], sheet.replace("'", "''")
         for kind, part in self.relations(sheet_part).values():
             if kind == "table" and part in self.parts:
                 tree = self.tree(part)
-                heads = tree.iterfind("{*}tableColumns/{*}tableColumn")
-                numbered = enumerate(heads, range_boundaries(tree.attrib["ref"])[0] or 1)
-                columns = {head.attrib["name"]: column for column, head in numbered}
-                tables.append((tree.attrib["displayName"].lower(), columns))
+                name, heads = tree.attrib["displayName"], tree.iterfind("{*}tableColumns/*")
+                left, top, _, bottom = (end or 1 for end in range_boundaries(tree.attrib["ref"]))
+                first = top + int(tree.get("headerRowCount", 1))
+                last = bottom - int(tree.get("totalsRowCount", 0))
+                columns = {head.attrib["name"]: column for column, head in enumerate(heads, left)}
+                tables.append((name.lower(), columns))
+                for head, letter in ((h, get_column_letter(c)) for h, c in columns.items()):
+                    column = re.sub(r"[\[\]#'@]", r"'\g<0>", head)
+                    cells = f"'{called}'!${letter}${first}:${letter}${last}"
+                    self.columns[f"{name}[{column}]"] = cells
         return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:

@@ -209,7 +209,7 @@ class _Reader:
         names = self.book.meanings
         meaning = names.get(f"'{self.place[0]}'!{value}".upper(), names.get(value.upper()))
         if meaning is None or self.expansions > _MAX_EXPANSIONS:
-            outside = "[" in value or "|" in value
+            outside = "[" in value.rpartition("!")[0] or "|" in value
             self.stop(
                 "it refers outside the workbook" if outside else f"nothing is called {value[:40]}"
             )

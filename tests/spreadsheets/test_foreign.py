@@ -99,24 +99,30 @@ def test_formulas_are_read_with_their_values_and_calculated_in_order(
     assert said(told).replace(str(path), "FILE") == answer
 
 
-def test_this_row_of_a_table_is_an_address(tmp_path: Path) -> None:
+def test_cells_of_a_table_are_addresses(tmp_path: Path) -> None:
     import xlsxwriter
 
     with xlsxwriter.Workbook(tmp_path / "table.xlsx") as book:
         sheet = book.add_worksheet()
-        columns = [{"header": "v old"}, {"header": "x"}]
-        sheet.add_table(0, 0, 2, 1, {"name": "Steps", "columns": columns})
+        columns = [{"header": "v old"}, {"header": "x"}, {"header": "x [mm]"}]
+        sheet.add_table(0, 0, 2, 2, {"name": "Steps", "columns": columns})
         sheet.write_number(1, 0, 3.0)
         sheet.write_formula(1, 1, "=Steps[[#This Row],[v old]]*2", None, 6)
         sheet.write_formula(2, 1, "=Steps[@[v old]]+Steps[@x]", None, 0)
         beside = book.add_worksheet()
         beside.add_table(0, 2, 2, 2, {"name": "More", "columns": [{"header": "x"}]})
         beside.write_formula(1, 4, "=Steps[@x]+More[@x]", None, 0)
-    sheets = read(tmp_path / "table.xlsx").sheets
+        beside.write_formula(0, 0, "=MAX(steps[v old])+SUM(Steps[x '[mm']])")
+    calculation = calculate(read(tmp_path / "table.xlsx"))
+    sheets = calculation.book.sheets
     assert sheets["Sheet1"][2, 2].formula == "=$A2*2"
     assert sheets["Sheet1"][3, 2].formula == "=$A3+$B3"
     # A table of another sheet is not taken for the sheet's own.
     assert sheets["Sheet2"][2, 5].formula == "=Steps[@x]+$C2"
+    # A column is its cells, without head and total.
+    columns = [area.called("S") for area in calculation.areas(("Sheet2", 1, 1))]
+    assert columns == ["S!A2:A3", "S!C2:C3"]
+    assert calculation.values["Sheet2", 1, 1] == 3.0
 
 
 @pytest.mark.parametrize("part", [SHEET, "xl/workbook.xml", "xl/sharedStrings.xml"])
