@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from itertools import groupby, product
 from pathlib import Path
+from unicodedata import normalize
 
 from openpyxl.utils.cell import get_column_letter
 
@@ -296,7 +297,11 @@ class Comparison:
                 return None
             small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
             return a, b, LAST if small else "the values differ"
-        return None if a == b else (a, b, "the contents differ")
+        if isinstance(a, str) and isinstance(b, str) and a != b:
+            return a, b, _unlike(a, b)
+        if {type(a), type(b)} == {bool, str}:
+            a, b = (f"'{value}'" if isinstance(value, str) else value for value in (a, b))
+        return None if a == b and type(a) is type(b) else (a, b, "the contents differ")
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:
@@ -304,6 +309,20 @@ def _value(calculation: Calculation, place: Position) -> Value | None:
     stored = calculation.book[place].value
     value = calculation.values.get(place) if stored is None else stored
     return None if value == "" else value
+
+
+def _unlike(a: str, b: str) -> str:
+    """That two texts differ, and in which characters if nobody can see it.
+
+    >>> _unlike("\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m")
+    'the texts look alike: U+00B5 is now U+03BC'
+    """
+    if len({" ".join(normalize("NFKC", text).split()) for text in (a, b)}) > 1:
+        return "the contents differ"
+    if len(a) != len(b):
+        return "the texts look alike, but one is longer"
+    p, q = next((p, q) for p, q in zip(a, b, strict=True) if p != q)
+    return f"the texts look alike: U+{ord(p):04X} is now U+{ord(q):04X}"
 
 
 def _fixed(formula: Formula) -> list[str]:
