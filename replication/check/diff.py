@@ -227,7 +227,9 @@ class Comparison:
                 what = "is new" if was is None else "is gone"
             elif self.alike(a, b) and _fixed(a) == _fixed(b):
                 continue
-            place = b.areas[0].corner if b.areas else first[1]
+            gone = self.where.get(a.areas[0].corner, first[1]) if a.areas else first[1]
+            place = b.areas[0].corner if b.areas else gone
+            was, now = (text or "not defined" for text in (was, now))
             self.add("name", [place], was, now, f"the name {shown} {what}")
 
     def contents(self, values_only: bool) -> None:

@@ -168,7 +168,10 @@ def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
 def _matched(
     old: Mapping[T, Hashable], new: Mapping[T, Hashable], most: int = _MAX_LINES
 ) -> dict[T, T]:
-    """Which line became which. What is not found again but stands between the same is the same."""
+    """Which line became which. What is not found again but stands between the same is the same.
+
+    So is a line after deleted ones, to which its references are lost.
+    """
     a, b = list(old), list(new)
     lines = [old[i] for i in a], [new[i] for i in b]
     start = _alike_first(*lines)
@@ -181,6 +184,8 @@ def _matched(
     for tag, i1, i2, j1, j2 in between:
         if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
             pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
+        elif i1 < i2 and j1 < j2 and str(come[j2 - 1]).replace("#REF!", "@") == str(gone[i2 - 1]):
+            pairs.append((start + i2 - 1, start + j2 - 1))
     return {a[i]: b[j] for i, j in sorted(pairs)}
 
 
