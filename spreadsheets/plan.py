@@ -125,23 +125,19 @@ MESSAGES: Mapping[str, str] = tables()["messages"]
 """What the workbook says of its inputs and of a run, by short names."""
 
 
-class Function(str):
-    """A formula in "x"; in a text to be filled in, "{name:B7}" is the formula with B7 for its x.
-
-    >>> "={double:{at}}".format(double=Function("2*x"), at="B7")
-    '=2*B7'
-    """
-
-    def __format__(self, argument: str) -> str:
-        return re.sub(r"\bx\b", argument, self)
-
-
-_FUNCTIONS = {name: Function(formula) for name, formula in tables()["functions"].items()}
+_FUNCTIONS: Mapping[str, str] = tables()["functions"]
 
 
 def filled(text: str, words: Mapping[str, object]) -> str:
-    """A text of `sheets.toml` with functions, messages and these words in place of braces."""
-    return text.format_map({**_FUNCTIONS, **MESSAGES, "none": NOT_COMPUTED, **words})
+    """A text of `sheets.toml` with functions, messages and these words in place of braces.
+
+    >>> filled("={rest_depth:{c}}", {"c": "B7"})[:18]
+    '=IF(B7<=2/3,4*SIN('
+    """
+    text = re.sub(
+        r"\{(\w+):((?:\w|\{\w+\})+)\}", lambda m: re.sub(r"\bx\b", m[2], _FUNCTIONS[m[1]]), text
+    )
+    return text.format_map({**MESSAGES, "none": NOT_COMPUTED, **words})
 
 
 def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
@@ -375,13 +371,12 @@ def row_formulas(
     """
     then = entry.get("then")
     kinds = entry.get("start"), entry.get("first", then), then
-    known: dict[str, object] = {**_FUNCTIONS, **words}
     for k in range(count):
         if expression := entry.get("each") or kinds[min(k, 2)]:
             if expression[0] != "=":
                 expression = f'=IF(ISNUMBER(A{{row}}),{expression},"")'
-            known |= {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
-            yield k, expression.format_map(known)
+            rows = {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
+            yield k, filled(expression, {**words, **rows})
 
 
 _REFERENCE = re.compile(
