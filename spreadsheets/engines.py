@@ -321,7 +321,7 @@ def repairs_wrong_value(engine: Engine) -> bool:
 # What they make of a workbook whose values are known
 
 OF_FUNCTIONS = 32 * 2.0**-52
-"""How far a transcendental cell may lie from its value, relative to it.
+"""How far an inexact cell of the plan may lie from its value, relative to it.
 
 LN, SIN, ASIN and a cube root are within one ulp in any C library, and flip the last digit of each
 operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twelve products, with
@@ -381,7 +381,7 @@ def tolerances(
     for _, cell, number in numbers:
         sizes[cell.like] = max(sizes.get(cell.like, 0.0), number)
     return {
-        place: OF_FUNCTIONS * number * cell.transcendental
+        place: OF_FUNCTIONS * number * (place in plan.inexact)
         + long_doubles * (sizes[cell.like] if cell.like else number)
         for place, cell, number in numbers
     }

@@ -7,7 +7,7 @@ supplies the values never sees the formulas, so that the two can be compared.
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import product
@@ -42,12 +42,10 @@ class Cell(NamedTuple):
 
     shown: the number format. name: what formulas call it. unit: of its value, spelled as in the
     ledger. claim: the id of the claim whose printed text, or printed number, it shows.
-    transcendental: its value passes through LN, SIN, ASIN or a cube root, whose last digits depend
-    on the program; all other values are the same double everywhere. like: names a set of cells of
-    like size, such as the velocities of a sheet; their rounding errors are as large as the largest
-    of them allows. link: where a click on the text leads. limits, choices: what may be typed, the
-    least and the greatest number in its unit, or one of these texts. wrap: long text takes several
-    lines.
+    like: names a set of cells of like size, such as the velocities of a sheet; their rounding
+    errors are as large as the largest of them allows. link: where a click on the text leads.
+    limits, choices: what may be typed, the least and the greatest number in its unit, or one of
+    these texts. wrap: long text takes several lines.
     """
 
     text: str = ""
@@ -59,7 +57,6 @@ class Cell(NamedTuple):
     name: str = ""
     unit: str = "1"
     claim: str = ""
-    transcendental: bool = False
     like: str = ""
     link: Place | None = None
     limits: tuple[float, float] | None = None
@@ -219,7 +216,7 @@ class SheetPlan:
         self.heads(letters, [entry["head"] for entry in entries], letters, units)
         first, self.row = self.row, self.row + count
         for column, entry in columns.items():
-            looks = ("unit", "shown", "like", "transcendental")
+            looks = ("unit", "shown", "like")
             look = filled_in({name: entry[name] for name in looks if name in entry}, words)
             at_start = {**look, "shown": entry.get("start_shown", "General")}
             formulas = dict(row_formulas(entry, {**words, "column": column}, first, count))
@@ -287,7 +284,6 @@ class SheetPlan:
         if headed:
             self.heads(columns, [words for words, _ in tables()["lines"]], columns[2] + columns[4])
         addresses: dict[str, str] = {}
-        transcendental: set[str] = set()
         for number, (head, block) in enumerate(blocks.items()):
             if headed:
                 self.row += number > 0
@@ -301,14 +297,10 @@ class SheetPlan:
                 )
                 place = source or (str(ledger.claims[claim].place) if claim else "")
                 expression, cell = entry.pop("formula"), f"{columns[2]}{self.row}"
-                called = {*re.findall(r"\b[A-Z]\d+\b", expression)}
-                if re.search(r"LN\(|SIN\(|\^", expression) or called & transcendental:
-                    transcendental.add(cell)
                 value = formula(
                     f"{part}.{key}",
                     guarded(expression) if entry.pop("guard", True) else expression,
                     shown=entry.pop("shown", "0.0000"),
-                    transcendental=cell in transcendental,
                     **entry,
                 )
                 addresses[key.rpartition(".")[2]] = cell
@@ -345,6 +337,43 @@ class WorkbookPlan:
     def where(self) -> Mapping[str, Place]:
         """Key -> the place of the cell that holds it."""
         return {cell.key: place for place, cell in self.cells() if cell.key}
+
+    @cached_property
+    def inexact(self) -> Set[Place]:
+        """The cells whose value passes through LN, SIN, ASIN, a cube root or ROUND.
+
+        Its last digits depend on the program; all other values are the same double everywhere.
+        """
+        named = {cell.name: place for place, cell in self.cells() if cell.name}
+        readers: dict[Place, list[Place]] = {}
+        waiting, inexact = [], set()
+        for place, cell in self.cells():
+            if re.search(r"LN\(|SIN\(|\^|ROUND\(", cell.formula):
+                waiting.append(place)
+            for read in _read(cell.formula, place[0], named):
+                readers.setdefault(read, []).append(place)
+        while waiting:
+            if (place := waiting.pop()) not in inexact:
+                inexact.add(place)
+                waiting += readers.get(place, ())
+        return inexact
+
+
+_READ = re.compile(
+    r"(?:'([^']*)'!)?\$?\b([A-Z])\$?(\d+)\b(?::\$?([A-Z])\$?(\d+))?|\b([A-Za-z]\w*)\b(?!\()"
+)
+
+
+def _read(formula: str, sheet: str, named: Mapping[str, Place]) -> Iterator[Place]:
+    """The cells that a formula on this sheet reads."""
+    for match in _READ.finditer(re.sub(r'"[^"]*"', "", formula)):
+        on, column, row, last_column, last_row, name = match.groups()
+        if column:
+            columns = range(ord(column), ord(last_column or column) + 1)
+            for at, number in product(columns, range(int(row), int(last_row or row) + 1)):
+                yield on or sheet, f"{chr(at)}{number}"
+        elif name in named:
+            yield named[name]
 
 
 def place_of(text: str) -> Place:

@@ -165,8 +165,7 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             if claim.workbook:
                 reference = "='{}'!{}".format(*place_of(claim.workbook))
                 shown = "0.0" if ledger.value(name) > 100 else "0.0000"
-                looks = {"shown": shown, "transcendental": True}
-                cells["C"] = formula(f"overview.{name}", reference, "result", **looks)
+                cells["C"] = formula(f"overview.{name}", reference, "result", shown=shown)
             page.put(**cells)
             for line in more:
                 page.put(D=text(line, "text"))
@@ -246,10 +245,7 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
             C=unit_text(claim.unit),
             D=recorded(float(claim.printed.value), claim=claim.id, shown=shown),
             E=formula(f"{key}.computed", computed, shown="0.0000000000000000E+00", unit=claim.unit),
-            # Rounding is done by each program in its own way: it may cost a last digit.
-            F=formula(
-                f"{key}.difference", difference, "result", shown="0.0000", transcendental=True
-            ),
+            F=formula(f"{key}.difference", difference, "result", shown="0.0000"),
             G=formula(f"{key}.verdict", live, "text"),
             H=recorded(float(claim.printed.quantum), shown="0E+00"),
         )
@@ -278,13 +274,10 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
         if end is not None:
             cells[column] = recorded(float(end), shown=shown, claim=claim.id)
     return cells | {
-        "E": formula(
-            f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit,
-            transcendental=True,  # it may hand on a value that is
-        ),
+        "E": formula(f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
         "K": text(claim.workbook, "link", link=place),
-    }  # fmt: skip
+    }
 
 
 def _inside(claim: Claim, row: int) -> str:

@@ -183,7 +183,7 @@ CELLS = {
     "A1": Cell(key="a"),
     "B1": Cell(key="small", formula="=A1+0.2-0.29", like="half"),
     "B2": Cell(key="half", formula="=5*A1", like="half"),
-    "B3": Cell(key="log", formula="=LN(A1)", transcendental=True),
+    "B3": Cell(key="log", formula="=LN(A1)"),
     "B4": Cell(key="alone", formula="=A1*3"),
 }
 PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Empty")))
