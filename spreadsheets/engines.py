@@ -119,10 +119,8 @@ def address(row: int, column: int) -> str:
 # From pip
 
 
-class IronCalc(Engine):
-    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
-
-    name = "ironcalc"
+class _Package(Engine):
+    """A Python package of the engine's name."""
 
     def missing(self) -> str | None:
         if find_spec(self.name) is not None:
@@ -131,6 +129,12 @@ class IronCalc(Engine):
 
     def version(self) -> str:
         return version(self.name)
+
+
+class IronCalc(_Package):
+    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
+
+    name = "ironcalc"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         import ironcalc
@@ -145,7 +149,7 @@ class IronCalc(Engine):
             yield names[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
-class Formualizer(IronCalc):
+class Formualizer(_Package):
     """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
 
     name = "formualizer"
@@ -161,7 +165,7 @@ class Formualizer(IronCalc):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        for sheet, place, _ in super()._cells(path):
+        for sheet, place, _ in IronCalc()._cells(path):
             value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error
                 value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
@@ -387,7 +391,7 @@ def tolerances(
     }
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class EngineCheck:
     """The result of verifying a file in one engine.
 
@@ -419,25 +423,27 @@ def verify(
 
     Numbers must be the same double, but for the `tolerances`.
     """
-    check = EngineCheck(engine.name)
     if (reason := engine.missing()) is not None:
-        check.outcome, check.reason = "missing", reason
-        return check
+        return EngineCheck(engine.name, outcome="missing", reason=reason)
+    known = None
     try:
-        check.version = engine.version()
+        known = engine.version()
         if not repairs_wrong_value(engine):
-            check.outcome = "echoes"
-            check.reason = "It verifies nothing: it gives stored values back, right or wrong."
-            return check
+            reason = "It verifies nothing: it gives stored values back, right or wrong."
+            return EngineCheck(engine.name, known, "echoes", reason)
         start = time.perf_counter()
         recalculated = engine.recalculate(path)
-        check.seconds = time.perf_counter() - start
+        seconds = time.perf_counter() - start
     except EngineError as error:
-        check.outcome, check.reason = "failed", str(error)
-        return check
+        return EngineCheck(engine.name, known, "failed", str(error))
     allowed = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
-    check.wrong = compare(expected, recalculated, allowed)
-    check.rounded = len(compare(expected, recalculated)) - len(check.wrong)
-    check.cells = sum(bool(cell.formula) for _, cell in plan.cells())
-    check.outcome = "differs" if check.wrong else "verified"
-    return check
+    wrong = compare(expected, recalculated, allowed)
+    return EngineCheck(
+        engine.name,
+        known,
+        "differs" if wrong else "verified",
+        seconds=seconds,
+        cells=sum(bool(cell.formula) for _, cell in plan.cells()),
+        rounded=len(compare(expected, recalculated)) - len(wrong),
+        wrong=wrong,
+    )
