@@ -128,10 +128,3 @@ def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(check: R
     assert (status, len(result["wrong"]) > 20) == (1, True)
     assert set(result["wrong"][0]) == {"sheet", "cell", "expected", "found"}
     assert check([echo], "--quiet") == (1, "", "")
-
-
-def test_without_any_engine_nothing_is_written(check: Run, tmp_path: Path) -> None:
-    status, out, err = check([Fake(reason="Absent.")])
-    assert (status, out) == (2, "")
-    assert "no spreadsheet engine here: run pip install ironcalc formualizer" in err
-    assert list(tmp_path.iterdir()) == []
