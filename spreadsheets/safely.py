@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Files that are written whole or not at all, each by itself."""
 
 import os
 import re
@@ -81,7 +81,8 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write files by name into a folder, made if needed. Raises OSError.
 
-    They take their names when all are drafted; an interruption waits until all of them have.
+    They take their names one by one when all are drafted; an interruption waits until all have.
+    Where one cannot take its name, those before it have.
     """
     check_folder(folder, files)
     with ExitStack() as undisturbed, ExitStack() as drafts:

@@ -37,7 +37,8 @@ def check(folder: Path) -> None:
 def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     """Write the record, and the files `beside` it by name, into a folder that is made if needed.
 
-    All or none. Returns what was written. Raises OSError, naming the file.
+    None takes its name before all are drafted. Returns what was written. Raises OSError, naming
+    the file.
     """
     files = contents(record, beside)
     write_folder(folder, files)
