@@ -411,6 +411,9 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
         if isinstance(value, pd.Series):
             for label in index.symmetric_difference(value.index, sort=False)[:1]:
                 raise ValueError(f"{name} must have the labels of the first Series, so {label} too")
+            repeated = value.index[value.index.duplicated()]
+            if len(repeated) and not value.index.equals(index):
+                raise ValueError(f"{name} has more than one value for the label {repeated[0]}")
             numbers[name] = value.reindex(index).to_numpy()
         elif name in _of("pandas", inputs):  # an Index, say
             numbers[name] = np.asarray(value)

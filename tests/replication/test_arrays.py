@@ -261,6 +261,10 @@ def test_series_are_matched_by_label() -> None:
     velocity, radius = pd.Series([400.0, 500.0], ["a", "b"]), pd.Series([2e-5, 1e-5], ["b", "a"])
     matched = arrays.final_depth(velocity, radius, *CASE[2:])
     assert matched["b"] == arrays.final_depth(500.0, 2e-5, *CASE[2:])
+    twice = pd.Series([1e-5, 2e-5, 2e-5], ["a", "b", "b"])
+    with pytest.raises(ValueError, match=r"^radius has more than one value for the label b$"):
+        arrays.final_depth(velocity, twice, *CASE[2:])
+    assert arrays.final_depth(twice * 4e7, twice, *CASE[2:]).index.equals(twice.index)
 
 
 def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
