@@ -81,9 +81,9 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     >>> parse_toml(b"[impact]\nvelocity = 450.0")
     {'impact': {'velocity': 450.0}}
     """
+    if _DOTTED.search(content):
+        raise ValueError("is nested too deep")
     try:
-        if _DOTTED.search(content):
-            raise RecursionError
         # Notepad and others put a byte order mark before it.
         return tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
