@@ -301,7 +301,7 @@ class Comparison:
             return a, b, LAST if small else "the values differ"
         if isinstance(a, str) and isinstance(b, str) and a != b:
             return a, b, _unlike(a, b)
-        if {type(a), type(b)} == {bool, str}:
+        if type(a) is not type(b) and str(a).upper() == str(b).upper():  # TRUE, and a text of it
             a, b = (f"'{value}'" if isinstance(value, str) else value for value in (a, b))
         return None if a == b and type(a) is type(b) else (a, b, "the contents differ")
 
