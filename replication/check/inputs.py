@@ -23,7 +23,6 @@ from replication.check.words import (
     between_units,
     input_roles,
     is_unit,
-    number_in,
     power_of_ten,
     scaled,
     title,
@@ -194,9 +193,6 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             label, how = calculation.named[place], "name"
             roles = input_roles(label, unit)
         value = calculation.number(place) or 0.0
-        named, number = number_in(label)
-        if named == "beta" in roles and number != value:  # "1: beta 5, 2: beta 3" says a choice
-            roles -= {named}
         if not roles and unit and same_dimension(unit, INPUTS["particle_density"]):
             roles = _DENSITIES  # in a language that is not known
         yield Input("", value, place, how, label, unit, roles=roles)

@@ -665,7 +665,9 @@ def _stop(f: Examination) -> None:
     if below is not None:
         named = (r.place for r in f.table.results if r.where == "first" and r.kind == "depth")
         depths, at_stop = map(f.calculation.number, named), rows("depth", below) or math.nan
-        if any(depth and power_of_ten(depth / at_stop) is not None for depth in depths):
+        guarded = f.calculation.book[f.table.place(role, below)].formula or ""
+        looked_up = (power_of_ten(depth / at_stop) is not None for depth in depths if depth)
+        if any(looked_up) and "IF(" not in guarded.upper():
             _end_at(f, below)  # the final depth is looked up where the stop is
             return
         cells = f.cells(role, below + 1)

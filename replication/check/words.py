@@ -162,7 +162,7 @@ def result_of(label: str) -> str | None:
     beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
     bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
     named = _words("results", _plain(bare)) or _symbols("result_symbols", bare)
-    if named[:1] == ["depth"] and _words("beside_results", _plain(bare)):
+    if named and named[0] in _words("beside_results", _plain(bare)):
         return None
     # The report calls the final depth X, and that of every row x.
     final = bare.startswith("X") and _symbol(bare) == "x"

@@ -216,14 +216,16 @@ def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Conte
     last = row
     if until:
         last = int(until[0] or max(at[1] for at in f.cells if at[0] == sheet))
-    decelerations = {k: row.deceleration for k, row in enumerate(calculated(f.impact).rows)}
+    rows = dict(enumerate(calculated(f.impact).rows))
     for r in range(row, last + 1, int(until[1]) if until[1:] else 1):
         known = {
             "r": r,
             "p": r - 1,
             "k": r - 8,
             "t": (r - 8) * 5e-10,
-            "a": decelerations.get(r - 8),
         }
+        if scheme := rows.get(r - 8):
+            known |= {"v0": scheme.velocity_initial, "v1": scheme.velocity_final}
+            known |= {"x": scheme.depth, "a": scheme.deceleration}
         for c, part in enumerate(text.split(" / "), column):
             yield (sheet, r, c), filled(part, **known)
