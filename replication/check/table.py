@@ -149,11 +149,16 @@ class Line:
 
     @cached_property
     def rises(self) -> bool:
-        """Whether it looks like a depth: not negative, rarely falling, and no mere count."""
-        pairs = list(pairwise(self.numbers))
+        """Whether it looks like a depth: not negative, rarely falling, and no mere count.
+
+        Rows that go on after the particle is at rest have it come back.
+        """
+        deepest = self.numbers.index(max(self.numbers))
+        pairs = list(pairwise(self.numbers[: deepest + 1]))
         rising = sum(b >= a for a, b in pairs)
         counts = all(b - a == 1 for a, b in pairs)
-        return pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
+        is_long = len(pairs) >= LEAST - 1
+        return is_long and pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
 
     @cached_property
     def numbers(self) -> list[float]:
