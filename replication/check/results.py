@@ -39,7 +39,7 @@ _NEARBY = 10
 
 
 def misread(tables: Sequence[Examination]) -> None:
-    """Results that are not those of the last row of their table, if that ends as it should.
+    """Results that are not those of the last row of their table, if no stop elsewhere is accused.
 
     One that reads two tables is a difference, and a list whose cells are not said to be of one
     table each may be of all rows.
@@ -57,7 +57,7 @@ def misread(tables: Sequence[Examination]) -> None:
             continue  # it may be another number on purpose
         f, named = read[0], said.get(place, {})
         follows = any(area.corner in wrong for area in f.table.sources(place))
-        if f.ends and not stops_elsewhere(f) and not follows:
+        if not stops_elsewhere(f) and not follows:
             meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
             unlike = next((role for role in named if not _has(f, role, named[role])), None)
             if _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f):
