@@ -66,6 +66,7 @@ _BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
     "cc": (Fraction(1, 10**6), (0, 3, 0), ""),
     "s": (Fraction(1), _TIME, "p n u m"),
     "N": (Fraction(1), _FORCE, "m k"),
+    "dyn": (Fraction(1, 10**5), _FORCE, ""),
     "gf": (_GRAVITY / 1000, _FORCE, "k"),
     "gram_force": (_GRAVITY / 1000, _FORCE, ""),
     "lbf": (_POUND * _GRAVITY, _FORCE, ""),
