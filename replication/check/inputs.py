@@ -70,41 +70,27 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     ValueError, saying what to give, when two cells could be the same input and the rows do not
     decide.
     """
-    calculation, formulas = table.calculation, table.calculation.formulas
-    from_table = _read((place for place in table.places if place in formulas), calculation)
-    read = {place: far for place, far in from_table.items() if place not in table.places}
+    calculation = table.calculation
+    read = _read_beside(table)
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     reads = _told_by_mass(reads, calculation)
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
     }
-    choices = _typed_first(nearest, reads, calculation)
-    for role, place in mapped.items():
-        value = calculation.number(place)
-        if value is None:
-            raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
-        known = next((c for c in candidates if c.place == place), Input("", value, place, ""))
-        choices[role] = [replace(as_role(known, role, report_inputs()), how="--map")]
-    labelled = [c for c in candidates if read and c.label and c.place not in {*read, *formulas}]
-    unread = _by_role(labelled, True)
+    choices = _typed_first(nearest, reads, calculation) | _as_mapped(mapped, candidates, table)
+    seen = {*read, *calculation.formulas}
+    unread = _by_role([c for c in candidates if read and c.label and c.place not in seen], True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
         if role not in choices and len(unread.get(role, ())) == 1:
             choices[role] = unread.pop(role)
     if not {*choices, *unread}.issuperset(RESTS_ON["resistance"]):
-        labelled = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
-        if labelled:  # whatever else its formula reads, it is the resistance
-            choices.setdefault("resistance", labelled)
-    feeding = {role: cells[0] for role, cells in {**nearest, **choices}.items() if role in RESTS_ON}
-    for role in ("mass", "resistance"):
-        # A cell without a known label whose formula reads these cells and nothing else.
-        sources = {choices[of][0].place if of in choices else None for of in RESTS_ON[role]}
-        for cell in reads if role not in feeding and None not in sources else ():
-            areas = () if cell.roles else calculation.areas(cell.place)
-            if areas and {calculation.source(area.corner) for area in areas} == sources:
-                feeding.setdefault(role, replace(cell, role=role))
+        called = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
+        if called:  # whatever else its formula reads, it is the resistance
+            choices.setdefault("resistance", called)
+    feeding = _feeding({**nearest, **choices}, reads, calculation)
     rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
     examination = _settled(table, choices, feeding, next(rounded, math.pi))
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
@@ -112,6 +98,44 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
+
+
+def _read_beside(table: Table) -> dict[Position, int]:
+    """The cells beside a table that its formulas read, and through how many others."""
+    formulas = table.calculation.formulas
+    read = _read((place for place in table.places if place in formulas), table.calculation)
+    return {place: far for place, far in read.items() if place not in table.places}
+
+
+def _as_mapped(
+    mapped: Mapping[str, Position], candidates: Sequence[Input], table: Table
+) -> dict[str, list[Input]]:
+    """The cells that the user named, as inputs. Raises ValueError for one without a number."""
+    inputs = {}
+    for role, place in mapped.items():
+        value = table.calculation.number(place)
+        if value is None:
+            raise ValueError(f"--map {role}: the cell {address(place, True)} holds no number")
+        known = next((c for c in candidates if c.place == place), Input("", value, place, ""))
+        inputs[role] = [replace(as_role(known, role, report_inputs()), how="--map")]
+    return inputs
+
+
+def _feeding(
+    by_role: Mapping[str, Sequence[Input]], reads: Sequence[Input], calculation: Calculation
+) -> dict[str, Input]:
+    """The cells of mass, diameter and resistance, by label or by what they read.
+
+    One without a known label is the mass if its formula reads radius and density and nothing else.
+    """
+    feeding = {role: cells[0] for role, cells in by_role.items() if role in RESTS_ON}
+    for role in ("mass", "resistance"):
+        sources = {by_role[of][0].place if of in by_role else None for of in RESTS_ON[role]}
+        for cell in reads if role not in feeding and None not in sources else ():
+            areas = () if cell.roles else calculation.areas(cell.place)
+            if areas and {calculation.source(area.corner) for area in areas} == sources:
+                feeding.setdefault(role, replace(cell, role=role))
+    return feeding
 
 
 _DENSITIES = frozenset({"particle_density", "target_density"})

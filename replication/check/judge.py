@@ -315,13 +315,32 @@ def _repeated(f: Examination, resistance: float, told: str) -> None:
 
 
 def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:
+    """Mass, diameter or resistance in a cell, against what its sources give [SI]."""
     role, place = cell.role, cell.place
     assert place is not None
     number = f.calculation.number(place) or 0.0
-    power = power_of_ten(wanted / number) if number and cell.unit is None else None
-    factor = cell.factor if power is None else Fraction(10) ** power
+    by_value = power_of_ten(wanted / number) if number and cell.unit is None else None
+    factor = cell.factor if by_value is None else Fraction(10) ** by_value
     in_si = scaled(number, factor)
+    power = power_of_ten(in_si / wanted)
+    if power and cell.unit and f.agreement(BRAKES) >= 0.5:  # the formulas take it rightly
+        _mislabelled(f, cell, power)
+        return
     exact = math.isclose(in_si, wanted, rel_tol=NEAR)
+    fault = _fault_of_derived(f, place, in_si, wanted, sources)
+    if fault:
+        change = None if exact else partial(Case.holding, role=role, value=in_si)
+        expected = None if exact else scaled(wanted, 1 / factor)
+        f.add(fault[0], [place], expected, f"{title(role)} {fault[1]}", change=change)
+    if in_si > 0 and (not exact or (role == "mass" and factor == 1)):
+        f.rows = replace(f.rows, case=f.case.holding(role, in_si))
+        f.intended = f.intended.holding(role, wanted if fault and not exact else in_si)
+
+
+def _fault_of_derived(
+    f: Examination, place: Position, in_si: float, wanted: float, sources: Sequence[Input]
+) -> tuple[str, str] | None:
+    """The kind of what is wrong with a value that rests on others, and its text; None if right."""
     # What the formula has for pi, or for the factor of a unit such as ksi.
     constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
     typed = [
@@ -330,34 +349,24 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         for number in _as_typed(f, place, constant)
         if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR)
     ]
+    right = math.isclose(in_si, wanted, rel_tol=NEAR)
     # Tables print the factors of units with four digits and more.
-    right = exact or any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
-    rests, kind = titles(source.role for source in sources), ""
-    power = power_of_ten(in_si / wanted)
-    if power and cell.unit and f.agreement(BRAKES) >= 0.5:  # the formulas take it rightly
-        _mislabelled(f, cell, power)
-        return
-    if place in f.calculation.formulas:
-        if power:
-            kind = "unit"
-            text = f"is {times_too(power)} for {rests}: a unit is not converted"
-        elif typed and not right:
-            name, constant, number = typed[0]
-            kind, text = "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
-        elif not right:
-            kind, text = "odd formula", f"does not follow from {rests}"
-            if not in_si:
-                text = "is 0; the report's is assumed"
-    elif f.read and (not right or any(s in f.unread for s in sources)):
-        kind = "typed constant"
-        text = f"is typed as a number, though it rests on {rests}: a change there changes nothing"
-    if kind:
-        change = None if exact else partial(Case.holding, role=role, value=in_si)
-        expected = None if exact else scaled(wanted, 1 / factor)
-        f.add(kind, [place], expected, f"{title(role)} {text}", change=change)
-    if in_si > 0 and (not exact or (role == "mass" and factor == 1)):
-        f.rows = replace(f.rows, case=f.case.holding(role, in_si))
-        f.intended = f.intended.holding(role, wanted if kind and not exact else in_si)
+    right |= any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
+    rests = titles(source.role for source in sources)
+    if place not in f.calculation.formulas:
+        if not f.read or (right and not any(s in f.unread for s in sources)):
+            return None
+        lost = "a change there changes nothing"
+        return "typed constant", f"is typed as a number, though it rests on {rests}: {lost}"
+    if power := power_of_ten(in_si / wanted):
+        return "unit", f"is {times_too(power)} for {rests}: a unit is not converted"
+    if right:
+        return None
+    if typed:
+        name, constant, number = typed[0]
+        return "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
+    says = f"does not follow from {rests}" if in_si else "is 0; the report's is assumed"
+    return "odd formula", says
 
 
 def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[float]:
