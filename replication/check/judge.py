@@ -55,10 +55,10 @@ OTHER_STOP: Change = {}
 """The change that a stop elsewhere makes: the rules stay, the number of rows is another."""
 
 
-def judge(f: Examination, meant: tuple[float, str] | None = None) -> None:
+def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
     """Find every difference between a table and the report's sheet, but for printed numbers.
 
-    `meant` is the target resistance [Pa] that it should have, and what tells so.
+    `meant` is an input that it should have: its role, its value in SI, and what tells so.
     """
     _units(f)
     if f.table.digits is None:
@@ -304,14 +304,18 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
     f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
 
 
-def _repeated(f: Examination, resistance: float, told: str) -> None:
-    """A table that reads the resistance of another one, which it repeats."""
-    cells = f.cells(*f.rows.shows("brake", 1))
-    text = f"the rows take {quantity(f.case.resistance, 'resistance')} for the target resistance, "
+def _repeated(f: Examination, role: str, value: float, told: str) -> None:
+    """A table that reads an input of another one, which it repeats."""
+    part, taken = "advance" if role == "step" else "brake", getattr(f.case, role)
+    cells = f.cells(*f.rows.shows(part, 1))
+    if role == "velocity":
+        speed = "velocity_initial" if "velocity_initial" in f.table.lines else "velocity_final"
+        cells = [f.table.place(speed, min(f.rows.columns[speed]))]
+    text = f"the rows take {quantity(taken, role)} for {title(role)}, "
     text += f"and so repeat another table; {told}"
-    change = _changed("resistance", f.case.resistance, 1.0)
-    f.intended = f.intended.with_input("resistance", resistance)
-    f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula, change)
+    f.intended = f.intended.with_input(role, value)
+    formula = f.calculation.book[cells[0]].formula
+    f.add("odd formula", cells, None, text, formula, _changed(role, taken, 1.0))
 
 
 def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[Input]) -> None:

@@ -1,7 +1,8 @@
-"""Tables that repeat another one, though a cell of the workbook tells that another beta was meant.
+"""Tables that repeat another one, though a cell beside them tells that another input was meant.
 
-Two equal tables are no fault. But if a cell that is called beta or target resistance has the value
-of the report's other case, and is read by no table, then one reads a cell that is not its own.
+Two equal tables are no fault. But if a cell that is called velocity or step has another value, or
+one called beta or target resistance that of the report's other case, and no table reads it, then
+one table reads a cell that is not its own.
 """
 
 import math
@@ -18,37 +19,44 @@ _BLOCK = 3
 """By so many cells an input may be further from its table than the one that is read by mistake."""
 
 
-def meant(tables: Sequence[Examination], beside: Sequence[Input]) -> dict[int, tuple[float, str]]:
-    """The target resistance [Pa] that tables by number should have, and what tells so.
+def meant(
+    tables: Sequence[Examination], beside: Sequence[Input]
+) -> dict[int, tuple[str, float, str]]:
+    """The input that tables by number should have: role, value in SI, and what tells so.
 
     `beside` are all numbers beside the tables.
     """
-    alike: dict[tuple[Position, Case, float | None], list[int]] = {}
-    for number, f in enumerate(tables):
-        cells = (f.inputs[role].place for role in ("resistance", "beta") if role in f.inputs)
-        if source := next(filter(None, cells), None):
-            alike.setdefault((source, f.case, f.rows("depth", 4)), []).append(number)
-    told: dict[int, tuple[float, str]] = {}
-    for (source, *_), numbers in alike.items():
-        f = tables[numbers[0]]
-        flow_stress = f.inputs.get("flow_stress")
-        stress = flow_stress.si if flow_stress else report_inputs()["flow_stress"][0]
-        for cell, place in _idle(f, beside) if len(numbers) > 1 else ():
-            resistance = cell.si * (stress if cell.role == "beta" else 1.0)
-            is_printed = any(near(resistance, printed) for printed in report_inputs()["resistance"])
-            # It belongs to the table to which it is nearest, compared with the cell that is read;
-            # of several to the last, which was copied from the first.
-            off = {
-                number: _apart(place, tables[number].table) - _apart(source, tables[number].table)
-                for number in reversed(numbers)
-                if place[0] in (source[0], tables[number].table.sheet)
-            }
-            number = min(off, key=off.__getitem__, default=0)
-            is_own = off.get(number, math.inf) <= _BLOCK
-            if is_printed and is_own and not near(resistance, f.case.resistance):
-                where, value = address(place, True), quantity(cell.si, cell.role)
-                says = f"{title(cell.role)} in {where}, {value}, is read by no table"
-                told.setdefault(number, (resistance, says))
+    told: dict[int, tuple[str, float, str]] = {}
+    for role in ("resistance", "velocity", "step"):
+        alike: dict[tuple[Position, Case, float | None], list[int]] = {}
+        for number, f in enumerate(tables):
+            names = (role, "beta") if role == "resistance" else (role,)
+            cells = (f.inputs[name].place for name in names if name in f.inputs)
+            if source := next(filter(None, cells), None):
+                alike.setdefault((source, f.case, f.rows("depth", 4)), []).append(number)
+        for (source, *_), numbers in alike.items():
+            f = tables[numbers[0]]
+            flow_stress = f.inputs.get("flow_stress")
+            stress = flow_stress.si if flow_stress else report_inputs()["flow_stress"][0]
+            for cell, place in _idle(f, role, beside) if len(numbers) > 1 else ():
+                value = cell.si * (stress if cell.role == "beta" else 1.0)
+                # A resistance or a beta may be of another model, unless the report prints it.
+                printed = report_inputs()[role] if role == "resistance" else (value,)
+                # It belongs to the table to which it is nearest, compared with the cell that is
+                # read; of several to the last, which was copied from the first.
+                off = {
+                    number: _apart(place, tables[number].table)
+                    - _apart(source, tables[number].table)
+                    for number in reversed(numbers)
+                    if place[0] in (source[0], tables[number].table.sheet)
+                }
+                number = min(off, key=off.__getitem__, default=0)
+                is_own = off.get(number, math.inf) <= _BLOCK
+                is_meant = any(near(value, each) for each in printed)
+                if is_meant and is_own and not near(value, getattr(f.case, role)):
+                    where = f"{address(place, True)}, {quantity(cell.si, cell.role)}"
+                    says = f"{title(cell.role)} in {where}, is read by no table"
+                    told.setdefault(number, (role, value, says))
     return told
 
 
@@ -61,10 +69,10 @@ def _apart(place: Position, table: Table) -> int:
     return sum(max(min(numbers) - at, at - max(numbers), 0) for at, numbers in pairs)
 
 
-def _idle(f: Examination, beside: Sequence[Input]) -> Iterator[tuple[Input, Position]]:
-    """Cells called resistance that nothing reads; called beta that nothing but those reads."""
+def _idle(f: Examination, of: str, beside: Sequence[Input]) -> Iterator[tuple[Input, Position]]:
+    """Cells called so that nothing reads; called beta that nothing but idle resistances reads."""
     formulas, idle = f.calculation.formulas, set[Position]()
-    for role in ("resistance", "beta"):
+    for role in ("resistance", "beta") if of == "resistance" else (of,):
         readers = formulas.keys() - idle
         read = {area.corner for place in readers for area in formulas[place].areas}
         for cell in beside:

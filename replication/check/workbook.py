@@ -95,9 +95,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
         examinations = [find(table, beside, cells) for table in read_tables]
-    resistances = meant(examinations, beside)
+    repeating = meant(examinations, beside)
     for number, f in enumerate(examinations):
-        judge(f, resistances.get(number))
+        judge(f, repeating.get(number))
     misread(examinations)
     numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
     silent = list(_without_numbers(calculation))
