@@ -78,6 +78,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
     }
+    nearest |= _either_density(reads, calculation)
     choices = _typed_first(nearest, reads, calculation) | _as_mapped(mapped, candidates, table)
     seen = {*read, *calculation.formulas}
     unread = _by_role([c for c in candidates if read and c.label and c.place not in seen], True)
@@ -142,7 +143,10 @@ _DENSITIES = frozenset({"particle_density", "target_density"})
 
 
 def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
-    """The cells; of densities whose labels do not say of what, the mass reads the particle's."""
+    """The cells; of densities whose labels do not say whose, that which the mass reads is said so.
+
+    It is the particle's.
+    """
     unsaid = {cell.place for cell in cells if cell.place and cell.roles == _DENSITIES}
     masses = (c.place for c in cells if c.place and (c.roles == {"mass"} or c.unit in ("kg", "g")))
     for place in masses:
@@ -157,6 +161,20 @@ def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
                 for cell in cells
             ]
     return cells
+
+
+def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[str, list[Input]]:
+    """Two densities whose labels do not say of what, each as that of either: the rows decide.
+
+    Not if one is the other in another unit.
+    """
+    unsaid = [cell for cell in cells if cell.place and cell.roles == _DENSITIES]
+    places = {cell.place for cell in unsaid}
+    converts = any(places & _read([p], calculation).keys() - {p} for p in places if p)
+    if len(unsaid) != 2 or converts or any(len(c.roles & _DENSITIES) == 1 for c in cells):
+        return {}
+    report = report_inputs()
+    return {role: [as_role(c, role, report) for c in unsaid] for role in sorted(_DENSITIES)}
 
 
 def _typed_first(
@@ -197,7 +215,7 @@ def _nearest(
 ) -> list[Input]:
     """Of the cells for one role those that are read most directly; constants behind conversions."""
     far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
-    near = [cell for cell in cells if far[cell] == min(far.values()) or cell.roles == _DENSITIES]
+    near = [cell for cell in cells if far[cell] == min(far.values())]
     sources = {calculation.source(cell.place) for cell in near if cell.place}
     return [cell for cell in cells if cell.place in sources] or near
 
@@ -217,7 +235,7 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             label, how = calculation.named[place], "name"
             roles = input_roles(label, unit)
         value = calculation.number(place) or 0.0
-        if not roles and unit and same_dimension(unit, INPUTS["particle_density"]):
+        if not roles and label and unit and same_dimension(unit, INPUTS["particle_density"]):
             roles = _DENSITIES  # in a language that is not known
         yield Input("", value, place, how, label, unit, roles=roles)
     for name, meaning in calculation.book.names.items():
@@ -265,10 +283,6 @@ def _by_role(
         if len(cell.roles) == 1:
             (role,) = cell.roles
             by_role.setdefault(role, []).append(as_role(cell, role, report))
-    unsaid = [cell for cell in cells if cell.roles == _DENSITIES]
-    if len(unsaid) == 2 and not by_role.keys() & _DENSITIES:
-        # Neither label says of what: the rows decide, as each may be that of either.
-        by_role |= {role: [as_role(c, role, report) for c in unsaid] for role in sorted(_DENSITIES)}
     for cell in cells:
         # A label that says nothing known may be in another language, if the table reads the cell.
         by_value = all_read or not cell.label or cell.unit is not None
@@ -334,8 +348,11 @@ def _settled(
     pi: float,
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
-    numbers = _typed(table.calculation) | {cell.si for cells in choices.values() for cell in cells}
-    choices = {role: [_as_converted(c, numbers) for c in cells] for role, cells in choices.items()}
+    factors = _factors(table.calculation)
+    choices = {
+        role: [_as_converted(cell, factors.get(cell.place, ())) for cell in cells]
+        for role, cells in choices.items()
+    }
     if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
         # It is in the unit of the time column, or in that which gives it the report's size.
         typed = replace(step, si=scaled(step.si, 1 / step.factor))
@@ -365,6 +382,17 @@ def _settled(
         where = " and ".join(list(alike)[:3])
         raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
     return examination
+
+
+def _factors(calculation: Calculation) -> dict[Position | None, list[float]]:
+    """The numbers by which formulas may convert a cell that they read: typed, or in other cells."""
+    factors: dict[Position | None, list[float]] = {}
+    for formula in calculation.formulas.values():
+        cells = [area.corner for area in formula.areas if area.cells == 1][:FEW]
+        numbers = [*formula.literals, *filter(None, map(calculation.number, cells))]
+        for place in cells:
+            factors.setdefault(place, []).extend(numbers)
+    return factors
 
 
 def _as_converted(cell: Input, numbers: Iterable[float]) -> Input:

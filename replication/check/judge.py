@@ -670,19 +670,22 @@ def _stop(f: Examination) -> None:
     if steps not in finals and (last := rows.wanted("velocity_final", steps)) is not None:
         finals[steps] = last  # computed where the table ends before it shows it
     below = next((k for k, v in finals.items() if v < case.stop_velocity), None)
-    if not finals or steps in (below, max(march(f.intended)["depth"])):
+    planned = max(march(f.intended)["depth"])
+    if not finals or steps in (below, planned):
         return  # with as many rows as there should be, where they end follows from the rest
     role = "velocity_final" if "velocity_final" in f.table.lines else "velocity_initial"
     stop = f"the stop at {case.stop_velocity:g} m/s"
     text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
     if below is not None:
-        named = (r.place for r in f.table.results if r.where == "first" and r.kind == "depth")
-        depths, at_stop = map(f.calculation.number, named), rows("depth", below) or math.nan
+        said = [result for result in f.table.results if result.where == "first"]
         guarded = f.calculation.book[f.table.place(role, below)].formula or ""
-        looked_up = (power_of_ten(depth / at_stop) is not None for depth in depths if depth)
-        if any(looked_up) and "IF(" not in guarded.upper():
-            _end_at(f, below)  # the final depth is looked up where the stop is
-            return
+        for k in () if "IF(" in guarded.upper() else (below, planned):
+            at_stop = rows("depth", k) or math.nan
+            wanted = {"depth": at_stop, "ratio": at_stop / case.radius}
+            numbers = ((r.kind, f.calculation.number(r.place)) for r in said)
+            if any(x and power_of_ten(x / wanted[kind]) is not None for kind, x in numbers):
+                _end_at(f, k)  # the final depth is looked up where the stop is, or should be
+                return
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
         f.add("other scheme", cells, None, text, change=OTHER_STOP)

@@ -47,21 +47,29 @@ def misread(tables: Sequence[Examination]) -> None:
     calculation, wrong = tables[0].calculation, set[Position]()
     results = {result.place: result for f in tables for result in f.table.labelled}
     said = _said(tables, results.values()) if len(tables) > 1 else {}
-    order = calculation.order
-    for place, result in sorted(results.items(), key=lambda each: order.get(each[0], -1)):
-        read = [f for f in tables if f.table.gives_depth(place)]
-        read = read or [f for f in tables if f.table.is_read_by(place)]
-        if len(read) != 1 or (result.where == "listed" and place not in said):
-            continue
-        if result.where == "beyond" and len(tables) == 1:
-            continue  # it may be another number on purpose
-        f, named = read[0], said.get(place, {})
-        follows = any(area.corner in wrong for area in f.table.sources(place))
-        if not stops_elsewhere(f) and not follows:
-            meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
-            unlike = next((role for role in named if not _has(f, role, named[role])), None)
-            if _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f):
-                wrong.add(place)
+    for place in sorted(
+        {*calculation.formulas, *results}, key=lambda p: calculation.order.get(p, -1)
+    ):
+        if any(area.corner in wrong for area in calculation.areas(place)):
+            wrong.add(place)  # it follows from what is accused
+        elif place in results and _is_wrong(tables, results[place], said.get(place, {})):
+            wrong.add(place)
+
+
+def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:
+    """Whether a result is accused; `named` are inputs of the table that it is said to be of."""
+    read = [f for f in tables if f.table.gives_depth(result.place)]
+    read = read or [f for f in tables if f.table.is_read_by(result.place)]
+    if len(read) != 1 or (result.where == "listed" and not named):
+        return False
+    if result.where == "beyond" and len(tables) == 1:
+        return False  # it may be another number on purpose
+    (f,) = read
+    if stops_elsewhere(f):
+        return False
+    meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
+    unlike = next((role for role in named if not _has(f, role, named[role])), None)
+    return _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f)
 
 
 def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examination) -> bool:
@@ -117,7 +125,7 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
 
 
 def _is_about(f: Examination, kind: str, value: float, unit: str | None) -> bool:
-    """Whether a value is the last depth, or its ratio to the radius, but for a hundredth of it.
+    """Whether a value is the last depth, or its ratio to the radius, to within 1 %.
 
     It may be rounded, or computed between two rows. In which power of ten is not judged here.
     """
@@ -151,21 +159,29 @@ def _said(
     for result in results:
         groups[result.label].append(result)
     for label, group in groups.items():
-        beside = {result.place: _numbers_beside(values, result) for result in group}
-        for role in sorted({role for numbers in beside.values() for role in numbers}):
-            named = {place: numbers[role] for place, numbers in beside.items() if role in numbers}
-            if all(any(_has(f, role, number) for f in tables) for number in named.values()):
-                for place, number in named.items():
-                    said[place][role] = number
-        listed = [tuple(said[place].items()) for place in beside if place in said]
-        if len(set(listed)) < max(len(listed), 2):
-            for place in beside:
-                said.pop(place, None)
-        role_named, number = number_in(str(values[label]))
-        for result in group:
-            if role_named and (result.where == "first" or result.place in said):
-                said[result.place][role_named] = number
+        said |= _said_beside(tables, group)
+        role, number = number_in(str(values[label]))
+        # A velocity or a step that no table has is that of a row, or a time.
+        if role == "beta" or (role and any(near(_number(f, role), number) for f in tables)):
+            for result in group:
+                if result.where == "first" or result.place in said:
+                    said[result.place][role] = number
     return said
+
+
+def _said_beside(
+    tables: Sequence[Examination], group: Sequence[Result]
+) -> dict[Position, dict[str, float]]:
+    """What numbers beside the results of a list say of their tables, if they tell them apart."""
+    values, said = tables[0].calculation.values, dict[Position, dict[str, float]]()
+    beside = {result.place: _numbers_beside(values, result) for result in group}
+    for name in sorted({name for numbers in beside.values() for name in numbers}):
+        named = {place: numbers[name] for place, numbers in beside.items() if name in numbers}
+        if all(any(_has(f, name, number) for f in tables) for number in named.values()):
+            for place, number in named.items():
+                said.setdefault(place, {})[name] = number
+    listed = [tuple(said[place].items()) for place in beside if place in said]
+    return said if len(set(listed)) >= max(len(listed), 2) else {}
 
 
 def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[str, float]:

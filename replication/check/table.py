@@ -398,39 +398,41 @@ class Table:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
         return place in self._of_depth
 
+    def reads_last(self, place: Position) -> bool:
+        """Whether it reads the last depth of the table."""
+        return place in self._of_last
+
+    def is_read_by(self, place: Position) -> bool:
+        """Whether it reads any cell of the table."""
+        return place in self._of_table
+
     @cached_property
     def _of_depth(self) -> set[Position]:
-        """The cells beside the table whose formulas read a depth of it, directly or not."""
-        (sheet, *first), (_, *last) = (self.place("depth", k) for k in (0, self.steps))
-        depths, readers = Area(sheet, *first, *last), set[Position]()
+        return self._readers([self._area(self.lines["depth"], 0)])
+
+    @cached_property
+    def _of_last(self) -> set[Position]:
+        return self._readers([self._area(self.lines["depth"], self.steps)])
+
+    @cached_property
+    def _of_table(self) -> set[Position]:
+        return self._readers([self._area(line, 0) for line in self.lines.values()])
+
+    def _area(self, line: Line, first: int) -> Area:
+        """The cells of a line from a row on."""
+        (sheet, *begin), (_, *end) = (line.place(self.zero + k) for k in (first, self.steps))
+        return Area(sheet, *begin, *end)
+
+    def _readers(self, wanted: Sequence[Area]) -> set[Position]:
+        """The cells beside the table whose formulas read one of some areas, directly or not."""
+        readers = set[Position]()
         for place in sorted(self.calculation.formulas, key=self.calculation.order.__getitem__):
             areas = self.calculation.areas(place)
             read = (p for area in areas for p in _looked_at(area))
-            if any(map(depths.overlaps, areas)) or not readers.isdisjoint(read):
+            overlap = any(area.overlaps(each) for area in areas for each in wanted)
+            if overlap or not readers.isdisjoint(read):
                 readers |= {place} - self.places.keys()
         return readers
-
-    def is_read_by(self, place: Position) -> bool:
-        """Whether a cell's formula reads any cell of the table, through cells beside it or not."""
-        return any(p in self.places for area in self.sources(place) for p in _looked_at(area))
-
-    def reads_last(self, place: Position) -> bool:
-        """Whether what a cell's formula reads has the last depth of the table in it."""
-        last = self.place("depth", self.steps)
-        return any(area.covers(last) for area in self.sources(place))
-
-    def sources(self, place: Position) -> Iterator[Area]:
-        """All that a cell's formula reads, itself or through cells beside the table.
-
-        Of a long column beside it, such as X/R of every row, the first cell and the last.
-        """
-        edge, seen = [place], {place}
-        while edge:
-            areas = [area for cell in edge for area in self.calculation.areas(cell)]
-            yield from areas
-            near = {p for area in areas for p in _looked_at(area)}
-            edge = [cell for cell in near - seen if cell not in self.places]
-            seen.update(edge)
 
     @cached_property
     def places(self) -> dict[Position, tuple[str, int]]:
@@ -455,15 +457,16 @@ class Table:
     def roundings(self) -> dict[str, tuple[int, int]]:
         """The most digits of a number of each column, and the least power of ten that one has.
 
-        Numbers may be rounded to so many digits, or to so many decimals.
+        Numbers may be rounded to so many digits, or to so many decimals. Row 0 is left out.
         """
         roundings = {}
         for role in self.lines:
             numbers = (self.number(role, k) for k in range(1, self.steps + 1))
             parts = [Decimal(repr(x)).normalize().as_tuple() for x in numbers if x]
-            digits = max((len(number.digits) for number in parts), default=17)
-            least = min((int(number.exponent) for number in parts), default=-300)
-            roundings[role] = digits, least
+            counts = sorted(len(number.digits) for number in parts)
+            digits = counts[len(counts) * 19 // 20] if counts else 17  # a few may have more
+            usual = (int(n.exponent) for n in parts if len(n.digits) <= digits)
+            roundings[role] = digits, min(usual, default=-300)
         return roundings
 
 
@@ -585,7 +588,8 @@ def _at_beginning(depth: Line, speed: Line, beside: Sequence[Line]) -> bool:
     """Whether a velocity is that at the beginning of its row, not at its end.
 
     The deceleration of a row takes the velocity at its beginning to that of the next row, and that
-    of the row before to the velocity at its end.
+    of the row before to the velocity at its end. Without decelerations, the depth moves on by the
+    velocity at the beginning of a row.
     """
     if len(speed.roles) == 1 and not any("velocity_initial" in line.roles for line in beside):
         return speed.roles == {"velocity_initial"}

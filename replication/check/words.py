@@ -65,9 +65,12 @@ def unit_in(text: str) -> str | None:
     ('g/cm3', 'kg')
     """
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).strip().rstrip("=: ").strip()
+    if re.fullmatch(r"[atuvxATUVX]\w? ?\(N(?:[+-]1)?\)", text):
+        return None  # N counts the steps: v(N), v(N+1)
     pieces = [
         *reversed(re.findall(r"[\[(]([^\[\]()]+)[\])]", text)),
         *re.findall(r"\b(?:in|en)\s+(\S+)$", text),
+        *(part.replace(" / ", "/") for part in text.split(",")[:0:-1]),
         *re.findall(r"[ ,]([^ _,]{2,})$", text),  # a single letter there is a symbol: "Weg s"
         *(text.partition(mark)[2] for mark in (" / ", "/", ",")),
         *re.findall(r"[^ _]{2,}$", text),
@@ -161,23 +164,37 @@ def result_of(label: str) -> str | None:
     """
     beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
     bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
-    named = _words("results", _plain(bare)) or _symbols("result_symbols", bare)
-    if named and named[0] in _words("beside_results", _plain(bare)):
-        return None
+    plain = re.sub(r"(?<=\w)-(?=\w)", " ", re.sub(_QUANTITY, "", _plain(bare)))
+    spoken = re.findall(r"[^\W\d]\w*|\d[\d.]*|[^\s\w.,:()\[\]]", plain)
+    words = [_words("results", word, re.fullmatch) for word in spoken]
+    units = [same_dimension(is_unit(word) or "1", "m") for word in spoken]
+    said = {name for names in words for name in names}
+    if all(map(any, zip(words, units, strict=True))):
+        ratio = any(
+            "depth" in a and "over" in b and "radius" in c
+            for a, b, c in zip(words, words[1:], words[2:], strict=False)
+        )
+        if "normalized" in said or (ratio and words.count(["radius"]) == 1):
+            return "ratio"
+        if not said & {"over", "radius", "percent"} and (
+            "last depth" in said or said >= {"last", "depth"}
+        ):
+            return "depth"
     # The report calls the final depth X, and that of every row x.
     final = bare.startswith("X") and _symbol(bare) == "x"
-    return next(iter(named), "any depth" if final else None)
+    return next(iter(_symbols("result_symbols", bare)), "any depth" if final else None)
 
 
 _BETA = r"(?:(?:\bb[eê]ta|[βΒ])[\s_]*[=:]?|\bb\s*=)\s*"
 _NUMBER = r"\d+(?:[.,]\d+)?"
+_QUANTITY = rf"(?:\b(?:v_?0?|[dδ∆]t|(?:time )?step) ?)?{_NUMBER} ?(?:[kmcµu]?m/s|[pnµum]?s)\b"
 
 
 @cache
 def number_in(text: str) -> tuple[str | None, float]:
-    """The beta, velocity or time step that a text names; or the number that it begins with.
+    """The beta, velocity or time step [SI] that a text names; or the number that it begins with.
 
-    The number is as it stands there, in whatever unit; NaN if there is none.
+    NaN if there is none, and if there are several velocities or steps.
 
     >>> number_in("X/R (β = 5)"), number_in("Final depth, b=3"), number_in("V = 400 m/s: depth")
     (('beta', 5.0), ('beta', 3.0), ('velocity', 400.0))
@@ -185,15 +202,18 @@ def number_in(text: str) -> tuple[str | None, float]:
     ((None, 2.0), (None, nan))
     """
     text = text[:_MAX_LABEL]
-    beta = re.search(f"{_BETA}({_NUMBER})", text, re.IGNORECASE)
-    number = beta or re.match(rf"\s*({_NUMBER})", text)
-    role = "beta" if beta else None
-    for quantity in () if beta else re.finditer(rf"({_NUMBER}) ?([^\s\d,;:()\[\]]+)", text):
-        unit = is_unit(quantity[2]) or "1"
-        for named in ("velocity", "step"):
-            if same_dimension(unit, INPUTS[named]):
-                role, number = named, quantity
-    return role, float(number[1].replace(",", ".")) if number else math.nan
+    if beta := re.search(f"{_BETA}({_NUMBER})", text, re.IGNORECASE):
+        return "beta", float(beta[1].replace(",", "."))
+    quantities = {
+        (role, float(number.replace(",", ".")) * float(to_si(named)))
+        for number, unit in re.findall(rf"({_NUMBER}) ?([^\s\d,;:()\[\]]+)", text)
+        for role in ("velocity", "step")
+        if same_dimension(named := is_unit(unit) or "1", INPUTS[role])
+    }
+    if quantities:
+        return quantities.pop() if len(quantities) == 1 else (None, math.nan)
+    number = re.match(rf"\s*({_NUMBER})", text)
+    return None, float(number[1].replace(",", ".")) if number else math.nan
 
 
 # What this program calls them, and numbers in their units.

@@ -108,14 +108,15 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         *_texts_as_inputs(calculation, examinations, silent),
         *silent,
     ]
-    # Tables side by side see each other's cells; inputs in no cell share the table's first.
+    # Tables side by side see each other's cells, and inputs in no cell share the table's first:
+    # what a table has told, no later one tells again.
     told: set[tuple[Position, str, str]] = set()
     once: list[Difference] = []
     for group in (*(f.differences for f in examinations), beside_tables):
         keys = [(d.place, d.kind, d.explanation if d.kind == "other input" else "") for d in group]
         once += [d for d, key in zip(group, keys, strict=True) if key not in told]
         told.update(keys)
-    once.reverse()
+    once.reverse()  # of equal rank, what stands beside the tables comes first
     ordered = tuple(sorted(once, key=lambda d: d.rank))
     return Check(calculation, tuple(examinations), ordered, tuple(numbers))
 

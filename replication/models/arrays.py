@@ -192,14 +192,13 @@ def _real(name: str, value: Any) -> Any:
 
     if isinstance(value, np.ma.MaskedArray):
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
-    array = np.asarray(value)
     try:
+        array = np.asarray(value)
         if array.dtype.kind in "biufO":
             return array.astype(float, copy=False) if array.ndim else float(array)
-    except (TypeError, ValueError, OverflowError):
-        pass  # objects that are no numbers, or beyond a double
-    kind = array.dtype if array.dtype.kind != "O" else type(array.item(0)).__name__
-    raise TypeError(f"{name} holds {kind}: give real numbers of a double's range, in SI units")
+    except (TypeError, ValueError, OverflowError) as error:
+        raise TypeError(f"{name} must hold real numbers, in SI units: {error}") from error
+    raise TypeError(f"{name} must hold real numbers, in SI units, not {array.dtype}")
 
 
 def _check(numbers: Numbers) -> None:
