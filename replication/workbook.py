@@ -8,6 +8,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 from itertools import chain, pairwise, starmap
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS, SHALLOW
+from replication.error import COARSE, DIGITS, OFF_STOP
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
@@ -209,7 +210,7 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
         name="Sheet" if beta is None else f"Sheet beta {beta:.4g}",
         slug=slug,
         # As spreadsheet programs join a number to a text.
-        label="R_t as given" if beta is None else f"β = {round(beta, 6):.15g}",
+        label="R_t as given" if beta is None else f"β = {_six_decimals(beta):.15g}",
         scheme=scheme,
         beta="3" if beta == BETA_3.beta else "5",
         is_reports=impact in (BETA_3, BETA_5),
@@ -223,6 +224,11 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
 """The sheet of each case in the plan, and its rows."""
+
+
+def _six_decimals(beta: float) -> float:
+    """Rounded as spreadsheet programs round: the decimal that is shown, and halves upwards."""
+    return float(Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP))
 
 
 def _values(
@@ -279,7 +285,7 @@ def _inputs(
         "mean_radius": si["D_mean"] / 2 * 1e6,
         "travel_most": COARSE,
         "excess_most": DIGITS,
-        "shortfall_most": SHALLOW,
+        "off_stop_most": OFF_STOP,
     }
     for entry, number in typed.items():
         name = entry.name
@@ -317,7 +323,7 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         "stop_share": at_stop["normalized_depth"] / at_rest["normalized_depth"],
         "over_stop": sheet.normalized_depth / at_stop["normalized_depth"]
         if at_stop["normalized_depth"]
-        else 1.0,
+        else NOT_COMPUTED,
     }
 
 

@@ -8,8 +8,8 @@ COARSE = 0.1
 the report's cases the published scheme then falls some 1 % short of the exact depth, and as it is
 of first order, further short with longer steps."""
 
-SHALLOW = 0.01
-"""The share by which a depth may fall short of the exact one at the stop velocity. In the report's
+OFF_STOP = 0.01
+"""The share by which a depth may be off the exact one at the stop velocity. In the report's
 cases the published scheme reaches it where a step covers about `COARSE` R; a slow impact of few
 steps does so with shorter steps."""
 
@@ -24,8 +24,8 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
     "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
     more than `COARSE` R; "deep": its depth is more than `DIGITS` beyond the exact one at rest;
-    "shallow": it is more than `SHALLOW` short of the exact one at the stop velocity; "short": this
-    is more than `DIGITS` short of that at rest.
+    "shallow", "overrun": it is more than `OFF_STOP` short of the exact one at the stop velocity, or
+    beyond it; "short": this is more than `DIGITS` short of that at rest.
 
     >>> from dataclasses import replace
     >>> from replication.cases import BETA_5
@@ -43,7 +43,7 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
         said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
-    if travel > COARSE:
+    if travel - COARSE > COARSE * 1e-12:  # a tenth in decimals need not be one in doubles
         text = f"a step at the impact velocity passes {travel:.3g} of the radius"
         said["coarse"] = f"{text}: at most {COARSE} is sound"
     rest = final_depth(**impact.motion)
@@ -51,11 +51,12 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
         said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
-    if last.depth < at_stop * (1 - SHALLOW):
-        text = f"the depth falls short of the exact one at the stop velocity, {at_stop:.6g} m"
-        said["shallow"] = (
-            f"{text}, by {100 * (1 - last.depth / at_stop):.3g} %: take a shorter step"
-        )
+    shallow = last.depth < at_stop
+    if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in said:
+        by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
+        which = "falls short of" if shallow else "exceeds"
+        text = f"the depth {which} the exact one at the stop velocity, {at_stop:.6g} m{by}"
+        said["shallow" if shallow else "overrun"] = f"{text}: take a shorter step"
     short = 1 - at_stop / rest
     if short > DIGITS:
         text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"
