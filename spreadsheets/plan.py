@@ -344,36 +344,29 @@ class WorkbookPlan:
 
         Its last digits depend on the program; all other values are the same double everywhere.
         """
-        named = {cell.name: place for place, cell in self.cells() if cell.name}
-        readers: dict[Place, list[Place]] = {}
-        waiting, inexact = [], set()
-        for place, cell in self.cells():
-            if re.search(r"LN\(|SIN\(|\^|ROUND\(", cell.formula):
-                waiting.append(place)
-            for read in _read(cell.formula, place[0], named):
-                readers.setdefault(read, []).append(place)
+        from openpyxl.utils.cell import coordinate_to_tuple
+
+        from spreadsheets.foreign import Book, Position
+        from spreadsheets.recalculation import parse
+
+        cells = {(place[0], *coordinate_to_tuple(place[1])): place for place, _ in self.cells()}
+        names = {cell.name: "'{}'!{}".format(*place) for place, cell in self.cells() if cell.name}
+        book = Book(Path(), {sheet.name: {} for sheet in self.sheets}, names)
+        readers: dict[Position, list[Position]] = {}
+        waiting, inexact = list[Position](), set[Place]()
+        for position, place in cells.items():
+            if formula := self.cell(place).formula:
+                if re.search(r"LN\(|SIN\(|\^|ROUND\(", formula):
+                    waiting.append(position)
+                for area in parse(formula, position, book).areas:
+                    for read in area.places():
+                        readers.setdefault(read, []).append(position)
         while waiting:
-            if (place := waiting.pop()) not in inexact:
-                inexact.add(place)
-                waiting += readers.get(place, ())
+            position = waiting.pop()
+            if cells[position] not in inexact:
+                inexact.add(cells[position])
+                waiting += readers.get(position, ())
         return inexact
-
-
-_READ = re.compile(
-    r"(?:'([^']*)'!)?\$?\b([A-Z])\$?(\d+)\b(?::\$?([A-Z])\$?(\d+))?|\b([A-Za-z]\w*)\b(?!\()"
-)
-
-
-def _read(formula: str, sheet: str, named: Mapping[str, Place]) -> Iterator[Place]:
-    """The cells that a formula on this sheet reads."""
-    for match in _READ.finditer(re.sub(r'"[^"]*"', "", formula)):
-        on, column, row, last_column, last_row, name = match.groups()
-        if column:
-            columns = range(ord(column), ord(last_column or column) + 1)
-            for at, number in product(columns, range(int(row), int(last_row or row) + 1)):
-                yield on or sheet, f"{chr(at)}{number}"
-        elif name in named:
-            yield named[name]
 
 
 def place_of(text: str) -> Place:
