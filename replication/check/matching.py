@@ -7,6 +7,7 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
+from functools import cached_property
 from itertools import groupby, takewhile
 from operator import itemgetter
 from typing import TypeVar
@@ -198,14 +199,19 @@ class Shifts:
     """How far the rows (axis 0) and columns (axis 1) of each sheet moved, by the cells matched."""
 
     def __init__(self, where: Mapping[Position, Position]) -> None:
+        self.where = where
+
+    @cached_property
+    def lines(self) -> Mapping[tuple[str, str, int], list[tuple[int, int, int]]]:
+        """Of two sheets and an axis each line in order, and the least and the most it moved."""
         moved: dict[tuple[str, str, int], dict[int, set[int]]] = {}
-        for (sheet, *old), (partner, *new) in where.items():
+        for (sheet, *old), (partner, *new) in self.where.items():
             for axis in (0, 1):
-                lines = moved.setdefault((sheet, partner, axis), {0: {0}})
-                lines.setdefault(old[axis], set()).add(new[axis] - old[axis])
-        self.lines = {
-            key: sorted((line, min(by), max(by)) for line, by in lines.items())
-            for key, lines in moved.items()
+                by_line = moved.setdefault((sheet, partner, axis), {0: {0}})
+                by_line.setdefault(old[axis], set()).add(new[axis] - old[axis])
+        return {
+            key: sorted((line, min(by), max(by)) for line, by in by_line.items())
+            for key, by_line in moved.items()
         }
 
     def allow(self, old: Position, new: Position) -> bool:
