@@ -403,7 +403,7 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
     import pandas as pd
 
     index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
-    numbers = dict(inputs)
+    numbers, of_pandas = dict(inputs), _of("pandas", inputs)
     for name, value in inputs.items():
         if isinstance(value, pd.DataFrame):
             raise TypeError(f"{name} is a DataFrame: give its columns, each a Series")
@@ -414,7 +414,7 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
             if len(repeated) and not value.index.equals(index):
                 raise ValueError(f"{name} has more than one value for the label {repeated[0]}")
             numbers[name] = value.reindex(index).to_numpy()
-        elif name in _of("pandas", inputs):  # an Index, say
+        elif name in of_pandas:  # an Index, say
             numbers[name] = np.asarray(value)
     if index is None:
         return within(*numbers.values())
