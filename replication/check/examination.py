@@ -8,7 +8,7 @@ from typing import Any
 
 from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule
 from replication.check.table import Line, Table, address, span
-from replication.check.words import COLUMNS, count, scaled
+from replication.check.words import COLUMNS, count, power_of_ten, scaled
 from spreadsheets.foreign import Position, Value
 
 KINDS = (
@@ -165,6 +165,15 @@ class Examination:
     def final_depth(self) -> float | None:
         """The depth in the last row [m]."""
         return self.rows("depth", self.table.steps)
+
+    def power_shown(self, kind: str, value: float, k: int) -> int | None:
+        """The power of ten times which a value is the depth of row k, or its ratio to the radius.
+
+        None if it is not.
+        """
+        depth = self.rows("depth", k) or 0.0
+        over = self.case.radius if kind == "ratio" else 1.0
+        return power_of_ten(value * over / depth) if depth > 0 else None
 
     @property
     def ends(self) -> bool:

@@ -152,11 +152,10 @@ def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
     for place in masses:
         of_particle = unsaid & _read([place], calculation).keys()
         if len(of_particle) == 1 < len(unsaid):
+            whose = {p: "particle" if p in of_particle else "target" for p in unsaid}
             return [
-                replace(cell, roles=_DENSITIES - {"target_density"})
-                if cell.place in of_particle
-                else replace(cell, roles=_DENSITIES - {"particle_density"})
-                if cell.place in unsaid
+                replace(cell, roles=frozenset({f"{whose[cell.place]}_density"}))
+                if cell.place in whose
                 else cell
                 for cell in cells
             ]
@@ -348,9 +347,8 @@ def _settled(
     pi: float,
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
-    factors = _factors(table.calculation)
     choices = {
-        role: [_as_converted(cell, factors.get(cell.place, ())) for cell in cells]
+        role: [_as_converted(cell, table.calculation) for cell in cells]
         for role, cells in choices.items()
     }
     if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
@@ -384,21 +382,18 @@ def _settled(
     return examination
 
 
-def _factors(calculation: Calculation) -> dict[Position | None, list[float]]:
-    """The numbers by which formulas may convert a cell that they read: typed, or in other cells."""
-    factors: dict[Position | None, list[float]] = {}
+def _as_converted(cell: Input, calculation: Calculation) -> Input:
+    """An input in a unit such as ksi by the factor that formulas have, of four digits or more.
+
+    The factor is a number in a formula that reads the input, or in a cell that it reads, too.
+    """
+    if cell.place is None or power_of_ten(float(cell.factor)) is not None:
+        return cell
     for formula in calculation.formulas.values():
         cells = [area.corner for area in formula.areas if area.cells == 1][:FEW]
-        numbers = [*formula.literals, *filter(None, map(calculation.number, cells))]
-        for place in cells:
-            factors.setdefault(place, []).extend(numbers)
-    return factors
-
-
-def _as_converted(cell: Input, numbers: Iterable[float]) -> Input:
-    """An input in a unit such as ksi by the factor that formulas have, of four digits or more."""
-    if power_of_ten(float(cell.factor)) is None:
-        for number in numbers:
+        if cell.place not in cells:
+            continue
+        for number in (*formula.literals, *filter(None, map(calculation.number, cells))):
             power = _round(number / float(cell.factor))
             factor = Fraction(repr(number)) / Fraction(10) ** power if number > 0 else Fraction()
             if abs(factor / cell.factor - 1) < 1e-4:
@@ -423,7 +418,7 @@ def _examined(
     if "deceleration" in powers:
         named = unit_power(table.lines["deceleration"].unit) or 0
         tries.append((chosen, powers | {"deceleration": named}))
-    if "velocity" in chosen and (power := powers[_speed(table)]):
+    if "velocity" in chosen and (power := powers[table.speed]):
         entry, by = chosen["velocity"], Fraction(10) ** -power
         entry = replace(entry, si=scaled(entry.si, by), factor=entry.factor * by)
         in_si = {role: p if role == "time" else p - power for role, p in powers.items()}
@@ -484,7 +479,7 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     that contradict the fewest units named, then the fewest of these ties, then none at all, then
     those nearest to the report's numbers.
     """
-    report, speed = report_inputs(), _speed(table)
+    report, speed = report_inputs(), table.speed
     # What the step would be, and what a column would be, if all cells were in SI units.
     step, move = _usual(table, "time"), _usual(table, "depth", speed)
     brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
@@ -516,11 +511,6 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
         options.append(((against, untied, slower + faster), powers))
     return min(options, key=lambda option: option[0])[1]
-
-
-def _speed(table: Table) -> str:
-    """The velocity that its rows move by."""
-    return "velocity_initial" if "velocity_initial" in table.lines else "velocity_final"
 
 
 def _usual(table: Table, role: str, over: str | None = None, later: int = 0) -> float:
@@ -590,7 +580,7 @@ def _typed(calculation: Calculation) -> set[float]:
 
 def _step(table: Table, powers: Mapping[str, int]) -> float:
     """The step that the rows have taken, as the shortest decimal that they agree with."""
-    speed = _speed(table)
+    speed = table.speed
     step = _usual(table, "time") * 10.0 ** powers.get("time", 0)
     step = step or _usual(table, "depth", speed) * 10.0 ** (powers["depth"] - powers[speed])
     return _shortest(step, 1e-6) if 0 < step < math.inf else report_inputs()["step"][0]

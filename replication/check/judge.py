@@ -38,6 +38,7 @@ from replication.check.table import ROUNDED, Line, address
 from replication.check.words import (
     INPUTS,
     between_units,
+    digits_of,
     power_of_ten,
     quantity,
     scaled,
@@ -309,8 +310,7 @@ def _repeated(f: Examination, role: str, value: float, told: str) -> None:
     part, taken = "advance" if role == "step" else "brake", getattr(f.case, role)
     cells = f.cells(*f.rows.shows(part, 1))
     if role == "velocity":
-        speed = "velocity_initial" if "velocity_initial" in f.table.lines else "velocity_final"
-        cells = [f.table.place(speed, min(f.rows.columns[speed]))]
+        cells = [f.table.place(f.table.speed, min(f.rows.columns[f.table.speed]))]
     text = f"the rows take {quantity(taken, role)} for {title(role)}, "
     text += f"and so repeat another table; {told}"
     f.intended = f.intended.with_input(role, value)
@@ -388,7 +388,7 @@ def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[floa
             continue
         power = round(math.log10(number / constant))
         value = scaled(number, Fraction(10) ** -power)
-        digits = len(repr(value).partition("e")[0].replace(".", "").strip("0"))
+        digits, _ = digits_of(value)
         if digits >= 3 and value == float(f"{constant:.{digits - 1}e}"):
             yield value
 
@@ -677,15 +677,9 @@ def _stop(f: Examination) -> None:
     stop = f"the stop at {case.stop_velocity:g} m/s"
     text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
     if below is not None:
-        said = [result for result in f.table.results if result.where == "first"]
         guarded = f.calculation.book[f.table.place(role, below)].formula or ""
-        for k in () if "IF(" in guarded.upper() else (below, planned):
-            at_stop = rows("depth", k) or math.nan
-            wanted = {"depth": at_stop, "ratio": at_stop / case.radius}
-            numbers = ((r.kind, f.calculation.number(r.place)) for r in said)
-            if any(x and power_of_ten(x / wanted[kind]) is not None for kind, x in numbers):
-                _end_at(f, k)  # the final depth is looked up where the stop is, or should be
-                return
+        if "IF(" not in guarded.upper() and _end_as_shown(f, (below, planned)):
+            return
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
         f.add("other scheme", cells, None, text, change=OTHER_STOP)
@@ -711,12 +705,19 @@ def _stop(f: Examination) -> None:
         f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
 
 
-def _end_at(f: Examination, steps: int) -> None:
-    """Leave out the rows after this one, which were filled in to be enough: nothing shows them."""
-    f.table = replace(f.table, steps=steps)
-    columns = f.rows.columns.items()
-    kept = {role: {k: x for k, x in column.items() if k <= steps} for role, column in columns}
-    f.rows = replace(f.rows, columns=kept)
+def _end_as_shown(f: Examination, stops: Sequence[int]) -> bool:
+    """Whether a result shows one of these rows: then the rows after it are left out.
+
+    They were filled in to be enough, and the final depth is looked up where the stop is.
+    """
+    shown = [(r.kind, f.calculation.number(r.place)) for r in f.table.results if r.where == "first"]
+    for k in stops:
+        if any(x is not None and f.power_shown(kind, x, k) is not None for kind, x in shown):
+            columns = f.rows.columns.items()
+            kept = {role: {n: x for n, x in column.items() if n <= k} for role, column in columns}
+            f.table, f.rows = replace(f.table, steps=k), replace(f.rows, columns=kept)
+            return True
+    return False
 
 
 def stops_elsewhere(f: Examination) -> bool:

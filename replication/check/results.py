@@ -139,9 +139,8 @@ def _row_shown(f: Examination, kind: str, value: float) -> tuple[int | None, int
 
     No row where the cell is rounded, or computed otherwise.
     """
-    over = f.case.radius if kind == "ratio" else 1.0
-    for k, depth in sorted(f.rows.columns["depth"].items(), reverse=True):
-        if depth > 0 and (power := power_of_ten(value * over / depth)) is not None:
+    for k in sorted(f.rows.columns["depth"], reverse=True):
+        if (power := f.power_shown(kind, value, k)) is not None:
             return k, power
     return None, 0
 

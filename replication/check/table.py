@@ -10,14 +10,13 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from decimal import Decimal
 from functools import cached_property
 from itertools import groupby, pairwise, product, takewhile
 from statistics import median
 from typing import Literal, NamedTuple
 
 from reference.units import same_dimension
-from replication.check.words import COLUMNS, column_roles, is_unit, result_of, unit_in
+from replication.check.words import COLUMNS, column_roles, digits_of, is_unit, result_of, unit_in
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Area, Calculation, Formula
 
@@ -334,6 +333,11 @@ class Table:
         """The cell of a role in row k."""
         return self.lines[role].place(self.zero + k)
 
+    @property
+    def speed(self) -> str:
+        """The velocity that its rows move by."""
+        return "velocity_initial" if "velocity_initial" in self.lines else "velocity_final"
+
     def number(self, role: str, k: int) -> float | None:
         """What that cell holds."""
         return self.lines[role].at(self.zero + k) if role in self.lines else None
@@ -462,10 +466,9 @@ class Table:
         roundings = {}
         for role in self.lines:
             numbers = (self.number(role, k) for k in range(1, self.steps + 1))
-            parts = [Decimal(repr(x)).normalize().as_tuple() for x in numbers if x]
-            counts = sorted(len(number.digits) for number in parts)
-            digits = counts[len(counts) * 19 // 20] if counts else 17  # a few may have more
-            usual = (int(n.exponent) for n in parts if len(n.digits) <= digits)
+            parts = sorted(digits_of(x) for x in numbers if x)
+            digits = parts[len(parts) * 19 // 20][0] if parts else 17  # a few may have more
+            usual = (least for count, least in parts if count <= digits)
             roundings[role] = digits, min(usual, default=-300)
         return roundings
 

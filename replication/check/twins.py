@@ -5,7 +5,6 @@ one called beta or target resistance that of the report's other case, and no tab
 one table reads a cell that is not its own.
 """
 
-import math
 from collections.abc import Iterator, Sequence
 
 from replication.check.examination import Examination, Input, near
@@ -36,28 +35,36 @@ def meant(
                 alike.setdefault((source, f.case, f.rows("depth", 4)), []).append(number)
         for (source, *_), numbers in alike.items():
             f = tables[numbers[0]]
-            flow_stress = f.inputs.get("flow_stress")
-            stress = flow_stress.si if flow_stress else report_inputs()["flow_stress"][0]
             for cell, place in _idle(f, role, beside) if len(numbers) > 1 else ():
-                value = cell.si * (stress if cell.role == "beta" else 1.0)
+                value = cell.si
+                if cell.role == "beta":
+                    stress = f.inputs.get("flow_stress")
+                    value *= stress.si if stress else report_inputs()["flow_stress"][0]
                 # A resistance or a beta may be of another model, unless the report prints it.
-                printed = report_inputs()[role] if role == "resistance" else (value,)
-                # It belongs to the table to which it is nearest, compared with the cell that is
-                # read; of several to the last, which was copied from the first.
-                off = {
-                    number: _apart(place, tables[number].table)
-                    - _apart(source, tables[number].table)
-                    for number in reversed(numbers)
-                    if place[0] in (source[0], tables[number].table.sheet)
-                }
-                number = min(off, key=off.__getitem__, default=0)
-                is_own = off.get(number, math.inf) <= _BLOCK
-                is_meant = any(near(value, each) for each in printed)
-                if is_meant and is_own and not near(value, getattr(f.case, role)):
+                is_printed = any(near(value, each) for each in report_inputs()[role])
+                owner = _owner(place, source, {number: tables[number].table for number in numbers})
+                if owner is None or (role == "resistance" and not is_printed):
+                    continue
+                if not near(value, getattr(f.case, role)):
                     where = f"{address(place, True)}, {quantity(cell.si, cell.role)}"
                     says = f"{title(cell.role)} in {where}, is read by no table"
-                    told.setdefault(number, (role, value, says))
+                    told.setdefault(owner, (role, value, says))
     return told
+
+
+def _owner(place: Position, source: Position, tables: dict[int, Table]) -> int | None:
+    """The table by number to which an idle cell belongs, None if it is far from all.
+
+    It is the nearest, compared with the cell that is read, `source`; of several the last, which was
+    copied from the first.
+    """
+    off = {
+        number: _apart(place, table) - _apart(source, table)
+        for number, table in reversed(tables.items())
+        if place[0] in (source[0], table.sheet)
+    }
+    nearest = min(off, key=off.__getitem__, default=None)
+    return None if nearest is None or off[nearest] > _BLOCK else nearest
 
 
 def _apart(place: Position, table: Table) -> int:

@@ -10,6 +10,7 @@ import re
 import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable
+from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from importlib import resources
@@ -309,6 +310,16 @@ def scaled(value: float, factor: Fraction) -> float:
         return float(Fraction(repr(value)) * factor)
     except OverflowError:
         return math.copysign(math.inf, value)
+
+
+def digits_of(value: float) -> tuple[int, int]:
+    """How many digits a number has, as it was typed, and which power of ten the last one is.
+
+    >>> digits_of(0.0254), digits_of(3000.0)
+    ((3, -4), (1, 3))
+    """
+    number = Decimal(repr(value)).normalize().as_tuple()
+    return len(number.digits), int(number.exponent)
 
 
 def count(number: int, what: str) -> str:
