@@ -7,8 +7,9 @@ Whoever changes an answer of the program changes it there.
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,6 +29,16 @@ def kept(text: str, section: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("question", "answer"), cases)
 
 
+def calls(text: str, section: str, names: Mapping[str, Any]) -> Callable[[str, str], None]:
+    """A test that Python says the answers of a section, in which it knows these names."""
+
+    @kept(text, section)
+    def test(question: str, answer: str) -> None:
+        assert said(lambda: eval(question, dict(names))) == answer
+
+    return test
+
+
 def spelled(text: str) -> str:
     """A text with what stands in it many times, and no quotes around what begins with a blank."""
     text = re.sub(r"⟨(?:(\d+) )?(.*?)⟩", lambda many: int(many[1] or 1) * unescaped(many[2]), text)
@@ -38,7 +49,7 @@ def said(answer: Callable[[], object]) -> str:
     """An answer as text; or the one line that refuses to give it."""
     try:
         return str(answer())
-    except (ValueError, TypeError) as error:
+    except (ArithmeticError, TypeError, ValueError) as error:
         return f"refused: {error}"
 
 

@@ -1,4 +1,4 @@
-"""Printed text, and the exact interval of the values that print like it."""
+"""Printed text, the exact interval of the values that print like it, and its unit."""
 
 import decimal
 from fractions import Fraction as F
@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from kept import kept, said
 
 from reference.printed import Interval, Rounding, decimal_text, parse
+from reference.units import to_si, unit_dimension
 
 TENS = F(10)
 
@@ -25,6 +26,11 @@ def test_text_is_a_value_and_the_places_that_its_last_digit_may_have(
         return f"{decimal_text(printed.value)}, {places}, {printed.about()}"
 
     assert said(shown) == answer
+
+
+@kept("reference/kept.txt", "Units: the factor to SI, and what they measure")
+def test_factors_and_dimensions(question: str, answer: str) -> None:
+    assert said(lambda: f"{to_si(question)}, {unit_dimension(question)}") == answer
 
 
 # A value prints as the text if and only if it lies in the text's interval.
