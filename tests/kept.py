@@ -49,7 +49,7 @@ def said(answer: Callable[[], object]) -> str:
     """An answer as text; or the one line that refuses to give it."""
     try:
         return str(answer())
-    except (ArithmeticError, TypeError, ValueError) as error:
+    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
         return f"refused: {error}"
 
 

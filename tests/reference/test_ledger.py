@@ -1,20 +1,25 @@
-"""The report's ledger is complete, in place, and its entries fit together."""
+"""The report's ledger and findings are complete, in place, and their entries fit together."""
 
+import json
 import re
+import tomllib
 from collections import Counter
 from collections.abc import Iterable
-from fractions import Fraction as F
 from graphlib import TopologicalSorter
+from importlib import resources
 from typing import Any, get_args
 
 import msgspec
 import pytest
-from kept import kept
+from kept import calls, kept
+from msgspec.structs import replace
 
+from reference.findings import Assertion, filled
+from reference.findings import load as load_findings
 from reference.formulas import Condition
 from reference.ledger import Claim, Convention, Kind, load, shown
-from reference.printed import Rounding, place_of
-from reference.units import same_dimension
+from reference.printed import Rounding, parse, place_of
+from reference.units import same_dimension, to_si
 
 LEDGER = load()
 CLAIMS = list(LEDGER.claims.values())
@@ -122,41 +127,11 @@ def test_what_a_number_stands_for_as_an_input(question: str, answer: str) -> Non
     assert "; ".join(str(claim.as_input(convention)) for convention in CONVENTIONS) == answer
 
 
-def test_ranges_to_search_and_texts_to_show() -> None:
-    assert LEDGER.search("a1-initial-velocity")[:2] == (50, 3000)
-    assert LEDGER.search("inferred:target-density")[:2] == (1000, 23000)
-    assert LEDGER.search("mean-diameter")[:2] == (F(22, 10**7), F(22, 10**5))
-    assert LEDGER.search("initial-depth")[:2] == (-1, 1)
-    assert shown(r"10^{-3}") == "10⁻³"
-    with pytest.raises(ValueError, match="'coarse-step-remark' prints no number"):
-        LEDGER.value("coarse-step-remark")
-
-
-# Copies with a misprint
-
-
-def test_a_misprint_reaches_all_that_reads_the_number() -> None:
-    copy = LEDGER.misprint("observed-depth-ratio", "0.289")
-    assert copy.claims["observed-depth-ratio"].printed.value == F("0.289")
-    assert copy.claims["frank-zook-below-observed"].bound == F("0.289")
-    assert LEDGER.claims["frank-zook-below-observed"].bound == F("0.298")
-    assert LEDGER.misprint("cth-pressure", "6").claims["cth-pressure"].bound == 6
-    with pytest.raises(ValueError, match="cannot read"):
-        LEDGER.misprint("observed-depth-ratio", "deep")
-    with pytest.raises(KeyError):
-        LEDGER.misprint("no-such", "1")
-
-
-def test_a_misprinted_constant_is_in_its_equation_and_only_there() -> None:
-    copy = LEDGER.misprint("eq3-factor", "5/3")
-    assert copy.printed_text("eq3") == r"PV = 5/3 \pi R^3"
-    assert copy.sides["eq3"] == LEDGER.read(r"PV = 5/3 \pi R^3")
-    assert {k for k in LEDGER.sides if copy.sides[k] != LEDGER.sides[k]} == {"eq3"}
-    again = copy.misprint("eq3", r"PV = 4/3 \pi R^3")
-    assert again.sides == LEDGER.sides
-    unreadable = LEDGER.misprint("eq3", "PV = (")
-    assert unreadable.sides == LEDGER.sides
-    assert LEDGER.misprinted == {}
+test_what_single_calls_give = calls(
+    "reference/kept.txt",
+    "The ledger, and copies with a misprint, which leave it as it is",
+    {"LEDGER": LEDGER, "shown": shown, "place_of": place_of},
+)
 
 
 # How the entries of the files fit together
@@ -200,9 +175,82 @@ def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> Non
         assert LEDGER.claims.keys() >= set(slip.inputs.values())
 
 
-def test_a_misspelt_key_and_a_quote_that_is_not_there_once_are_refused() -> None:
+def test_a_misspelt_key_is_refused() -> None:
     with pytest.raises(msgspec.ValidationError, match="unknown field `reasons`"):
         msgspec.convert({"says": "any", "equals": "R", "reasons": "any"}, Condition)
-    for quote, times in (("is ⟦23⟧", 0), ("is ⟦22⟧", 2)):
-        with pytest.raises(ValueError, match=f"{times} times, not once"):
-            place_of("It is 22. It is 22 again.", quote)
+
+
+# The findings as asserted: their words, their numbers, and what they name
+
+RAW = tomllib.loads((resources.files("reference") / "report" / "findings.toml").read_text("utf-8"))
+TEXTS = {entry["id"]: entry for entry in RAW["finding"]}
+
+REFERENCE = re.compile(
+    r"""[Ee]q(?:uation|s?\.)\ \d+(?:\ (?:and|to)\ \d+)? | Table\ A-1 | \b304\b | ASTM\ A240
+    | (?:reference|[Ss]ection|[Ff]igure|[Rr]ow)\ \d+ | beta\ =\ [35]""",
+    re.VERBOSE,
+)
+"""What a digit may belong to: a place in the report, an alloy, a standard, the name of a case."""
+FORMULA = re.compile(
+    r"""\^\(?-?\d(?:/\d)?\)? | (?<=[(/])\d(?=[\ /)a-zA-Z]) | \d(?=/\d) | (?<=/)\d
+    | \d(?=\ [-+]\ | \ (?:k_t|R_t|rho_|ln)) | (?<=[a-z])_\d | d2x/dt2""",
+    re.VERBOSE,
+)
+"""Coefficients and powers of a formula in symbols."""
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_digit_is_evidence_printed_a_step_or_a_reference(name: str) -> None:
+    for key in ("title", "statement", "by_hand", "settle"):
+        text = " ".join(TEXTS[name].get(key, "").split())
+        for known in (r"`.*?`", r"\{.*?\}", r'".*?"', REFERENCE, FORMULA):
+            text = re.sub(known, "", text)
+        assert re.findall(r".{0,20}\d.{0,20}", text) == [], key
+
+
+def plain(text: str) -> str:
+    return re.sub(r"[\s$~]", "", text.replace("μ", "u").replace("- um", "-um")).lower()
+
+
+REPORT = plain(LEDGER.text)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_quotations_arithmetic_names_and_assertions_of_a_finding(name: str) -> None:
+    finding = load_findings()[name]
+    whole = " ".join((finding.title, finding.statement, finding.by_hand, finding.settle))
+    assert [said for said in re.findall(r'"(.*?)"', whole) if plain(said) not in REPORT] == []
+    assert [text for text, holds in finding.steps.items() if not holds] == []
+    assert not re.search("[{}`]", whole)
+    assert finding.settle or finding.kind == "headline"
+    assert LEDGER.claims.keys() | LEDGER.equations.keys() >= set(finding.claims)
+    for assertion in finding.evidence.values():
+        assert to_si(assertion.unit)
+        assert assertion.holds(parse("7.67").value) in (True, False)
+
+
+def test_no_finding_stands_there_twice() -> None:
+    assert len(load_findings()) == len(RAW["finding"]) == len(TEXTS)
+
+
+def test_numbers_are_put_into_texts_and_arithmetic_is_calculated_again() -> None:
+    evidence = {"depth": Assertion(says="7.67", unit="um", means="depth")}
+    statement = "It is {depth} um, printed {depth-beta-5} or {depth-beta-5:mm}, {copper-density}."
+    settle = "`2/3 * 3 = 2.1`, `ln(1 + 1) = 0.69`"
+    known = replace(
+        load_findings()["headline"], statement=statement, settle=settle, evidence=evidence
+    )
+    finding = filled(known)
+    assert finding.statement == "It is 7.67 um, printed 7.67 or 0.00767, 8.89."
+    assert finding.settle == "2/3 * 3 = 2.1, ln(1 + 1) = 0.69"
+    assert list(finding.steps.values()) == [False, True]
+    with pytest.raises(KeyError, match="width"):
+        filled(replace(known, statement="{width} um"))
+
+
+@kept("reference/kept.txt", "Assertions: a value that they allow; one that they do not")
+def test_an_assertion_can_fail(question: str, answer: str) -> None:
+    assertion = Assertion(says=question, means="meaning")
+    inside, outside = map(json.loads, answer.split("; "))
+    assert assertion.holds(inside)
+    assert not assertion.holds(outside)
