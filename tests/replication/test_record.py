@@ -17,8 +17,6 @@ from reference.ledger import load
 from reference.printed import parse
 from replication.audit.audit import audit
 from replication.audit.record import Figure, Record, filled, schema
-from replication.cases import BETA_5
-from replication.models.impact import Impact
 from replication.text import json_text
 
 LEDGER = load()
@@ -99,14 +97,6 @@ def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None
         alpha.computed, rel=1e-3
     )
     assert beta.by_hand is None
-
-
-# What is assumed where a user says nothing
-
-
-def test_defaults_of_the_model_are_the_reports() -> None:
-    bare = Impact(**BETA_5.motion)
-    assert (bare.step, bare.stop_velocity) == (BETA_5.step, BETA_5.stop_velocity)
 
 
 # The same bytes
