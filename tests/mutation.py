@@ -84,9 +84,7 @@ def tests_of(module: Path) -> list[Path]:
     name, mine = module_of(module), {module.stem, module.parent.name}
     importers = {module_of(path) for path in EVERY if name in ours(path)}
     files = sorted((ROOT / "tests").rglob("test_*.py"))
-    # `test_check_said.py` is one of the folder `check`, too.
-    about = {path: path.stem.removeprefix("test_") for path in files}
-    own = [path for path in files if {about[path], about[path].partition("_")[0]} & mine]
+    own = [path for path in files if path.stem.removeprefix("test_") in mine]
     near = [path for path in files if name in ours(path)]
     far = [path for path in files if importers & ours(path)]
     return list(dict.fromkeys([module, *own, *near, *far]))

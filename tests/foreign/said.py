@@ -2,7 +2,7 @@
 
     python tests/foreign/said.py > tests/foreign/said.txt
 
-makes the file anew that `tests/replication/test_check_said.py` compares; `cases.txt` has what is
+makes the file anew that `tests/replication/test_check.py` compares; `cases.txt` has what is
 changed in most of them. Whoever changes what the program says reads what that changes there, line
 by line, before keeping it. Numbers are shown with seven digits at most, so that no machine's last
 digits are in it.

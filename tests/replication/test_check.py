@@ -1,12 +1,13 @@
-"""`coldspray check` on single workbooks: what it takes for what, what it says, how it ends."""
+"""`coldspray check` and `diff`: what is taken for what, what is said, how well it is done."""
 
 import copy
 import json
+from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from foreign import writers
+from foreign import rates, said, writers
 from foreign.drawn import drawn
 from foreign.layouts import DEPTH, Foreign, made
 from hypothesis import HealthCheck, assume, example, given, settings
@@ -18,6 +19,8 @@ from workbooks import usable
 
 from replication.audit.record import Record
 from replication.cases import BETA_5
+from replication.check.diff import KINDS as KINDS_OF_DIFF
+from replication.check.diff import Tolerance
 from replication.check.examination import KINDS
 from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
 from replication.check.show import check_record, text
@@ -240,3 +243,84 @@ def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     except ValueError as error:
         message = str(error)
     assert not message or (str(path) in message and "\n" not in message)
+
+
+# What changed between two workbooks
+
+
+@pytest.mark.parametrize(
+    ("options", "kinds"),
+    [
+        ("", {"formula", "value"}),
+        ("--values-only", {"value"}),
+        ("--values-only --relative 1e-11", set()),
+        ("--values-only --digits 9", set()),
+        ("--values-only --digits 17", {"value"}),
+    ],
+)
+def test_options_say_what_is_compared(tmp_path: Path, options: str, kinds: set[str]) -> None:
+    paths = []
+    for name, formula in (("a.xlsx", "=2*B1"), ("b.xlsx", "=2*B1*(1+1E-14)")):
+        f = made("table-a1", BETA_5)
+        f.put("Sheet1", "B4", formula)
+        paths.append(writers.with_openpyxl(f, tmp_path / name))
+    status, out, err = coldspray("diff", *paths, "--json", *options.split())
+    assert (status, err) == (bool(kinds), "")
+    assert set(json.loads(out)["summary"]) == kinds
+
+
+def test_tolerances() -> None:
+    assert Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
+    assert not Tolerance(ulp=1).equal(1.0, 1.0 + 2**-51)
+    assert not Tolerance(digits=3).equal(7.664, 7.666)
+    assert Tolerance(digits=15).equal(10.037311494880546, 10.0373114948806)
+    assert not Tolerance(digits=15).equal(10.0373114948805, 10.0373114948806)
+
+
+def test_text_page_and_junit_are_those_of_check(tmp_path: Path) -> None:
+    f = made("french", BETA_5)
+    a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
+    f.put("Données", "C8", 450)
+    b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
+    page, junit = tmp_path / "d.html", tmp_path / "d.xml"
+    status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
+    assert status == 1
+    assert "Données!C8, value\n    was 500.0, is 450.0" in out
+    assert "c0-C8" in page.read_text("utf-8")
+    assert all(f'name="{kind}"' in junit.read_text("utf-8") for kind in KINDS_OF_DIFF)
+
+
+# What is said of some five hundred workbooks, against the file that a person read
+
+BEFORE = Path(said.__file__).with_suffix(".txt").read_text("utf-8")
+DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
+ROWS = {name: row for rows in rates.TABLES.values() for name, row in rows.items()}
+
+
+def test_the_file_has_every_section() -> None:
+    heads = [line[3:] for line in BEFORE.splitlines() if line.startswith("## ")]
+    assert heads == list(said.SECTIONS)
+
+
+@pytest.mark.parametrize("name", said.SECTIONS)
+def test_it_says_what_it_said(name: str) -> None:
+    head, _, rest = said.section(name).partition("\n")
+    before = BEFORE.partition(f"{head}\n")[2].partition("\n## ")[0]
+    assert rest.rstrip("\n").splitlines() == before.rstrip("\n").splitlines()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ROWS)
+def test_it_does_as_well_as_the_page_says(name: str, tmp_path: Path) -> None:
+    row: Callable[[Path], rates.Row] = ROWS[name]
+    if name.startswith("LibreOffice"):
+        usable("libreoffice")
+    line, missed = row(tmp_path)
+    assert not missed
+    assert line in DOCUMENT
+
+
+def test_the_corpus_is_as_large_as_the_page_says() -> None:
+    layouts = len(rates.workbooks("like Excel")) // 2
+    assert f"{layouts} by hand" in DOCUMENT
+    assert f"{len(rates.DRAWN)} drawn" in DOCUMENT

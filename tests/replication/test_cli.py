@@ -1,18 +1,25 @@
 """The command line as a user meets it: what it prints, where, and with which status."""
 
+from __future__ import annotations
+
 import csv
 import json
 import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from running import coldspray
+from workbooks import Fake, rewritten, stored
 
+from replication import workbook
 from replication.audit.record import schema
 from replication.cli import COMMANDS
+from spreadsheets.engines import Engine
 
 PROMISED = {
     "depth": ("inputs depth normalized_depth beyond_radius", {}),
@@ -146,3 +153,120 @@ def test_the_status_holds_where_nobody_can_be_told(arguments: tuple[str, ...]) -
     with Path("/dev/full").open("w") as full:
         command = [sys.executable, "-m", "replication", *arguments]
         assert subprocess.run(command, stderr=full, check=False).returncode == 2
+
+
+# `coldspray workbook`: what it writes, refuses and says, and a status that can be trusted
+
+Run = Callable[..., tuple[int, str, str]]
+OWN = ("--step", "1 ns")
+"""A case of one's own takes no audit and few rows."""
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: coldspray("workbook", *arguments)
+
+
+# Files
+
+
+def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "workbook.xlsx"
+    assert run(*OWN)[:2] == (0, "Written: workbook.xlsx\n")
+    first = path.read_bytes()
+    assert run("--step", "2 ns")[0] == 0  # its own, though of another case
+    assert path.read_bytes() != first
+    whole = path.read_bytes()
+    assert rewritten(whole, lambda _, part: part) == whole  # packed alike: the seal must tell
+    for content in (
+        rewritten(whole, lambda _, part: part.replace(b"<v>2.0</v>", b"<v>2.1</v>")),
+        rewritten(whole, lambda _, part: part.replace(b'width="5.7', b'width="6.7')),
+        rewritten(whole, lambda _, part: part.replace(b"coldspray-sha256", b"coldspray-sha257")),
+        whole + b"\0",
+        whole[: len(whole) // 2],
+        b"notes",
+        b"",
+    ):
+        assert content != whole
+        path.write_bytes(content)
+        for more in ((), ("--verify",)):
+            status, out, err = run(*OWN, *more)
+            assert (status, out) == (2, "")
+            assert "workbook.xlsx: this file is not as coldspray wrote it" in err
+            assert err.count("\n") == 1
+            assert path.read_bytes() == content
+    assert run(*OWN, "--force")[0] == 0
+    assert path.read_bytes() == first
+
+
+def test_a_longer_sheet_as_the_sheet_advises(run: Run, tmp_path: Path) -> None:
+    run(*OWN, "--beta", "4")
+    cells = stored(tmp_path / "workbook.xlsx")["Sheet beta 4"]
+    said = " ".join(str(cells.get(f"A{row}", "")) for row in range(4, 8)).strip()
+    assert said.endswith("prepares N, up to 20000, with the same options and --rows N.")
+    assert run(*OWN, "--beta", "4", "--rows", "300", "-o", "longer.xlsx")[0] == 0
+    longer = tmp_path / "longer.xlsx"
+    assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 300 * 7
+    depth = workbook.build(workbook.BETA_5).plan.where["case.depth_um"][1]
+    assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
+
+
+# Verification
+
+
+def deeper(sheet: str, address: str, value: Any) -> Any:
+    """What an engine says that adds to the depths, column D of the sheet."""
+    depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
+    return value + 1e-12 if depth else value
+
+
+@pytest.fixture
+def check(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Return a function that verifies in other engines than those of this machine."""
+
+    def command(engines: list[Engine], *options: str) -> tuple[int, str, str]:
+        monkeypatch.setattr("spreadsheets.engines.ENGINES", tuple(engines))
+        return run("--verify", *OWN, *options)
+
+    return command
+
+
+def test_a_workbook_verifies_in_every_engine(run: Run) -> None:
+    """The report's own is verified cell by cell in `tests/spreadsheets/test_workbook.py`."""
+    unverified = json.loads(run("--json", "-o", "report.xlsx")[1])
+    assert unverified["file"] == "report.xlsx"
+    assert (unverified["passed"], unverified["engines"]) == (None, [])
+    assert any("reverses the velocity" in warning for warning in unverified["warnings"])
+    status, out, _ = run("--verify", "--json", *OWN)
+    record = json.loads(out)
+    assert (status, record["passed"]) == (0, True)
+    assert 1e-15 < record["long_double_bound"] < 1e-12
+    outcomes = {result["engine"]: result["outcome"] for result in record["engines"]}
+    assert list(outcomes) == ["ironcalc", "formualizer", "libreoffice", "gnumeric"]
+    assert outcomes["ironcalc"] == outcomes["formualizer"] == "verified"
+    for result in record["engines"]:
+        assert result["wrong"] == []
+        assert result["outcome"] == "missing" or result["cells"] > 1000
+
+
+def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(check: Run) -> None:
+    right, absent, echo = Fake(), Fake(reason="Absent: install it."), Fake(told=lambda *_: 41.0)
+    status, out, err = check([right, absent])
+    assert (status, err) == (0, "")
+    assert out.startswith("Written: workbook.xlsx\n\nengine ")
+    assert re.search(r"^fake 1\.0 +verified +\d\.\d\d +\d{4} +\d+ +0$", out, re.M)
+    assert "\nfake: Absent: install it.\n" in out
+    assert out.endswith("1 of 1 engines on this machine give the values of the workbook\n")
+    status, out, _ = check([Fake(deeper), echo, right])
+    assert status == 1
+    assert re.search(r"^fake 1\.0 +differs ", out, re.M)
+    assert re.search(r"^fake: Sheet beta 5!D\d+: expected \S+, found \S+$", out, re.M)
+    assert re.search(r"^fake: and \d+ more$", out, re.M)
+    assert "fake: It verifies nothing" in out
+    assert "1 of 3 engines on this machine" in out
+    status, out, _ = check([Fake(deeper)], "--json")
+    (result,) = json.loads(out)["engines"]
+    assert (status, len(result["wrong"]) > 20) == (1, True)
+    assert set(result["wrong"][0]) == {"sheet", "cell", "expected", "found"}
+    assert check([echo], "--quiet") == (1, "", "")

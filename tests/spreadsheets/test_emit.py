@@ -1,7 +1,4 @@
-"""The file itself: types and parts; what no file can hold is refused.
-
-That it holds every value with all digits is in `test_workbook.py`.
-"""
+"""The workbook's plan and its file: formulas, printed texts, addresses, layout, parts."""
 
 from __future__ import annotations
 
@@ -10,14 +7,313 @@ import os
 import re
 import signal
 import zipfile
+from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 from openpyxl import load_workbook
 
+from reference.ledger import Ledger, load
+from reference.printed import parse
+from reference.units import written
+from replication.audit.audit import audit
+from replication.cases import BETA_5
+from replication.workbook import Workbook, build
 from spreadsheets import emit, safely
-from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan
+from spreadsheets.cases import MAX_ROWS, prepared_rows
+from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, place_of, tables
+from spreadsheets.sheets import AS_PRINTED, OTHERWISE
+
+# The plan
+
+LEDGER = load()
+RECORD = audit()
+BOOKS = {scheme: build(scheme=scheme, record=RECORD) for scheme in ("published", "centered")}
+BOOK = BOOKS["published"]
+PLAN = BOOK.plan
+SHEETS = {sheet.name: sheet for sheet in PLAN.sheets}
+FORMULAS = {place: cell.formula for place, cell in PLAN.cells() if cell.formula}
+OWN = build(replace(BETA_5, velocity=600.0))
+
+# Formulas
+
+FUNCTIONS = {
+    "ABS", "ASIN", "COUNT", "COUNTIF", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX", "MIN",
+    "ROUND", "ROW", "SIN", "SQRT",
+}  # fmt: skip
+"""All of Excel 2010 and older, and the same in every engine; none is volatile."""
+
+MATHEMATICAL = {
+    "0", "0.5", "1", "2", "3", "4", "6", "7", "21", "0.00000001", "1000000", "1000000000",
+    "1000000000000",
+}  # fmt: skip
+"""Numbers of the equations as printed (1/2, 4/3, 7/3), of counting, and of unit prefixes."""
+
+
+def test_formulas_are_ones_that_every_program_reads() -> None:
+    """Known functions and names, no physical number, no power but Eq. 11's root, no long text."""
+    names = {cell.name for _, cell in PLAN.cells() if cell.name}
+    counted = {str(n) for n in range(1, 12)}  # COUNT(...)=n
+    for place, formula in FORMULAS.items():
+        bare = re.sub(r'"[^"]*"|\'[^\']*\'!', "", formula)
+        bare = re.sub(r"\$?\b[A-Z]{1,2}\$?\d+\b", "", bare)
+        assert set(re.findall(r"([A-Z]+)\(", bare)) <= FUNCTIONS, place
+        assert set(re.findall(r"\b[A-Za-z]\w*\b(?!\()", bare)) <= names, place
+        numbers = re.sub(r"[A-Za-z]\w*", "", re.sub(r"COUNT\([^)]*\)=\d+", "", bare))
+        assert set(re.findall(r"[\d.]+", numbers)) <= MATHEMATICAL | counted, (place, formula)
+        assert len(formula) < 8192
+        assert all(len(text) < 256 for text in re.findall(r'"([^"]*)"', formula))
+    assert [p for p, f in FORMULAS.items() if "^" in f] == [PLAN.where["resistance.alpha"]]
+    assert not [name for name in SHEETS if re.search(r"[,'\[\]:*?/\\]", name) or len(name) > 31]
+
+
+def test_cells_whose_last_digits_depend_on_the_program_are_found() -> None:
+    """By way of cells, names, ranges and other sheets; rows of the scheme are not among them."""
+    keys = {PLAN.cell(place).key for place in PLAN.inexact}
+    shown = {f"audit.{name}.computed" for name in ("observed-depth", "frank-zook-rha")}
+    assert keys > shown | {"figure_5.depth_um[20]", "crater.least.ratio", "high.over_stop"}
+    assert not [key for key in keys if ".row." in key]
+
+
+# Printed texts
+
+
+def own(cell: Cell, ledger: Ledger) -> bool:
+    """Whether what a cell shows is its claim's text, with or without its unit, or its number."""
+    claim = ledger.claims[cell.claim]
+    if cell.number is None:
+        return cell.text in (claim.shown, f"{claim.shown} {written(claim.unit)}".rstrip())
+    interval = claim.interval()
+    assert claim.printed is not None
+    ends = [None if end is None else float(end) for end in (interval.lower, interval.upper)]
+    return cell.number in (*ends, float(claim.printed.value))
+
+
+def test_what_the_workbook_calls_printed_is_its_claims_text() -> None:
+    shown = Counter()
+    for book in (*BOOKS.values(), OWN):
+        for place, cell in book.plan.cells():
+            assert bool(cell.claim) == (cell.style == "printed") or cell.number is not None, place
+            if cell.claim:
+                assert own(cell, LEDGER), place
+                shown[cell.claim] += 1
+    assert set(shown) == set(LEDGER.claims)
+
+
+def shown_as_printed(ledger: Ledger) -> list[Any]:
+    """The cells that show a claim, and the report's numbers of the inputs."""
+    plan = build(ledger=ledger, record=RECORD).plan
+    report = [cell for (sheet, at), cell in plan.cells() if sheet == "Inputs" and at[0] == "H"]
+    return [cell for _, cell in plan.cells() if cell.claim] + report
+
+
+MISPRINTS = {
+    "depth-beta-5": "7.66", "copper-yield": "91", "particle-volume": "5576",
+    "figure-5-velocity-least": "410", "frank-zook-rha": "0.279", "a1-mass": "4.97E-11",
+    "particle-size-greatest": "31", "walker-anderson-alpha": "8.6",
+}  # fmt: skip
+
+
+def test_a_changed_claim_changes_the_workbook() -> None:
+    ledger = LEDGER
+    for name, text in MISPRINTS.items():
+        ledger = ledger.misprint(name, text)
+    pairs = zip(shown_as_printed(LEDGER), shown_as_printed(ledger), strict=True)
+    changed = [after for before, after in pairs if before != after]
+    assert {cell.claim for cell in changed} - {""} == set(MISPRINTS)
+    numbers = {float(parse(text).value) for text in MISPRINTS.values()}
+    for cell in changed:
+        assert own(cell, ledger) if cell.claim else cell.number in numbers
+
+
+# Addresses
+
+
+THROUGH_PRINT = {
+    "ratio-beta-3", "ratio-beta-5", "excess", "beta-range-least", "beta-range-greatest",
+}  # fmt: skip
+"""Claims that the audit computes from other results as printed, and the workbook from theirs."""
+
+
+def test_each_address_in_the_ledger_computes_its_claim() -> None:
+    """In its unit; its value prints as the claim does exactly where the audit says so."""
+    addressed = [claim for claim in LEDGER.claims.values() if claim.workbook]
+    assert len(addressed) > 50
+    for claim in addressed:
+        place = place_of(str(claim.workbook))
+        cell = SHEETS[place[0]].cells[place[1]]
+        value = BOOK.values[cell.key]
+        assert cell.formula
+        assert cell.unit == claim.unit, claim.id
+        record = RECORD.claim(claim.id)
+        fails = record.verdict == "not reproduced"
+        assert BOOK.values[f"audit.{claim.id}.verdict"] == (OTHERWISE if fails else AS_PRINTED)
+        if record.computed is not None and claim.id not in THROUGH_PRINT:
+            assert value == pytest.approx(record.computed, rel=1e-9), claim.id
+
+
+def test_a_wrong_address_is_refused() -> None:
+    moved = [
+        msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
+        if claim.id == "depth-beta-5"
+        else claim
+        for claim in LEDGER.claim
+    ]
+    wrong = msgspec.structs.replace(LEDGER, claim=moved)
+    with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
+        build(ledger=wrong, record=RECORD)
+
+
+def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
+    for claim in LEDGER.claims.values():
+        if claim.workbook and claim.by_scheme:
+            values = BOOKS["centered"].values
+            assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
+    cells = dict(BOOKS["centered"].plan.cells())
+    assert "centered" in cells["Overview", "A2"].text
+    told = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
+    by_scheme = [claim.by_scheme for claim in LEDGER.claims.values()]
+    assert [text.startswith("With the published scheme: ") for text in told[1:]] == by_scheme
+
+
+def test_each_number_of_table_a1_prints_as_it_does_in_the_report() -> None:
+    claims = [claim for claim in LEDGER.claims.values() if claim.place.cell]
+    assert len(claims) == 30
+    for claim in claims:
+        cell = SHEETS["Table A-1"].cells[str(claim.place.cell)]
+        value, scientific = BOOK.values[cell.key], cell.shown == "0.00E+00"
+        assert (f"{value:.2E}" if scientific else f"{value:g}".upper()) == claim.text
+        assert abs(float(BOOK.values[f"table_check.{claim.place.cell}.difference"])) <= 0.5
+    for address in LEDGER.blank:
+        cell = SHEETS["Table A-1"].cells.get(address, Cell())
+        assert (cell.text, cell.key, cell.number) == ("", "", None)
+
+
+# What the front sheet tells
+
+
+def test_the_front_sheet_tells_what_holds_and_links_to_it() -> None:
+    front = SHEETS["Overview"]
+    words = " ".join(cell.text for cell in front.cells.values())
+    assert RECORD.headline in words
+    for claim in RECORD.claims:
+        if claim.verdict in ("not reproduced", "inconsistent"):
+            assert claim.title in words
+            assert claim.explanation.split(".")[0] in words
+    links = {cell.text: address for address, cell in front.cells.items() if cell.link}
+    for verdict, count in RECORD.summary.items():
+        if count:
+            assert front.cells[f"B{links[verdict][1:]}"].number == count
+    assert set(SHEETS) - {"Overview"} <= set(links)
+    assert "Written by coldspray" in words
+    rows = range(12, 12 + len(LEDGER.claims))
+    assert [SHEETS["Audit"].cells[f"A{row}"].text for row in rows] == [*LEDGER.claims]
+    assert SHEETS["Audit"].filtered == f"A11:L{rows[-1]}"
+    cells = dict(PLAN.cells())
+    assert all(cell.link in cells for cell in cells.values() if cell.link)
+    for name, sheet in SHEETS.items():
+        links = [cell.link for cell in sheet.cells.values() if cell.link]
+        assert name == "Overview" or ("Overview", "A1") in links
+
+
+def test_an_own_workbook_leaves_out_what_is_about_the_report() -> None:
+    about_report = {
+        "Table A-1 check", "Sheet beta 3", "Sheet beta 3 coarse", "Sheet beta 5 coarse", "Audit",
+    }  # fmt: skip
+    assert len(SHEETS) == 15
+    assert [s.name for s in OWN.plan.sheets] == [
+        name for name in SHEETS if name not in about_report
+    ]
+    printed = {cell.claim for (s, _), cell in OWN.plan.cells() if s in ("Overview", "Sheet beta 5")}
+    assert printed == {"", "excess"}
+    claims = {cell.claim for _, cell in build(BETA_5).plan.cells()}
+    assert {"depth-beta-5", "ratio-beta-5"} <= claims
+    given = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
+    assert not {"inputs.beta", "inputs.Y_t"} & build(given).values.keys()
+
+
+# Layout
+
+
+def width(sheet: SheetPlan, first: str, last: str) -> int:
+    """Pixels of columns at 100 %, the default width for those without one."""
+    columns = map(chr, range(ord(first), ord(last) + 1))
+    return sum(int(sheet.widths.get(column, 8.43) * 7 + 5) for column in columns)
+
+
+@pytest.mark.parametrize("book", [*BOOKS.values(), OWN], ids=[*BOOKS, "own"])
+def test_printed_type_is_at_least_8_points(book: Workbook) -> None:
+    """10 points, on 10.4 inches of 96 pixels."""
+    for sheet in book.plan.sheets:
+        columns = re.findall("[A-Z]+", sheet.print_area or " ".join(sheet.cells))
+        assert 10 * 10.4 * 96 / width(sheet, min(columns), max(columns)) >= 8, sheet.name
+
+
+def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
+    """1366 pixels, less the row numbers and the scroll bar."""
+    for name, head in (
+        ("Audit", "The audit’s verdict"),
+        ("Inputs", "Check"),
+        ("Table A-1 check", "Difference"),
+        ("Overview", "State of the run"),
+    ):
+        heads = [at for at, cell in SHEETS[name].cells.items() if cell.text == head]
+        assert width(SHEETS[name], "A", heads[0][0]) <= 1366 - 60, name
+
+
+def test_charts_are_told_in_words_and_by_more_than_color() -> None:
+    looks = tables()["curves"]
+    assert len({look["dash"] for look in looks}) == len({look["marker"] for look in looks}) == 2
+    for name, words in (
+        ("Figure 3", "β = 3 reaches 10.03 µm after 35.6 ns, β = 5 reaches 7.67 µm after 26.2 ns"),
+        ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
+        ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
+    ):
+        page = SHEETS[name]
+        assert words in page.description(BOOK.values)
+        assert all("[" in page.entry["chart"][axis] for axis in ("x_title", "y_title"))
+        for (sheet, at), _, _ in page.curves:
+            assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
+        for cells in (cells for _, *xy in page.curves for cells in xy):
+            first, last = cells.split(":")
+            rows = range(int(first[1:]), int(last[1:]) + 1)
+            assert all(isinstance(BOOK.cells[name][f"{first[0]}{row}"], float) for row in rows)
+
+
+# Inputs
+
+
+def test_rows_are_prepared_with_a_reserve() -> None:
+    for steps in (0, 1, 99, 100, 131, 178, 9000):
+        assert prepared_rows(steps) >= max(2 * steps, steps + 100)
+    with pytest.raises(ValueError, match="take a larger step"):
+        prepared_rows(MAX_ROWS + 1)
+
+
+@pytest.mark.parametrize("book", [*BOOKS.values(), OWN], ids=[*BOOKS, "own"])
+def test_no_key_and_no_name_stands_twice(book: Workbook) -> None:
+    """Excel takes names that differ only in case as the same."""
+    for things in ("key", "name"):
+        words = [getattr(cell, things).casefold() for _, cell in book.plan.cells()]
+        assert max(Counter(filter(None, words)).values()) == 1
+
+
+def test_inputs_stand_apart_and_refuse_what_is_a_factor_of_a_million_off() -> None:
+    """In the column to type into, there is nothing else: pasting into it breaks no formula."""
+    for address, cell in SHEETS["Inputs"].cells.items():
+        if address[0] == "C" and int(address[1:]) > 9:
+            assert cell.limits
+            assert not cell.formula
+            factor = {"um": 1e-6, "ns": 1e-9, "MPa": 1e6, "GPa": 1e9}.get(cell.unit, -1.0)
+            (least, most), number = cell.limits, BOOK.values[cell.key]
+            assert least <= number <= most, cell.key
+            assert not least <= number * factor <= most, cell.key
+
+
+# The file; that it holds every value with all digits is in `test_workbook.py`
 
 
 def plan_of(**cells: Cell) -> WorkbookPlan:
