@@ -171,6 +171,7 @@ def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> Non
         assert all(same_dimension(LEDGER.unit(name), source.unit) for name in source.claims)
     for slip in LEDGER.slip:
         assert slip.equation in LEDGER.equations
+        assert slip.reason
         assert slip.text is None or LEDGER.read(slip.text)
         assert LEDGER.claims.keys() >= set(slip.inputs.values())
 
