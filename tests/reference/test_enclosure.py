@@ -221,6 +221,6 @@ def test_several_constraints_together() -> None:
 
 test_what_single_searches_find = calls(
     "reference/kept.txt",
-    "Searches over boxes",
+    "Searches over boxes, and intervals",
     vars(enclosure) | {"F": F, **FUNCTIONS, "root": lambda ar, x: ar.power(x, F(1, 3)) ** 3},
 )

@@ -13,11 +13,9 @@ from kept import kept, said
 from reference.arithmetic import Floats, Rationals
 from reference.equations import (
     MATHML,
-    EquationError,
     Node,
     dimension,
     evaluate,
-    read_equation,
     read_expression,
     rendered,
 )
@@ -78,12 +76,6 @@ def test_what_is_read_and_where_brackets_stand(question: str, answer: str) -> No
     assert said(shown) == answer
 
 
-def test_an_equation_has_sides() -> None:
-    with pytest.raises(EquationError, match="no equals sign"):
-        read_equation("a + b", LETTERS)
-    assert [side.name for side in read_equation("a = b = a,", LETTERS)] == ["a", "b", "a"]
-
-
 @st.composite
 def trees(draw: st.DrawFn, depth: int = 4) -> Node:
     kinds = ["number", "symbol"] + ["sum", "product", "quotient", "negative", "power"] * (depth > 0)
@@ -112,15 +104,6 @@ def test_any_expression_reads_back_as_it_is_shown(tree: Node) -> None:
         return
     assert evaluate(again, Rationals(), at) == expected
     ET.fromstring(rendered(tree, names, MATHML))
-
-
-def test_a_number_is_replaced_where_it_is_written() -> None:
-    for claim, expected in (
-        ("eq11-numerator", r"\alpha = (\frac{5}{2}E_t/3Y_t)^{1/3}"),
-        ("eq11-power", r"\alpha = (2E_t/3Y_t)^{\frac{5}{2}}"),
-    ):
-        assert claim in LEDGER.constants_of("eq11")
-        assert LEDGER.printed_text("eq11", {claim: F(5, 2)}) == expected
 
 
 @kept("reference/kept.txt", "Expressions: what they measure")

@@ -5,6 +5,7 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Iterable
+from fractions import Fraction as F
 from graphlib import TopologicalSorter
 from importlib import resources
 from typing import Any, get_args
@@ -130,7 +131,7 @@ def test_what_a_number_stands_for_as_an_input(question: str, answer: str) -> Non
 test_what_single_calls_give = calls(
     "reference/kept.txt",
     "The ledger, and copies with a misprint, which leave it as it is",
-    {"LEDGER": LEDGER, "shown": shown, "place_of": place_of},
+    {"F": F, "LEDGER": LEDGER, "shown": shown, "place_of": place_of},
 )
 
 

@@ -4,7 +4,6 @@ import decimal
 from fractions import Fraction as F
 from itertools import pairwise
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kept import kept, said
@@ -114,14 +113,6 @@ def test_intervals_against_their_members(first: Interval, two: Interval, a: F, b
     assert first.meets(two) == two.meets(first)
     assert first.scaled(F(3)).contains(3 * a) == first.contains(a)
     assert first.is_point == (sum(map(first.contains, BETWEEN)) == 1)
-
-
-def test_an_empty_interval_and_a_missing_end_are_refused() -> None:
-    for ends in ((F(2), F(1)), (F(1), F(1), False), (F(1), F(1), True, False)):
-        with pytest.raises(ValueError, match="is empty"):
-            Interval(*ends)
-    with pytest.raises(ValueError, match="no end on one side"):
-        _ = Interval(None, F(1)).ends
 
 
 @given(st.fractions(max_denominator=10**6), st.integers(-40, 40))

@@ -48,13 +48,6 @@ def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -
     assert result["levels"][-1]["time_step_order"] == pytest.approx(SCHEMES[scheme].order, abs=0.02)
 
 
-def test_without_drag_the_published_scheme_is_second_order() -> None:
-    """Why it is first order: only the drag depends on the velocity that it takes too early."""
-    dragless = replace(BETA_5, target_density=1e-6)
-    result = ladder.converge(dragless, ladder.ladder(1e-10, 6))
-    assert result["levels"][-1]["time_step_order"] == pytest.approx(2, abs=0.05)
-
-
 @pytest.mark.parametrize(
     ("order", "ratio", "assumed", "gci"),
     [

@@ -25,7 +25,7 @@ from replication import report
 from replication import text as texts
 from replication.audit.record import Record
 from replication.audit.verdict import Verdict
-from replication.report import check, contents, page, write
+from replication.report import contents, page
 from replication.report.figures import draw
 from replication.report.words import Named, Prose
 
@@ -179,15 +179,6 @@ def test_every_claim_is_a_line_of_the_csv_with_all_digits(
         if claim.enclosure:
             ends = row["enclosure_lower"], row["enclosure_upper"]
             assert ends == tuple(map(repr, claim.enclosure))
-
-
-def test_what_cannot_be_written_leaves_nothing(record: Record, tmp_path: Path) -> None:
-    (tmp_path / "figures").write_text("in the way")
-    with pytest.raises(OSError, match="figures"):
-        write(record, tmp_path, BESIDE)
-    assert [path.name for path in tmp_path.iterdir()] == ["figures"]
-    with pytest.raises(NotADirectoryError, match="give a folder"):
-        check(tmp_path / "figures" / "deeper")
 
 
 # The terminal

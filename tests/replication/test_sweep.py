@@ -206,19 +206,6 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             }
 
 
-def test_the_size_does_not_matter_but_to_the_sheet() -> None:
-    cases = all_of(read_plan(EXAMPLES / "size-independence.toml"))
-    sheet = cases["sheet_depth"] / cases["radius"]
-    for beta in (3.0, 5.0):
-        of = cases["beta"] == beta
-        assert len(set(cases["normalized_depth"][of])) == 1
-        # At 1 um the impact takes some 17 rows of 0.2 ns, at 100 um a hundred times as many; the
-        # scheme is of first order.
-        errors = abs(sheet / cases["normalized_depth"] - 1)[of]
-        assert errors[0] > 5e-3
-        assert errors[-1] < 1e-4
-
-
 def test_every_way_to_write_an_input_is_one(tmp_path: Path) -> None:
     manual = (EXAMPLES / "README.md").read_text("utf-8")
     ways = re.findall(r"^\| `(.+?)` \|", manual.partition("optional table")[0], re.MULTILINE)

@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 import pytest
+from kept import calls
 from openpyxl import load_workbook
 
 from reference.ledger import Ledger, load
@@ -23,7 +24,7 @@ from replication.audit.audit import audit
 from replication.cases import BETA_5
 from replication.workbook import Workbook, build
 from spreadsheets import emit, safely
-from spreadsheets.cases import MAX_ROWS, prepared_rows
+from spreadsheets.cases import prepared_rows
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, place_of, tables
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 
@@ -286,13 +287,6 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
 # Inputs
 
 
-def test_rows_are_prepared_with_a_reserve() -> None:
-    for steps in (0, 1, 99, 100, 131, 178, 9000):
-        assert prepared_rows(steps) >= max(2 * steps, steps + 100)
-    with pytest.raises(ValueError, match="take a larger step"):
-        prepared_rows(MAX_ROWS + 1)
-
-
 @pytest.mark.parametrize("book", [*BOOKS.values(), OWN], ids=[*BOOKS, "own"])
 def test_no_key_and_no_name_stands_twice(book: Workbook) -> None:
     """Excel takes names that differ only in case as the same."""
@@ -332,17 +326,11 @@ def test_empty_text_and_truth_have_their_types() -> None:
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("value", [float("inf"), float("-inf"), float("nan")])
-@pytest.mark.parametrize("formula", ["", "=1+1"])
-def test_a_number_that_no_cell_can_hold_is_refused(value: float, formula: str) -> None:
-    with pytest.raises(ValueError, match=r"k \(S!A1\) is"):
-        emit.to_bytes(plan_of(A1=Cell(key="k", formula=formula)), {"k": value})
-
-
-def test_missing_and_surplus_values_are_refused() -> None:
-    for values, said in (({}, "1 missing value.* 'k'"), ({"k": 1.0, "z": 2.0}, "1 surplus.* 'z'")):
-        with pytest.raises(ValueError, match=said):
-            emit.to_bytes(plan_of(A1=Cell(key="k")), values)
+test_rows_to_prepare_and_what_no_file_is_made_of = calls(
+    "spreadsheets/kept.txt",
+    "Rows to prepare, and what no file is made of",
+    {"to_bytes": emit.to_bytes, "plan_of": plan_of, "Cell": Cell, "prepared_rows": prepared_rows},
+)
 
 
 @pytest.mark.filterwarnings("ignore:Name looks like a cell name")
