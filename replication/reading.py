@@ -63,7 +63,7 @@ def place(name: str) -> Iterator[None]:
     >>> with place("--step"):
     ...     read_number("x", "s")
     Traceback (most recent call last):
-    ValueError: --step: 'x' is no finite number with or without a unit, such as '1 s'
+    ValueError: --step: 'x' is not a finite number with or without a unit, such as '1 s'
     """
     try:
         yield
@@ -87,9 +87,9 @@ def parse_toml(content: bytes) -> dict[str, Any]:
         # Notepad and others put a byte order mark before it.
         return tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise ValueError("is no TOML file: it is not UTF-8 text") from error
+        raise ValueError("is not a TOML file: it is not UTF-8 text") from error
     except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"is no TOML file: {one_line(str(error), 200)}") from error
+        raise ValueError(f"is not a TOML file: {one_line(str(error), 200)}") from error
     except RecursionError as error:
         raise ValueError("is nested too deep") from error
     except ValueError as error:
@@ -111,7 +111,7 @@ def tables_of(
         document = parse_toml(content)
         for name, table in document.items():
             if not isinstance(table, dict):
-                raise ValueError(f"{quoted(name)} is no table: begin with a line [{wanted[0]}]")
+                raise ValueError(f"{quoted(name)} is not a table: begin with a line [{wanted[0]}]")
         check_keys(document, wanted, allowed)
         yield document, content
 
@@ -123,7 +123,7 @@ def check_keys(
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:
-            raise ValueError(f"there is no {quoted(key)} here: choose of {', '.join(known)}")
+            raise ValueError(f"there is no {quoted(key)} here: choose one of {', '.join(known)}")
     for key in wanted:
         if key not in table:
             raise ValueError(f"{quoted(key)} is missing")
@@ -149,7 +149,7 @@ def read_number(text: str, unit: str) -> float:
     match = _NUMBER.fullmatch(text.strip()) if len(text) < _DIGITS else None
     if match is None:
         raise ValueError(
-            f"{quoted(text, 40)} is no finite number with or without a unit, such as '1 {unit}'"
+            f"{quoted(text, 40)} is not a finite number with or without a unit, such as '1 {unit}'"
         )
     given_unit = match["unit"]
     if given_unit[:1] == ",":
@@ -161,7 +161,7 @@ def read_number(text: str, unit: str) -> float:
     try:
         return float(Fraction(match["number"]) * to_si(given_unit or "1"))
     except OverflowError as error:
-        raise ValueError(f"{quoted(text)} is no finite number that a double can hold") from error
+        raise ValueError(f"{quoted(text)} is not a finite number that a double can hold") from error
 
 
 def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:

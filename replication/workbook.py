@@ -492,7 +492,7 @@ def _at_rest(impact: Impact) -> dict[str, float]:
 
 
 def _at_stop(impact: Impact) -> dict[str, float]:
-    """As at rest, but at the stop velocity: no depth if the impact is slower than that."""
+    """As `_at_rest`, but at the stop velocity; depth 0 if the impact is slower."""
     stop = min(impact.stop_velocity, impact.velocity)
     reached = depth.depth_at_velocity(stop, *impact.motion.values())
     return _without_steps(impact, stop, reached / impact.radius)

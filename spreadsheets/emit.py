@@ -57,7 +57,7 @@ def check(path: Path, *, force: bool = False) -> None:
     """
     target = check_target(path)
     if target.exists() and not force and not is_own(target):
-        problem = "this file is not as coldspray wrote it; rename it, or --force"
+        problem = "this file is not as coldspray wrote it; rename it, or give --force"
         raise FileExistsError(EEXIST, problem, str(path))
 
 
@@ -95,7 +95,7 @@ def _parts(content: bytes) -> dict[str, bytes]:
 
 
 def _sealed(parts: dict[str, bytes]) -> bytes:
-    """The archive of these parts without the clock, their digest in place of the seal."""
+    """Zip these parts without time stamps, with their digest as the seal."""
     parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
     digest = sha256(b"".join((*map(str.encode, parts), *parts.values()))).hexdigest()
     parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.encode())

@@ -131,7 +131,7 @@ def read(path: Path) -> Book:
     of this module; OSError for what cannot be opened.
     """
     if not path.is_file():
-        kind = "is a folder" if path.is_dir() else "is no regular file"
+        kind = "is a folder" if path.is_dir() else "is not a regular file"
         if not path.exists():
             kind = "is a link that leads nowhere" if path.is_symlink() else "there is no such file"
         raise WorkbookError(f"{path}: {kind}")
@@ -143,7 +143,8 @@ def read(path: Path) -> Book:
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             sealed = file.read(len(_SEALED)) == _SEALED
-        fault = "has a password, or is an .xls file by another name" if sealed else "is no workbook"
+        named = "has a password, or is an .xls file by another name"
+        fault = named if sealed else "is not a workbook"
         raise WorkbookError(f"{path}: {fault}; give an .xlsx or .xlsm file without a password")
     with (
         TemporaryDirectory(prefix="coldspray-") as folder,

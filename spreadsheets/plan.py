@@ -276,7 +276,7 @@ class SheetPlan:
         self, ledger: Ledger, part: str, blocks: Mapping[str, Any],
         cases: Sequence[Mapping[str, object]], columns: str = "ABCDEF", headed: bool = True,
     ) -> None:  # fmt: skip
-        """Blocks of `sheets.toml`, one quantity a line; what a line may say stands there.
+        """Write blocks of `sheets.toml`, one quantity a line; that file says what a line may hold.
 
         part: what the keys begin with. cases: the words of each. columns: of symbol, meaning,
         value, unit, printed text, source. headed: with heads of columns and blocks.

@@ -305,7 +305,7 @@ class Calculation:
         return place
 
     def _precedents(self, place: Position) -> Iterator[Position]:
-        """The cells that a formula reads; none of one that reads too many to be computed."""
+        """The cells that a formula reads; none if they are too many to compute."""
         areas = () if self.uncomputed.get(place) == _TOO_MUCH else self.areas(place)
         return (cell for area in areas for cell in _filled(area, self.book).places())
 

@@ -21,7 +21,7 @@ def check_target(path: Path) -> Path:
     if target.is_dir():
         raise IsADirectoryError(EISDIR, "is a folder; give a file", str(path))
     if target.exists() and not target.is_file():
-        raise OSError(EINVAL, "is no regular file", str(path))
+        raise OSError(EINVAL, "is not a regular file", str(path))
     if not target.parent.is_dir():
         raise FileNotFoundError(2, "the folder to write to does not exist", str(path.parent))
     return target
@@ -71,7 +71,7 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
         # The nearest folder that is there; a link is there, wherever it leads.
         nearest = next(parent for parent in path.parents if os.path.lexists(parent))
         if not nearest.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is no folder; give a folder", str(nearest))
+            raise NotADirectoryError(ENOTDIR, "is not a folder; give a folder", str(nearest))
         if not os.access(nearest, os.W_OK):
             raise PermissionError(EACCES, "cannot be written to", str(nearest))
         if nearest == path.parent:

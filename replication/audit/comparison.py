@@ -82,9 +82,9 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
         ("particle_density", *printed, "rounding of the print"),
-        ("target_density", *possible, f"all that Table A-1 allows at {exact}"),
+        ("target_density", *possible, f"bounds by Table A-1 with the sphere's mass at {exact}"),
         ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
-        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two hardnesses"),
+        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two grain strengths"),
     )
     stated = []
     for name, low, high, why in ranges:

@@ -180,7 +180,7 @@ class Explainer:
         return self._sorted(name, self._suspects(name))
 
     def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
-        """The edits of some entries with which a claim or an equation agrees."""
+        """The edits of these entries that make a claim or an equation agree, best first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         return sorted(
             (repair for entry in entries for repair in self._repairs_by(name, entry)),

@@ -32,10 +32,9 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     sentences = [f"{what}: {value}, {inside}{relation} {shown}.", _reason(judge, claim, first)]
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
-        proven = between(reading.judgements[0].ends, 6)
-        sentences.append(
-            f"Read as {reading.name}: {value}, {reading.verdict}; proven range {proven}."
-        )
+        proven, but = between(reading.judgements[0].ends, 6), _exceptions(reading)
+        verdict = f"{reading.verdict}{f' ({but})' * bool(but)}"
+        sentences.append(f"Read as {reading.name}: {value}, {verdict}; proven range {proven}.")
     return " ".join(filter(None, sentences))
 
 
@@ -54,7 +53,7 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
     proven = between(judgement.ends, 6)
     match judgement.verdict:
         case Verdict.REPRODUCED if claim.inferred:
-            return f"So for every target density that Table A-1 admits: {proven}."
+            return f"For the target densities that Table A-1 admits: {proven}."
         case Verdict.REPRODUCED:
             return ""
         case Verdict.WITHIN_ROUNDING:
@@ -86,9 +85,16 @@ def holds(claim: Claim, reading: Reading) -> str:
     usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
     varied = [word for word in ("choices", "header")
               if len({getattr(c, f"{word}_exact") for c in usual}) > 1]  # fmt: skip
-    scope = "every convention of rounding"
+    scope = "three ways of rounding"
     scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
+    tried_under = f"{'As printed, tried' if claim.readings and not reading.name else 'Tried'} under"
+    but = _exceptions(reading)
+    return f"{tried_under} {scope}: the same{f', except: {but}' * bool(but)}."
+
+
+def _exceptions(reading: Reading) -> str:
+    """The verdicts that some conventions change it to, and which; empty if none does."""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
         exceptions.setdefault(judgement.verdict, []).append(_conditions(judgement.convention))
@@ -97,7 +103,7 @@ def holds(claim: Claim, reading: Reading) -> str:
         # A condition that contains another says nothing more.
         kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
         parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
-    return f"The same under {scope}{', except: ' * bool(parts)}{', and '.join(parts)}."
+    return ", and ".join(parts)
 
 
 def _conditions(convention: Convention) -> tuple[str, ...]:
@@ -166,14 +172,14 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     if not failed:
         said = "; ".join(check.says for check in assessed.checks)
         return f"From {premises}. Checked exactly: {said}."
-    text = f"From {premises}. This check fails: {failed[0]}."
+    text = f"From {premises}. This does not hold: {failed[0]}."
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
     for constant in assessed.constants.values():
         if constant.verdict == Verdict.NOT_REPRODUCED:
             needed = " or ".join(constant.needed)
             printed = ledger.claims[constant.claim]
-            text += f" With {needed} for {printed.shown} ({printed.title}) it follows."
+            text += f" With {needed} instead of {printed.shown} ({printed.title}) it follows."
     return text
 
 

@@ -103,7 +103,7 @@ def build(name: str) -> Case:
     ('26.079 ns', '6.4e-04')
     """
     if name not in CASES:
-        raise ValueError(f"there is no case {name!r} to time: choose of {', '.join(CASES)}")
+        raise ValueError(f"there is no case {name!r} to time: choose one of {', '.join(CASES)}")
     impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion = exact_motion(impact)
     times, depths = zip(*(_instant(motion, k) for k in range(POINTS)), strict=True)

@@ -51,7 +51,7 @@ NO_CONTACT = "this area is not that of the contact at the depth of its row"
 
 
 def wrong_area(f: Examination) -> tuple[Line, set[int]] | None:
-    """The column beside the table by whose area the rows brake, and the rows where it is wrong.
+    """The column of contact areas that the rows' drag uses, and the rows where it is wrong.
 
     None if there is no such column, or if it is right.
     """

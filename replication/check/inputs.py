@@ -587,7 +587,7 @@ def _step(table: Table, powers: Mapping[str, int]) -> float:
 
 
 def _shortest(value: float, near: float) -> float:
-    """The decimal with the fewest digits that lies as near to a value.
+    """The decimal with the fewest digits within `near` (relative) of a value.
 
     >>> _shortest(2.0000000003e-10, 1e-9)
     2e-10

@@ -203,7 +203,7 @@ class Shifts:
 
     @cached_property
     def lines(self) -> Mapping[tuple[str, str, int], list[tuple[int, int, int]]]:
-        """Of two sheets and an axis each line in order, and the least and the most it moved."""
+        """For two sheets and an axis: each line, and the least and most that its cells moved."""
         moved: dict[tuple[str, str, int], dict[int, set[int]]] = {}
         for (sheet, *old), (partner, *new) in self.where.items():
             for axis in (0, 1):

@@ -446,9 +446,9 @@ class Table:
 
     @cached_property
     def digits(self) -> int | None:
-        """How many digits its numbers have, if they are typed and rounded; else None.
+        """The fewest digits that a column but the time has, if its numbers are typed and rounded.
 
-        Of the column that has the fewest: each may be rounded otherwise.
+        None if they are not.
         """
         lines = [line for role, line in self.lines.items() if role != "time"]
         rows = range(self.zero + 1, self.zero + self.steps + 1)
@@ -524,9 +524,9 @@ def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
 
 
 def _score(depth: Line, speed: Line) -> float:
-    """1 for heads that say so, 1 for values that fit, a little for formulas; more for --map.
+    """How table-like: 1 for telling heads, 1 for fitting values, some for formulas, more for --map.
 
-    Values that do not fit may be those of a sheet gone wrong: then each depth reads the one before.
+    Values that do not fit may come from a faulty sheet, whose depths still read the one before.
     """
     rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
     if len(rows) < LEAST:

@@ -274,8 +274,8 @@ def unit_power(unit: str | None) -> int | None:
 def between_units(power: int, role: str, surely: bool = False) -> bool:
     """Whether a power of ten may lie between two units; `surely`: whether it is no mere choice.
 
-    Units mostly lie a thousand apart, centimetres a hundred from metres. Ten times another is none
-    but that of pressure, dyn/cm² in Pa. But a number ten or a hundred times the report's, which
+    Units mostly lie a thousand apart, centimetres and metres a hundred. Only a pressure has a unit
+    a tenth of another: dyn/cm² is 0.1 Pa. But a number ten or a hundred times the report's, which
     could be in another unit, may as well be another number.
 
     >>> between_units(-2, "radius"), between_units(1, "radius"), between_units(-1, "flow_stress")

@@ -170,8 +170,8 @@ def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
 
     group = command.add_argument_group(
         "the case",
-        "An input that is not given is the named case's; a resistance takes the place of beta and "
-        "flow stress. Step and stop velocity are those of the sheet. A plain number is in the unit "
+        "Inputs not given are the named case's; a resistance replaces beta and flow stress. "
+        "Step and stop velocity are those of the sheet. A plain number is in the unit "
         'shown; others are understood, such as "11 um", "98 ksi" and "0.2 ns".',
     )
     group.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")

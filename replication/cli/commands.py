@@ -86,6 +86,8 @@ def run_claims(options: argparse.Namespace) -> int:
 
         near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
         hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+        if options.id in ledger.equations:
+            hint = "it is an equation: the page of `coldspray audit` has it"
         raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
     from replication.audit.audit import Audit
     from replication.report import proof
@@ -103,8 +105,8 @@ def run_power(options: argparse.Namespace) -> int:
     result = power(load(), options.sample, options.seed, progress)
     table = result.table()
     lines = [
-        f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as every",
-        "number still rounds as printed. Of the others, in percent:",
+        f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as all",
+        "numbers that the audit relates still agree. Of the others, in percent:",
         "",
         *aligned([table.heads, *table.rows]),
     ]
@@ -368,7 +370,7 @@ def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
     written = [str(check_target(file)) for file in files]
     read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
     if len({*written, *read}) < len(written) + len(read):
-        raise ValueError("--html and --junit each need a file of their own, none that is read")
+        raise ValueError("--html and --junit each need a file of their own, not one that is read")
 
 
 def _put_found(
@@ -473,7 +475,7 @@ def _may_emphasize() -> bool:
 
 
 def _progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:
-    """A progress bar, unless quiet; none without a terminal, which is what None asks for."""
+    """A progress bar, unless quiet or without a terminal (None asks tqdm for that)."""
     from tqdm import tqdm
 
     return tqdm(items, **settings, disable=options.quiet or None)

@@ -44,8 +44,8 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
     if travel - COARSE > COARSE * 1e-12:  # a tenth in decimals need not be one in doubles
-        text = f"a step at the impact velocity passes {travel:.3g} of the radius"
-        said["coarse"] = f"{text}: at most {COARSE} is sound"
+        text = f"a step at the impact velocity covers {travel:.3g} of the radius"
+        said["coarse"] = f"{text}: keep it to {COARSE} at most"
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"

@@ -374,7 +374,7 @@ def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
     import xarray
 
     if names := _of("pandas", inputs):
-        raise TypeError(f"{names[0]} is of pandas: beside an xarray array give its values")
+        raise TypeError(f"{names[0]} is a pandas object: beside an xarray array give its values")
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)

@@ -57,7 +57,7 @@ class Impact:
     def __post_init__(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)
         if self.resistance is not None and any(product):
-            raise ValueError("resistance is beta times flow_stress: give it or those two")
+            raise ValueError("resistance is beta times flow_stress: give it or those two, not both")
         if self.resistance is None and not all(product):
             raise ValueError("give either resistance, or both beta and flow_stress")
         given = {field.name: getattr(self, field.name) for field in fields(self)}

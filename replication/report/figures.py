@@ -185,7 +185,7 @@ def _comparison(record: Record) -> _Plot:
         "computed in this audit": ("circle", BLUE),
         "printed by the report": ("hollow square", VERMILION),
         "quoted by the report, not recomputable": ("hollow diamond", INK),
-        "observed": ("square", "#8c959f"),
+        f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", "#8c959f"),
     })  # fmt: skip
     values = []
     for a in record.approaches:

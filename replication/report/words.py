@@ -131,7 +131,8 @@ def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
         texts = {name: f"{value:#.{significant(claim.printed)}g}"
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
-            texts[""] = f"derived: {' or '.join(needed[claim.id])}"
+            *_, last = names
+            texts[last] = "derived: " * (not last) + " or ".join(needed[claim.id])
         title = claim.title if by_title else f"`{claim.id}`"
         rows.append((title, printed(claim), *(texts.get(name, "") for name in names)))
     heads = ("number", "printed", "computed as printed", *list(names)[1:])
@@ -184,10 +185,10 @@ def _needed(solved: r.BackSolvedRecord) -> str:
 
 
 def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
-    """The misprints with which a number agrees; `claim` is its id.
+    """The misprints that make a number agree; `claim` is its id.
 
-    That claim is not listed among those that still fail: it does only as printed, if another
-    reading agrees.
+    That claim is not among those listed as still failing: if another reading agrees, it fails only
+    as printed.
     """
     rows = []
     for repair in records:
@@ -206,7 +207,7 @@ def evidence(finding: r.FindingRecord) -> Table:
         (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
         for x in finding.evidence
     ]
-    return Table("The finding's numbers, computed anew", ("what", "stated", "computed"), rows)
+    return Table("The finding's numbers, recomputed", ("what", "stated", "computed"), rows)
 
 
 def computed(piece: r.EvidenceRecord) -> str:

@@ -212,9 +212,9 @@ def test_what_is_no_workbook_is_said_to_be_none(tmp_path: Path) -> None:
     assert "has a password" in refusal(sealed)
     with zipfile.ZipFile(tmp_path / "other.xlsx", "w") as archive:
         archive.writestr("readme.txt", "x")
-    assert "is no workbook" in refusal(tmp_path / "other.xlsx")
+    assert "is not a workbook" in refusal(tmp_path / "other.xlsx")
     os.mkfifo(pipe)
-    assert "is no regular file" in refusal(pipe)
+    assert "is not a regular file" in refusal(pipe)
 
 
 def test_a_cut_or_changed_archive_is_refused(plain: Path) -> None:
