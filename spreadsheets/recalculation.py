@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
@@ -41,6 +41,9 @@ FUNCTIONS = frozenset((
     "SUMSQ", "TAN", "TANH", "TRUE", "TRUNC", "VLOOKUP", "XLOOKUP",
 ))  # fmt: skip
 """What an engine may be asked for: functions of bounded cost that reach nothing outside."""
+
+
+_LOOKUPS = frozenset({"LOOKUP(", "MATCH(", "VLOOKUP(", "HLOOKUP("})
 
 
 class Area(NamedTuple):
@@ -412,6 +415,11 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
             refused[place] = "it is an array formula"
         elif formula.obstacle:
             refused[place] = formula.obstacle
+        elif any(
+            test.text.startswith("IS") and tested.area and tested.area.cells > 1
+            for test, tested in pairwise(formula.pieces)
+        ):
+            refused[place] = "the engine does not test each cell of a range"
     return refused
 
 
@@ -420,6 +428,34 @@ def _filled(area: Area, book: Book) -> Area:
     rows, columns = book.size[area.sheet]
     bottom, right = min(area.bottom, rows), min(area.right, columns)
     return area._replace(bottom=max(bottom, area.top), right=max(right, area.left))
+
+
+def _without_ends(formula: Formula, book: Book) -> Formula:
+    """The formula, what it looks up without the blanks at the end: the engine finds one of these.
+
+    Ranges beside each other end alike.
+    """
+    lasts: dict[tuple[int, int], int] = {}
+
+    def shortened(piece: Piece) -> Piece:
+        if piece.area is None or piece.area.cells == 1:
+            return piece
+        area = _filled(piece.area, book)
+        sheet, top, left, bottom, right = area
+        down = bottom - top >= right - left
+        ends = (top, bottom) if down else (left, right)
+        if ends not in lasts:
+            cells, last = book.sheets[sheet], ends[1]
+            while last > ends[0] and ((last, left) if down else (top, last)) not in cells:
+                last -= 1
+            lasts[ends] = last
+        last = lasts[ends]
+        short = area._replace(bottom=last) if down else area._replace(right=last)
+        return piece._replace(area=short)
+
+    looks_up = any(piece.text in _LOOKUPS for piece in formula.pieces)
+    pieces = tuple(map(shortened, formula.pieces)) if looks_up else formula.pieces
+    return replace(formula, pieces=pieces)
 
 
 def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:
@@ -438,7 +474,7 @@ def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position
     for (sheet, row, column), cell in book.cells():
         formula, at = formulas.get((sheet, row, column)), (number[sheet], row, column)
         if formula is not None:
-            model.update_cell_with_formula(*at, formula.for_engine(called))
+            model.update_cell_with_formula(*at, _without_ends(formula, book).for_engine(called))
         elif isinstance(cell.value, bool):
             model.update_cell_with_bool(*at, cell.value)
         elif isinstance(cell.value, float):

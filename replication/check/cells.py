@@ -290,6 +290,7 @@ def order(f: Examination) -> None:
         column = f.rows.columns.get(role, {})
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas
+                and f.table.place(role, k) not in f.calculation.uncomputed
                 and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
         by_mass = []
         for case in cases:

@@ -73,7 +73,7 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     calculation = table.calculation
     read = _read_beside(table)
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
-    reads = _told_by_mass(reads, calculation)
+    reads = _told_by_mass(_not_made_of(reads, calculation), calculation)
     nearest = {
         role: _nearest(cells, read, calculation)
         for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
@@ -137,6 +137,19 @@ def _feeding(
             if areas and {calculation.source(area.corner) for area in areas} == sources:
                 feeding.setdefault(role, replace(cell, role=role))
     return feeding
+
+
+def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
+    """The cells; of those made of an input of their name and others, as R_t/M is, the name goes."""
+    called = {cell.place: cell.roles for cell in cells}
+
+    def named(cell: Input) -> Input:
+        of = {name for role in cell.roles for name in RESTS_ON.get(role, ())}
+        read = [called.get(area.corner) for area in calculation.areas(cell.place)]
+        alike = {bool(cell.roles & roles) for roles in read if roles and not roles & of}
+        return replace(cell, roles=frozenset(), label="") if len(alike) == 2 else cell
+
+    return list(map(named, cells))
 
 
 _DENSITIES = frozenset({"particle_density", "target_density"})
@@ -254,7 +267,9 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
         value = calculation.values.get((sheet, row + down, column + right))
         return value.strip() if isinstance(value, str) else ""
 
-    beside = (text(0, 1), text(0, -1), text(-1, 0), text(1, 0))
+    # Behind a number and its unit stands what it was converted to.
+    another = isinstance(calculation.values.get((sheet, row, column - 2)), float)
+    beside = (text(0, 1), "" if another else text(0, -1), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):

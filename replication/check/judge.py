@@ -331,7 +331,7 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
         _mislabelled(f, cell, power)
         return
     exact = math.isclose(in_si, wanted, rel_tol=NEAR)
-    fault = _fault_of_derived(f, place, in_si, wanted, sources)
+    fault = _fault_of_derived(f, cell, in_si, wanted, sources)
     if fault:
         change = None if exact else partial(Case.holding, role=role, value=in_si)
         expected = None if exact else scaled(wanted, 1 / factor)
@@ -342,9 +342,11 @@ def _derived_cell(f: Examination, cell: Input, wanted: float, sources: Sequence[
 
 
 def _fault_of_derived(
-    f: Examination, place: Position, in_si: float, wanted: float, sources: Sequence[Input]
+    f: Examination, cell: Input, in_si: float, wanted: float, sources: Sequence[Input]
 ) -> tuple[str, str] | None:
     """The kind of what is wrong with a value that rests on others, and its text; None if right."""
+    role, place = cell.role, cell.place
+    assert place is not None
     # What the formula has for pi, or for the factor of a unit such as ksi.
     constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
     typed = [
@@ -358,7 +360,8 @@ def _fault_of_derived(
     right |= any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
     rests = titles(source.role for source in sources)
     if place not in f.calculation.formulas:
-        if not f.read or (right and not any(s in f.unread for s in sources)):
+        whole = len(sources) == len(RESTS_ON[role])  # from one factor nothing follows
+        if not f.read or not whole or (right and not any(s in f.unread for s in sources)):
             return None
         lost = "a change there changes nothing"
         return "typed constant", f"is typed as a number, though it rests on {rests}: {lost}"
@@ -678,7 +681,7 @@ def _stop(f: Examination) -> None:
     text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
     if below is not None:
         guarded = f.calculation.book[f.table.place(role, below)].formula or ""
-        if "IF(" not in guarded.upper() and _end_as_shown(f, (below, planned)):
+        if "IF(" not in guarded.upper() and _end_as_shown(f, below, planned):
             return
         cells = f.cells(role, below + 1)
         text = f"other stop: {text.format('after')}"
@@ -705,17 +708,17 @@ def _stop(f: Examination) -> None:
         f.add("other scheme", [place], None, f"other stop: {text}", change=OTHER_STOP)
 
 
-def _end_as_shown(f: Examination, stops: Sequence[int]) -> bool:
-    """Whether a result shows one of these rows: then the rows after it are left out.
+def _end_as_shown(f: Examination, below: int, planned: int) -> bool:
+    """Whether a result shows the stop, or the row before: then the rows after the stop are left out.
 
     They were filled in to be enough, and the final depth is looked up where the stop is.
     """
     shown = [(r.kind, f.calculation.number(r.place)) for r in f.table.results if r.where == "first"]
-    for k in stops:
+    for k in (below, planned, below - 1):
         if any(x is not None and f.power_shown(kind, x, k) is not None for kind, x in shown):
-            columns = f.rows.columns.items()
-            kept = {role: {n: x for n, x in column.items() if n <= k} for role, column in columns}
-            f.table, f.rows = replace(f.table, steps=k), replace(f.rows, columns=kept)
+            last, columns = planned if k == planned else below, f.rows.columns.items()
+            kept = {role: {n: x for n, x in each.items() if n <= last} for role, each in columns}
+            f.table, f.rows = replace(f.table, steps=last), replace(f.rows, columns=kept)
             return True
     return False
 

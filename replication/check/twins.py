@@ -5,7 +5,7 @@ one called beta or target resistance that of the report's other case, and no tab
 one table reads a cell that is not its own.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from replication.check.examination import Examination, Input, near
 from replication.check.inputs import as_role, report_inputs
@@ -26,6 +26,7 @@ def meant(
     `beside` are all numbers beside the tables.
     """
     told: dict[int, tuple[str, float, str]] = {}
+    read = set().union(*(f.read for f in tables))
     for role in ("resistance", "velocity", "step"):
         alike: dict[tuple[Position, Case, float | None], list[int]] = {}
         for number, f in enumerate(tables):
@@ -35,8 +36,16 @@ def meant(
                 alike.setdefault((source, f.case, f.rows("depth", 4)), []).append(number)
         for (source, *_), numbers in alike.items():
             f = tables[numbers[0]]
-            for cell, place in _idle(f, role, beside) if len(numbers) > 1 else ():
-                value = cell.si
+            idle = (
+                as_role(cell, name, report_inputs())
+                for name in names
+                for cell in beside
+                if len(numbers) > 1 and cell.roles == {name}
+            )
+            for cell in idle:
+                place, value = cell.place, cell.si
+                if place is None or place in read:
+                    continue
                 if cell.role == "beta":
                     stress = f.inputs.get("flow_stress")
                     value *= stress.si if stress else report_inputs()["flow_stress"][0]
@@ -74,15 +83,3 @@ def _apart(place: Position, table: Table) -> int:
     _, rows, columns = zip(*table.places, strict=True)
     pairs = ((place[1], rows), (place[2], columns))
     return sum(max(min(numbers) - at, at - max(numbers), 0) for at, numbers in pairs)
-
-
-def _idle(f: Examination, of: str, beside: Sequence[Input]) -> Iterator[tuple[Input, Position]]:
-    """Cells called so that nothing reads; called beta that nothing but idle resistances reads."""
-    formulas, idle = f.calculation.formulas, set[Position]()
-    for role in ("resistance", "beta") if of == "resistance" else (of,):
-        readers = formulas.keys() - idle
-        read = {area.corner for place in readers for area in formulas[place].areas}
-        for cell in beside:
-            if cell.roles == {role} and cell.place and cell.place not in read:
-                idle.add(cell.place)
-                yield as_role(cell, role, report_inputs()), cell.place

@@ -48,7 +48,9 @@ def is_unit(text: str) -> str | None:
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).strip().replace("−", "-")
     if text.startswith(("[", "(")) and text.endswith(("]", ")")):
         text = text[1:-1].strip()
+    text = text.lower() if re.fullmatch("[CM]M|KG|[A-Z]+/[A-Z]+[23]?", text) else text
     text = re.sub("[μµ]", "u", text).replace("·", "*").replace("pa", "Pa")
+    text = re.sub(r"\bsec\b", "s", text)
     try:
         to_si(text := "1" if text in ("-", "–", "—") else text)
     except UnitError:
