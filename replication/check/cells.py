@@ -42,7 +42,8 @@ def drifting(f: Examination) -> None:
             if moves and strays and number(read[0]) is not None:
                 cells = [formula.place for formula in alike[1:]]
                 cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
-                text = f"its column reads {cell}, which no $ fixes: this row reads {here}, "
+                along, across = ("row", "column") if line.across else ("column", "row")
+                text = f"its {along} reads {cell}, which no $ fixes: this {across} reads {here}, "
                 text += "and so on"
                 f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
 
@@ -159,7 +160,11 @@ def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, s
             break
     else:
         return
-    pattern = next(formulas[place] for place, shape in shapes.items() if shape == usual)
+    patterns = {shape: formulas[place] for place, shape in reversed(shapes.items())}
+    pattern = patterns[usual]
+    for shape, number in Counter(shapes.values()).items():
+        if number > 1 and _reads_for(patterns[shape], pattern, calculation):
+            usual, pattern = shape, patterns[shape]
     for place in places:
         if place in formulas:
             if shapes[place] != usual:
@@ -169,6 +174,18 @@ def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, s
             what = _WHAT.get(kind, "a number")
             stand = f"{what} is typed where {_filled(pattern, place, calculation)} would stand"
             yield place, ("typed number", stand)
+
+
+def _reads_for(formula: Formula, typed: Formula, calculation: Calculation) -> bool:
+    """Whether a formula is another one, but reads cells that hold what is typed there."""
+    if len(formula.pieces) != len(typed.pieces):
+        return False
+    pairs = zip(formula.pieces, typed.pieces, strict=True)
+    unlike = [(a, b) for a, b in pairs if (a.shape or a.text) != (b.shape or b.text)]
+    return bool(unlike) and all(
+        a.area and b.kind == "number" and calculation.number(a.area.corner) == float(b.text)
+        for a, b in unlike
+    )
 
 
 def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:

@@ -179,6 +179,11 @@ def _unconverted(f: Examination, entry: Input, value: float, power: int) -> None
     If its label has a unit, accused is the cell that should convert it, or the formulas that read
     it; else the input itself.
     """
+    cell = f.derived.get("resistance")
+    if cell and cell.unit and entry.role in RESTS_ON["resistance"]:
+        labelled = scaled(f.calculation.number(cell.place) or 0.0, to_si(cell.unit))
+        if near(labelled, f.intended.resistance) and not near(labelled, f.case.resistance):
+            entry, value = cell, f.case.resistance  # it is right, what reads it is not
     assert entry.place is not None
     expected: float | None = scaled(entry.si, Fraction(10) ** -power / entry.factor)
     cells, taken = [entry.place], f"{quantity(value, entry.role)}, {times_too(power)}"
@@ -603,6 +608,8 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
         what, base, constant = "force", math.pi, "pi"
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", column
+    if near(ratio, -1.0):
+        return "other scheme", f"every {what} has the other sign", column
     if part == "brake" and near(ratio * math.pi, 1.0):
         return "other scheme", "pi is missing in the force", column
     for line in (column, *f.table.helpers):
@@ -709,7 +716,7 @@ def _stop(f: Examination) -> None:
 
 
 def _end_as_shown(f: Examination, below: int, planned: int) -> bool:
-    """Whether a result shows the stop, or the row before: then the rows after the stop are left out.
+    """Whether a result shows the stop, or the row before: then the rows after it are left out.
 
     They were filled in to be enough, and the final depth is looked up where the stop is.
     """

@@ -190,7 +190,7 @@ def contents(difference: Record) -> str:
         if difference["kind"] in ("added", "removed"):
             return found if values[0] is None else expected
         return f"was {expected}, is {found}"
-    if values[0] is not None:
+    if values[0] is not None and expected != found:
         return f"holds {found}, should hold {expected}"
     return "" if values[1] is None else f"holds {found}"
 
@@ -330,7 +330,12 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
         record,
         style=Markup(style),  # noqa: S704  (our own file)
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-        anchors=[_anchor(d.place, sheets) for d in differences],
+        numbered=[
+            (number, shown, _anchor(difference.place, sheets))
+            for number, (shown, difference) in enumerate(
+                zip(record["differences"], differences, strict=True), 1
+            )
+        ],
         sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
     )
 

@@ -1,8 +1,8 @@
 """Tables that repeat another one, though a cell beside them tells that another input was meant.
 
 Two equal tables are no fault. But if a cell that is called velocity or step has another value, or
-one called beta or target resistance that of the report's other case, and no table reads it, then
-one table reads a cell that is not its own.
+one called beta or target resistance that of the report's other case, and nothing reads it (of the
+latter: no table), then one table reads a cell that is not its own.
 """
 
 from collections.abc import Sequence
@@ -26,8 +26,12 @@ def meant(
     `beside` are all numbers beside the tables.
     """
     told: dict[int, tuple[str, float, str]] = {}
-    read = set().union(*(f.read for f in tables))
+    by_tables = set().union(*(f.read for f in tables))
+    formulas = tables[0].calculation.formulas.values()
+    by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
     for role in ("resistance", "velocity", "step"):
+        # Velocities and steps may be of curves and of other results; a resistance is of a table.
+        read = by_tables if role == "resistance" else by_any
         alike: dict[tuple[Position, Case, float | None], list[int]] = {}
         for number, f in enumerate(tables):
             names = (role, "beta") if role == "resistance" else (role,)
