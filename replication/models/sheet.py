@@ -93,15 +93,14 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     check_scheme(scheme)
     dt, v_stop = impact.step, impact.stop_velocity
     inputs = *impact.motion.values(), dt, v_stop
-    rows = [Row(0.0, impact.velocity, 0.0, 0.0, None)]
-    for k, v, x, a, v_final in _rows(scheme == "centered", *inputs):
-        if k > MAX_STEPS:
-            raise refusal(math.nan, dt, v_stop)
-        rows.append(Row(k * dt, v, x, a, v_final))
-    last = rows[-1]  # only a last row can overflow
-    if not math.isfinite(last.depth + last.deceleration + (last.velocity_final or 0.0)):
+    touch = Row(0.0, impact.velocity, 0.0, 0.0, None)
+    rows = touch, *map(Row._make, _rows(scheme == "centered", *inputs))
+    _, v, x, a, v_final = rows[-1]
+    if (v if v_final is None else v_final) >= v_stop:
+        raise refusal(math.nan, dt, v_stop)
+    if not math.isfinite(x + a + (v_final or 0.0)):  # only a last row can overflow
         raise refusal(math.inf, dt, v_stop)
-    return Sheet(impact, tuple(rows), scheme)
+    return Sheet(impact, rows, scheme)
 
 
 def last_row(
@@ -117,28 +116,26 @@ def last_row(
     >>> f"{depth[0] * 1e6:.2f}", steps[0]
     ('7.67', 131)
     """
-    x, k = 0.0, 0
+    x, v, k = 0.0, velocity, 0
     motion = velocity, radius, particle_density, target_density, resistance
-    for k, _, x, _, _ in _rows(centered, *motion, step, stop_velocity):
-        if k > MAX_STEPS:
-            x = math.nan
-            break
-    depth[0], steps[0] = x, k
+    for row in _rows(centered, *motion, step, stop_velocity):
+        k, x, v = k + 1, row[2], row[4]
+    depth[0], steps[0] = (math.nan, MAX_STEPS + 1) if v >= stop_velocity else (x, k)
 
 
 def _rows(
     centered: bool, V: float, R: float, rho_p: float, rho_t: float, R_t: float, dt: float,
     v_stop: float,
-) -> Iterator[tuple[int, float, float, float, float]]:  # fmt: skip
-    """Number, initial velocity, depth, deceleration and final velocity of the rows from 1 on.
+) -> Iterator[tuple[float, float, float, float, float]]:  # fmt: skip
+    """The rows from 1 on, each what a `Row` has.
 
-    Where more than `MAX_STEPS` rows are needed a larger number is given, in the first row if that
-    is clear from the start.
+    Where more than `MAX_STEPS` are needed the velocity is not below the stop velocity in the last
+    of them; none comes if that is clear from the start.
     """
     k, x, v, M = 0, 0.0, V, particle_mass(R, rho_p)
     if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
         k = MAX_STEPS
-    while v >= v_stop:
+    while k < MAX_STEPS and v >= v_stop:
         k += 1
         # The half step to start: x is half a step behind the velocity that closes the row.
         x = v * (dt / 2) if k == 1 else x + v * dt
@@ -146,7 +143,7 @@ def _rows(
         if centered:
             a = deceleration(x, v - a * (dt / 2), R, M, rho_t, R_t)
         v_final = v - a * dt
-        yield k, v, x, a, v_final
+        yield k * dt, v, x, a, v_final
         v = v_final
 
 
