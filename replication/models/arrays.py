@@ -8,7 +8,7 @@ Plain numbers need neither NumPy nor Numba. All in SI units.
 
 import inspect
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
@@ -52,12 +52,11 @@ _SYMBOLS = {
 def _for_anything(model: Model, explain: Model | None = None) -> Model:
     """The model for whatever holds numbers; where it gives NaN, `explain` tells why."""
     signature = inspect.signature(model)
-    count = len(signature.parameters)
 
     @wraps(model)
     def function(*values: Any, **named: Any) -> Any:
-        if len(values) == count and not named and _are_plain(values):
-            result = model(*values)
+        if _are_plain(values) and (not named or _are_plain(named.values())):
+            result = model(*values, **named)
             if result == result:  # not NaN
                 return result
         bound = signature.bind(*values, **named)
@@ -113,7 +112,7 @@ def history(
     return _contained(compute, inputs, (float, float))
 
 
-def _are_plain(values: Sequence[Any]) -> bool:
+def _are_plain(values: Iterable[Any]) -> bool:
     """Whether these are floats that need no other check: the fast path for a single case."""
     for value in values:  # noqa: SIM110 - a third of the time that `all` takes
         if type(value) is not float or not LEAST <= value <= GREATEST:
