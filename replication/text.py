@@ -44,11 +44,10 @@ def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
     import io
 
     buffer = io.StringIO()
-    writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(rows[0])
     for row in rows:
-        truths = {name: str(cell).lower() for name, cell in row.items() if isinstance(cell, bool)}
-        writer.writerow({**row, **truths})
+        writer.writerow(str(x).lower() if isinstance(x, bool) else x for x in row.values())
     return buffer.getvalue()
 
 
