@@ -108,7 +108,7 @@ def outcome(name: str) -> Outcome:
         return result | {"refused": str(error)}
     motion, depth = exact_motion(impact), final_depth(**impact.motion)
     exact = motion.final_depth
-    result |= {"closed_form": depth, "reference": motion.context.nstr(exact, 20)}
+    result |= {"closed_form": depth, "reference": motion.context.nstr(exact, 20, min_fixed=-5)}
     result["ulps"] = _ulps(depth, impact.motion)
     try:
         sheet = run(impact)
