@@ -11,7 +11,7 @@ power), and a row's time is `k * dt`, not a running sum.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from replication.models.impact import Impact, InputError, particle_mass
@@ -52,7 +52,7 @@ class Sheet:
     """The rows of one case and what the report reads off the last of them."""
 
     impact: Impact
-    rows: tuple[Row, ...]
+    rows: tuple[Row, ...] = field(repr=False)  # up to a million
     scheme: str = "published"
 
     @property
@@ -181,5 +181,5 @@ def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
 
 def check_scheme(scheme: str) -> None:
     """Raise ValueError for a scheme that is not one of `SCHEMES`."""
-    if scheme not in SCHEMES:
+    if scheme not in [*SCHEMES]:  # which takes what has no hash, too
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
