@@ -1,7 +1,7 @@
 """The report's two cases, and a case as the user names it: from a file, by inputs with units."""
 
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -66,5 +66,4 @@ def changed(impact: Impact, values: Mapping[str, float]) -> Impact:
 
 def inputs_of(impact: Impact) -> dict[str, float | None]:
     """The inputs of a case in SI, with the resistance that follows from them."""
-    given = {field.name: getattr(impact, field.name) for field in fields(impact)}
-    return {**given, "resistance": impact.target_resistance}
+    return {**asdict(impact), "resistance": impact.target_resistance}
