@@ -131,12 +131,15 @@ def _histories(*values: Any) -> Any:
     """Histories; times along an axis in which no case changes share that case's Taylor series."""
     import numpy as np
 
-    time, *cases = map(np.asarray, values)
-    if time.ndim and all(case.shape[-1:] in ((), (1,)) for case in cases):
-        cases = [case[..., 0] if case.ndim else case for case in cases]
-        return _each(ufunc(motion.history), time, *cases)
-    results = _each(ufunc(motion.history), time[..., None], *cases)
-    return tuple(result[..., 0] for result in results)
+    given = list(map(np.asarray, values))
+    rank = max(array.ndim for array in given)
+    # All have the same axes then, and a last one in which nothing changes.
+    time, *cases = (x.reshape((1,) * (rank - x.ndim) + x.shape + (1,)) for x in given)
+    shared = [k for k in range(rank + 1) if all(case.shape[k] == 1 for case in cases)]
+    axis = max(shared, key=time.shape.__getitem__)
+    time, *cases = (array.swapaxes(axis, -1) for array in (time, *cases))
+    results = _each(ufunc(motion.history), time, *(case[..., 0] for case in cases))
+    return tuple(result.swapaxes(axis, -1)[..., 0] for result in results)
 
 
 def run_many(
