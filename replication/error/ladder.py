@@ -93,6 +93,8 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     """
     if len(steps) < 2 or any(b >= a for a, b in pairwise(steps)):
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
+    for step in steps:  # one that needs too many rows is refused before the long work
+        run(replace(impact, step=step), scheme)
     motion, levels = exact_motion(impact), list[Level]()
     for step in steps:
         levels.append(_level(run(replace(impact, step=step), scheme), levels[-1:]))
