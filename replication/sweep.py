@@ -23,6 +23,7 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
 from replication.models.impact import Impact, InputError, check, particle_mass
+from replication.models.sheet import check_scheme
 from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
 from spreadsheets.safely import check_target, draft_of
 
@@ -81,15 +82,16 @@ class Plan:
     `sources` has every input, in the file's order: the first varies slowest. For each combination
     of listed values there are `samples` cases, each with its own random numbers, which follow from
     `seed`. The velocity is not in `sources` if it follows from the mass, by Eq. 1: then `by_mass`
-    has its average_velocity V [m/s] and average_mass m_o [kg]. `extras` are names of `EXTRAS`;
-    `digest` is the SHA-256 of the file. Raises ValueError where an input or a combination of inputs
-    would leave the range that `Impact` allows.
+    has its average_velocity V [m/s] and average_mass m_o [kg]. `scheme` is that of the sheet,
+    `extras` are names of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an
+    input or a combination of inputs would leave the range that `Impact` allows.
     """
 
     sources: dict[str, Source]
     by_mass: Mapping[str, float] | None
     samples: int
     seed: int
+    scheme: str
     extras: tuple[str, ...]
     digest: str
 
@@ -174,7 +176,7 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
         try:
             stepping: Any = {name: inputs[name] for name in ("step", "stop_velocity")}
-            sheets = arrays.run_many(**motion, **stepping)
+            sheets = arrays.run_many(**motion, **stepping, scheme=plan.scheme)
         except InputError as error:
             number = error.index[0]
             given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
@@ -198,19 +200,20 @@ def read_plan(path: Path) -> Plan:
         settings, table = tables.get("sweep", {}), tables["inputs"]
         ways = [value for value in table.values() if isinstance(value, dict)]
         with place("[sweep]"):
-            check_keys(settings, [], ["case", "samples", "seed", "outputs"])
+            check_keys(settings, [], ["case", "samples", "seed", "scheme", "outputs"])
             name, asked = settings.get("case", "beta-5"), settings.get("outputs", [])
             if not isinstance(name, str) or name not in CASES:
                 raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
             if not isinstance(asked, list) or not all(map([*EXTRAS].__contains__, asked)):
                 known = ", ".join(EXTRAS)
                 raise ValueError(f"outputs must be a list of {known}; the depths always come")
+            check_scheme(scheme := settings.get("scheme", "published"))
             samples, seed = _sampling(settings, any("distribution" in way for way in ways))
         with place("[inputs]"):
             sources, by_mass = _sources(table, CASES[name])
         extras = tuple(name for name in EXTRAS if name in asked)
         digest = hashlib.sha256(content).hexdigest()
-        return Plan(sources, by_mass, samples, seed, extras, digest)
+        return Plan(sources, by_mass, samples, seed, scheme, extras, digest)
 
 
 def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:

@@ -100,12 +100,16 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
         levels.append(_level(run(replace(impact, step=step), scheme), levels[-1:]))
     at_stop = motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity))
     order, depths = SCHEMES[scheme].order, [level["depth"] for level in levels[-3:]]
+    limit = extrapolated(steps[-3:], depths, order)
+    meaningless = any(level["regime"] == "meaningless" for level in levels[-3:])
+    if meaningless and not limit["limit_undefined"]:
+        limit = dict.fromkeys(limit) | {"limit_undefined": "a depth of the three is meaningless"}
     return {
         "inputs": inputs_of(impact),
         "scheme": scheme,
         "nominal_order": order,
         "levels": levels,
-        **extrapolated(steps[-3:], depths, order),
+        **limit,
         "exact": float(motion.final_depth),
         "exact_at_stop": float(at_stop),
     }
@@ -149,11 +153,11 @@ def regime(error: float, budget: Budget, time_step_order: float | None, order: i
         return "meaningless"
     if abs(rounding) > abs(error) / 10:
         return "rounding floor"
+    stop = abs(half_step + stop_rule)
     if time_step_order is None:
-        return "order unknown"
+        return "stop-rule floor" if time_step == 0 < stop else "order unknown"
     if abs(time_step_order - order) > 0.1:
         return "not yet asymptotic"
-    stop = abs(half_step + stop_rule)
     if stop > abs(time_step):
         return "stop-rule floor"
     return "stop rule shows" if stop > abs(time_step) / 10 else "asymptotic"
@@ -280,8 +284,9 @@ def text(result: dict[str, Any]) -> str:
         _WHY[result["scheme"]],
     ]
     if met := result["digits"]:
+        digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"
         lines.append(
-            f"{met['digits']} correct digits: largest step {number(met['step'] * 1e9, 5)} ns "
+            f"{digits}: largest step {number(met['step'] * 1e9, 5)} ns "
             f"({met['steps']} steps, error {_um(met['error'], 3)} um); "
             f"{number(met['fails'] * 1e9, 5)} ns fails."
         )

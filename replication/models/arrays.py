@@ -179,7 +179,12 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
     numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
     _check(numbers)
     compute = plain if set(map(type, numbers.values())) == {float} else many
-    results = compute(*numbers.values())
+    try:
+        results = compute(*numbers.values())
+    except ValueError as error:
+        shaped = ((name, getattr(number, "shape", ())) for name, number in numbers.items())
+        shapes = ", ".join(f"{name} {shape}" for name, shape in shaped if shape)
+        raise ValueError(f"arrays of these shapes do not broadcast: {shapes}") from error
     first = results[0] if isinstance(results, tuple) else results
     finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
     if not finite:
@@ -196,7 +201,8 @@ def _real(name: str, value: Any) -> Any:
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
     try:
         array = np.asarray(value)
-        if array.dtype.kind in "biufO":
+        kind = array.dtype.kind
+        if kind in "biuf" or (kind == "O" and not any(isinstance(x, str) for x in array.flat)):
             return array.astype(float, copy=False) if array.ndim else float(array)
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name} must hold real numbers, in SI units: {error}") from error
@@ -397,7 +403,14 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
     shapes = f"{','.join(['()'] * len(arrays))}->{','.join(['()'] * len(types))}"
     kinds = list(types) if len(types) > 1 else types[0]
-    return da.apply_gufunc(within, shapes, *arrays, output_dtypes=kinds)
+
+    def in_chunk(*values: Any) -> Any:
+        try:
+            return within(*values)
+        except InputError as error:
+            raise InputError(error.name, f"of its chunk {error.problem}", error.index) from error
+
+    return da.apply_gufunc(in_chunk, shapes, *arrays, output_dtypes=kinds)
 
 
 def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:

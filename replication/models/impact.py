@@ -60,10 +60,15 @@ class Impact:
             raise ValueError("resistance is beta times flow_stress: give it or those two, not both")
         if self.resistance is None and not all(product):
             raise ValueError("give either resistance, or both beta and flow_stress")
-        given = {field.name: getattr(self, field.name) for field in fields(self)}
-        inputs = {name: float(value) for name, value in given.items() if value is not None}
-        for name, value in inputs.items():
-            object.__setattr__(self, name, value)
+        inputs: dict[str, float] = {}
+        for name, value in ((field.name, getattr(self, field.name)) for field in fields(self)):
+            if value is None:
+                continue
+            try:
+                inputs[name] = float(value)
+            except (TypeError, ValueError, OverflowError) as error:
+                raise InputError(name, f"must be one number, in SI units: {error}") from error
+            object.__setattr__(self, name, inputs[name])
         check(inputs)
         check_range(**self.motion, step=self.step)
 
