@@ -25,7 +25,7 @@ from foreign.drawn import drawn
 from foreign.faults import FAULTS
 from foreign.layouts import BY_HAND, Foreign, made
 
-from replication.cases import BETA_3, BETA_5
+from replication.cases import BETA_5
 from replication.check import show
 from replication.check.diff import Tolerance, diff
 from replication.check.examination import KINDS
@@ -113,11 +113,6 @@ def book(edits: Edits) -> Book:
     }
     given = dict(text.split("=", 1) for word, text in edits if word == "map")
     return Book(f, given, writers.calculated(f) if wrong else {}, wrong)
-
-
-def right(*books: Foreign) -> Iterator[str]:
-    for f in books:
-        yield from whole(f.name, Book(f))
 
 
 SPOILED = (
@@ -330,10 +325,6 @@ def answers(name: str) -> Iterator[str]:
 
 CASES = cases()
 SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
-    **{f"right: {layout}": partial(right, made(layout, BETA_5)) for layout in BY_HAND},
-    "right: beta 3": partial(right, *(made(layout, BETA_3) for layout in (
-        "table-a1", "french", "one-velocity", "pasted", "no-deceleration"))),
-    "right: drawn": partial(right, *(drawn(seed, COARSE) for seed in (1, 3, 4, 7, 8, 11))),
     **{f"planted: {fault}": partial(planted, fault) for fault in FAULTS},
     **{name: partial(answers, name) for name in CASES},
     "digits of other schemes": other_digits,
