@@ -1,14 +1,23 @@
-"""The README's examples: every ```console block is run, every promise about files is true."""
+"""What the documents show is so: README, links, and the program that checks an audit."""
 
+import copy
 import doctest
+import json
 import re
+import runpy
 import shlex
+import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from running import coldspray
 
+from replication.audit.record import Record
 from replication.power import measured
+from replication.text import json_text
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
@@ -71,3 +80,94 @@ def test_links_and_paths_lead_somewhere(document: str) -> None:
         assert ((ROOT / document).parent / target).exists(), target
     for path in re.findall(r"`((?:reference|replication|spreadsheets|tests)/[\w/.]*)`", text):
         assert (ROOT / path).exists(), path
+
+
+# The program that checks an audit by its file alone, and notices what is tampered with
+
+PROGRAM = Path(__file__).parent.parent / "docs" / "recheck.py"
+differences = runpy.run_path(str(PROGRAM))["differences"]
+Audit = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def audit(record: Record) -> Audit:
+    document = json.loads(json_text(record))
+    assert isinstance(document, dict)
+    return document
+
+
+def tampered(audit: Audit, change: Callable[[dict[str, Any]], object]) -> list[str]:
+    """What is said of a copy whose claims, by id, were changed."""
+    another = copy.deepcopy(audit)
+    change({claim["id"]: claim for claim in another["claims"]})
+    return [line for line in differences(another) if not line.startswith("summary:")]
+
+
+def test_our_audit_has_no_differences(audit: Audit) -> None:
+    assert list(differences(audit)) == []
+
+
+@pytest.mark.parametrize("verdict", ["reproduced", "not reproduced", "consistent"])
+def test_every_other_verdict_is_noticed(verdict: str, audit: Audit) -> None:
+    """But for counts, and for what nothing decides: the file has no fractions on them."""
+    said = tampered(audit, lambda claims: [c.update(verdict=verdict) for c in claims.values()])
+    noticed = {line.partition(":")[0] for line in said}
+    unseen = {c["id"]: c["verdict"] for c in audit["claims"] if c["verdict"] != verdict}
+    unseen = {name: own for name, own in unseen.items() if name not in noticed}
+    assert set(unseen.values()) <= ({"not checkable"} if verdict == "consistent" else set())
+
+
+def change_end(part: str, value: list[str]) -> Callable[[dict[str, Any]], object]:
+    return lambda claims: claims["depth-beta-5"].update({part: value})
+
+
+TAMPERED: dict[str, Callable[[dict[str, Any]], object]] = {
+    "another range": change_end("enclosure_exact", ["7/1", "71/10"]),
+    "a range across the end": change_end("enclosure_exact", ["7/1", "767/100"]),
+    "another interval": change_end("interval_exact", ["7/1", "8/1"]),
+    "an end moved a little": change_end("interval_exact", ["1533/200", "3071/400"]),
+    "a double beside its fraction": change_end("enclosure", [7.67, 7.66]),
+    "another printed number": lambda c: c["depth-beta-5"].update(printed="7.68"),
+    "a convention": lambda c: c["a1-depth-2"]["otherwise"][0].update(verdict="reproduced"),
+    "another reading": lambda c: c["frank-zook-rha"]["readings"][0].update(verdict="reproduced"),
+    "a repeated number": lambda c: c["velocity-606"].update(interval_exact=["607", "608"]),
+    "a chosen number": lambda c: c["flow-stress"]["shown_by"].update(interval=[600, 650]),
+    "a public source": lambda c: c["yield-strength"]["sources"][0].update(agrees=False),
+}
+
+
+@pytest.mark.parametrize("what", TAMPERED)
+def test_what_is_changed_is_noticed(what: str, audit: Audit) -> None:
+    assert tampered(audit, TAMPERED[what])
+
+
+def test_a_constant_and_a_count(audit: Audit) -> None:
+    another = copy.deepcopy(audit)
+    equation = next(e for e in another["equations"] if e["id"] == "eq16")
+    equation["constants"][0]["needed"] = ["2"]
+    another["summary"]["reproduced"] += 1
+    first, second = sorted(differences(another))
+    assert first.startswith("eq16-denominator: is 'not reproduced', not reproduced")
+    assert second.startswith("summary: 87 claims")
+
+
+@pytest.mark.parametrize(
+    ("changed", "status"),
+    [
+        (lambda text: text, 0),
+        (lambda text: text.replace('"reproduced"', '"not reproduced"', 1), 1),
+        *((lambda _, text=text: text, 2) for text in ("{}", "no JSON", "[1]")),
+    ],
+)
+def test_the_program(
+    changed: Callable[[str], str], status: int, audit: Audit, tmp_path: Path
+) -> None:
+    file = tmp_path / "audit.json"
+    file.write_text(changed(json.dumps(audit)), "utf-8")
+    command = [sys.executable, "-I", PROGRAM, file]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == status
+    assert "Traceback" not in done.stderr
+    assert len(done.stderr.splitlines()) == (status == 2)
+    if status == 0:
+        assert done.stdout == f"{len(audit['claims'])} claims, 0 differences\n"
