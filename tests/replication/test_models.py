@@ -54,7 +54,7 @@ IMPACTS = st.builds(
     target_density=st.floats(1000, 20000),
     resistance=st.floats(1e8, 1e10),
     step=st.just(1.0),
-    stop_velocity=st.just(1.0),
+    stop_velocity=st.floats(0, 2),
 ).map(lambda impact: replace(impact, step=impact.radius / impact.velocity / 50))
 
 
@@ -225,23 +225,12 @@ def test_a_crater_has_the_volume_that_its_depth_came_from(ratio: float) -> None:
 
 # Error budget, convergence and hard cases
 
-SENSIBLE = st.builds(
-    Impact,
-    velocity=st.floats(10, 3000),
-    radius=st.floats(1e-7, 1e-3),
-    particle_density=st.floats(1000, 20000),
-    target_density=st.floats(1000, 20000),
-    resistance=st.floats(1e8, 1e11),
-    step=st.just(1.0),
-    stop_velocity=st.floats(0, 2),
-)
-
 
 def with_steps(impact: Impact, steps: float) -> Impact:
     return replace(impact, step=float(exact_motion(impact).stop_time()) / steps)
 
 
-@given(SENSIBLE, st.floats(50, 500), st.sampled_from(["published", "centered"]))
+@given(IMPACTS, st.floats(50, 500), st.sampled_from(["published", "centered"]))
 @settings(max_examples=60, deadline=None)
 def test_the_parts_of_the_budget_add_up(impact: Impact, steps: float, scheme: str) -> None:
     error, budget = split(run(with_steps(impact, steps), scheme))
