@@ -11,7 +11,6 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 from fractions import Fraction as F
 from hashlib import sha256
 from itertools import pairwise, product
@@ -178,10 +177,10 @@ IMPACTS = st.builds(
 def test_elasticities_are_the_slopes_of_the_reference(impact: Impact, name: str) -> None:
     if abs(ratio(impact) - 1) < 1e-6:
         return  # the second derivative jumps at y = 1, so that differences across it are coarser
-    h = Fraction(1, 10**12)
+    h = F(1, 10**12)
 
-    def log_depth(share: Fraction) -> mpmath.mpf:
-        inputs = {key: Fraction(getattr(impact, key)) for key in INPUTS}
+    def log_depth(share: F) -> mpmath.mpf:
+        inputs = {key: F(getattr(impact, key)) for key in INPUTS}
         inputs[name] *= 1 + share
         resistance = inputs.pop("beta") * inputs.pop("flow_stress")
         return mpmath.log(Trajectory(**inputs, resistance=resistance, digits=50).final_depth)
