@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import xlsxwriter
-from kept import pairs
+from kept import kept, pairs
 from workbooks import BY_NAME, Fake, usable
 
 from spreadsheets import emit, engines
@@ -213,35 +213,15 @@ def check(tmp_path: Path) -> Callable[..., EngineCheck]:
     return check
 
 
-@pytest.mark.parametrize(
-    ("told", "tolerated"),
-    [
-        ({}, (True, True)),
-        # Just beyond the bound, of another kind, an input, or a cell that nobody planned.
-        ({"B2": 0.5 + 6e-15}, (False, False)),
-        ({"B1": SMALL + 6e-15}, (False, False)),
-        ({"B4": 0.3 + 4e-15}, (False, False)),
-        ({"B2": None}, (False, False)),
-        ({"B2": "0.5"}, (False, False)),
-        ({"B2": "#NUM!"}, (False, False)),
-        ({"A1": 0.1 + 2e-17}, (False, False)),
-        ({"Z9": 1.0}, (False, False)),
-        ({"B3": math.log(0.1) * (1 + 2e-14)}, (False, False)),
-        # What is small for a function, for its column, or for itself.
-        ({"B3": math.nextafter(math.log(0.1), 0.0)}, (True, True)),
-        ({"B2": math.nextafter(0.5, 1.0)}, (False, True)),
-        ({"B1": SMALL + 4e-15, "B2": 0.5 - 4e-15}, (False, True)),
-        ({"B4": 0.3 + 2e-15}, (False, True)),
-    ],
-    ids=str,
-)
+@kept("spreadsheets/kept.txt", "Cells that an engine gives otherwise: in doubles, in long doubles")
 def test_one_wrong_cell_is_enough(
-    check: Callable[..., EngineCheck], told: dict[str, Any], tolerated: tuple[bool, bool]
+    question: str, answer: str, check: Callable[..., EngineCheck]
 ) -> None:
     """One ulp of any cell but a function's is a difference, except to an engine of long doubles."""
-    for long_doubles, good in zip((False, True), tolerated, strict=True):
-        result = check(told, long_doubles=long_doubles)
-        assert (result.outcome, result.passed) == ("verified" if good else "differs", good)
+    told = eval(question, {"math": math, "SMALL": SMALL})
+    for long_doubles, outcome in zip((False, True), answer.split(", "), strict=True):
+        result, good = check(told, long_doubles=long_doubles), outcome == "verified"
+        assert (result.outcome, result.passed) == (outcome, good)
         assert [left.cell for left in result.wrong] == ([] if good else list(told))
         assert (result.version, result.cells, result.rounded) == ("1.0", 4, len(told) * good)
 
