@@ -218,12 +218,7 @@ def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Conte
         last = int(until[0] or max(at[1] for at in f.cells if at[0] == sheet))
     rows = dict(enumerate(calculated(f.impact).rows))
     for r in range(row, last + 1, int(until[1]) if until[1:] else 1):
-        known = {
-            "r": r,
-            "p": r - 1,
-            "k": r - 8,
-            "t": (r - 8) * 5e-10,
-        }
+        known = {"r": r, "p": r - 1, "k": r - 8, "t": (r - 8) * 5e-10}
         if scheme := rows.get(r - 8):
             known |= {"v0": scheme.velocity_initial, "v1": scheme.velocity_final}
             known |= {"x": scheme.depth, "a": scheme.deceleration}

@@ -11,14 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from kept import calls
 
-from reference.arithmetic import (
-    DiscontinuityError,
-    Duals,
-    Floats,
-    Rationals,
-    Ratios,
-    Reals,
-)
+from reference.arithmetic import DiscontinuityError, Duals, Floats, Rationals, Ratios, Reals
 from reference.intervals import Intervals
 
 OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {

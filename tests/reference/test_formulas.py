@@ -14,14 +14,7 @@ from kept import kept, said
 
 from reference.arithmetic import Floats, Rationals, Reals
 from reference.enclosure import enclose
-from reference.equations import (
-    MATHML,
-    Node,
-    dimension,
-    evaluate,
-    read_expression,
-    rendered,
-)
+from reference.equations import MATHML, Node, dimension, evaluate, read_expression, rendered
 from reference.formulas import FUNCTIONS, computing
 from reference.ledger import Claim, load
 from reference.units import unit_dimension

@@ -205,8 +205,7 @@ def check(tmp_path: Path) -> Callable[..., EngineCheck]:
         surplus = tuple(("S", address, told[address]) for address in told.keys() - CELLS.keys())
         cells = {**EXPECTED["S"], **told}
         engine = Fake(
-            lambda s, at, value: cells[at] if s == "S" else value,
-            **{"surplus": surplus, **more},
+            lambda s, at, value: cells[at] if s == "S" else value, **{"surplus": surplus, **more}
         )
         return verify(path, PLAN, expected, engine, long_doubles=BOUND)
 

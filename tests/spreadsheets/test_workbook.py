@@ -186,9 +186,7 @@ def test_slow_impacts_keep_their_digits(engine: Engine, slow_files: list[Any]) -
 # The bound for long doubles
 
 
-def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(
-    emitted: Any,
-) -> None:
+def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emitted: Any) -> None:
     """Errors of three times the bound: of the largest of a column, or of the number alone."""
     book, result = emitted.book, usable("gnumeric").recalculate(emitted.path)
     assert compare(book.cells, result, tolerances(book.plan, book.cells)) != []
@@ -321,9 +319,7 @@ class Page:
 
 @pytest.fixture(scope="module", params=["ironcalc", "formualizer", "libreoffice"])
 def pages(
-    request: pytest.FixtureRequest,
-    emitted: Any,
-    tmp_path_factory: pytest.TempPathFactory,
+    request: pytest.FixtureRequest, emitted: Any, tmp_path_factory: pytest.TempPathFactory
 ) -> dict[str, Page]:
     """The workbook with each of these typed, recalculated."""
     folder = tmp_path_factory.mktemp("typed")
