@@ -157,13 +157,10 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 
 
 def test_a_wrong_address_is_refused() -> None:
-    moved = [
-        msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
-        if claim.id == "depth-beta-5"
-        else claim
-        for claim in LEDGER.claim
-    ]
-    wrong = msgspec.structs.replace(LEDGER, claim=moved)
+    (claim,) = (claim for claim in LEDGER.claim if claim.id == "depth-beta-5")
+    moved = msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
+    claims = [moved if own is claim else own for own in LEDGER.claim]
+    wrong = msgspec.structs.replace(LEDGER, claim=claims)
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
 
@@ -174,7 +171,6 @@ def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
             values = BOOKS["centered"].values
             assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
     cells = dict(BOOKS["centered"].plan.cells())
-    assert "centered" in cells["Overview", "A2"].text
     told = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
     by_scheme = [claim.by_scheme for claim in LEDGER.claims.values()]
     assert [text.startswith("With the published scheme: ") for text in told[1:]] == by_scheme
@@ -220,20 +216,11 @@ def test_the_front_sheet_tells_what_holds_and_links_to_it() -> None:
         assert name == "Overview" or ("Overview", "A1") in links
 
 
-def test_an_own_workbook_leaves_out_what_is_about_the_report() -> None:
-    about_report = {
-        "Table A-1 check", "Sheet beta 3", "Sheet beta 3 coarse", "Sheet beta 5 coarse", "Audit",
-    }  # fmt: skip
-    assert len(SHEETS) == 15
-    assert [s.name for s in OWN.plan.sheets] == [
-        name for name in SHEETS if name not in about_report
-    ]
-    printed = {cell.claim for (s, _), cell in OWN.plan.cells() if s in ("Overview", "Sheet beta 5")}
-    assert printed == {"", "excess"}
-    claims = {cell.claim for _, cell in build(BETA_5).plan.cells()}
-    assert {"depth-beta-5", "ratio-beta-5"} <= claims
-    given = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
-    assert not {"inputs.beta", "inputs.Y_t"} & build(given).values.keys()
+test_what_the_workbooks_hold = calls(
+    "spreadsheets/kept.txt",
+    "Workbooks: the report's, with either scheme, and one of a case of one's own",
+    globals(),
+)
 
 
 # Layout
@@ -268,13 +255,8 @@ def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
 def test_charts_are_told_in_words_and_by_more_than_color() -> None:
     looks = tables()["curves"]
     assert len({look["dash"] for look in looks}) == len({look["marker"] for look in looks}) == 2
-    for name, words in (
-        ("Figure 3", "β = 3 reaches 10.03 µm after 35.6 ns, β = 5 reaches 7.67 µm after 26.2 ns"),
-        ("Figure 5", "for β = 5, from 0.553 at 400 m/s to 0.698 at 500 m/s"),
-        ("Convergence", "β = 5 from 0.12 µm at 3.2 ns to 0.00068 µm at 0.025 ns"),
-    ):
+    for name in ("Figure 3", "Figure 5", "Convergence"):
         page = SHEETS[name]
-        assert words in page.description(BOOK.values)
         assert all("[" in page.entry["chart"][axis] for axis in ("x_title", "y_title"))
         for (sheet, at), _, _ in page.curves:
             assert bool(SHEETS[sheet].cells[at].formula) == (name != "Convergence")
