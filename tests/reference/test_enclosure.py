@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kept import calls
+from kept import calls, kept
 
 from reference import enclosure
 from reference.arithmetic import Rationals
@@ -148,22 +148,14 @@ A, B, C = (2 * math.cos(math.radians(angle)) for angle in (80, 40, 20))
 """Where x^3 - 3x is 1 or -1, as 2 cos(3 t) = (2 cos t)^3 - 3 (2 cos t)."""
 
 
-@pytest.mark.parametrize(
-    ("name", "target", "inner"),
-    [
-        ("parabola", Interval(F(2), F(6)), [(-2, -1), (2, 3)]),
-        ("cubic", Interval(F(-1), F(1)), [(-C, -B), (-A, A), (B, C)]),
-        ("falling", Interval(F(3, 5), F(1), False, False), [(-1, 1)]),
-        ("line", Interval(F(1), None), [(1, 3)]),
-        ("stairs", Interval(F(1), F(2)), [(F(1, 3), F(3, 2))]),
-        ("hill", Interval(F(2), F(3)), []),
-    ],
-)
-def test_known_solutions(name: str, target: Interval, inner: list[tuple[F, F]]) -> None:
+@kept("reference/kept.txt", "Solutions that are known")
+def test_known_solutions(question: str, answer: str) -> None:
+    name, target = eval(question, {"F": F, "Interval": Interval})
+    known = eval(answer, {"A": A, "B": B, "C": C})
     result = solve(FUNCTIONS[name], "x", (F(-3), F(3)), target, 500)
     for part in (result.inner, result.outer):
-        assert len(part) == len(inner)
-        for ends, expected in zip(part, inner, strict=True):
+        assert len(part) == len(known)
+        for ends, expected in zip(part, known, strict=True):
             assert ends == pytest.approx(expected, abs=1e-9 if name != "stairs" else 0.05)
 
 
@@ -174,53 +166,29 @@ def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
     return [(function, Interval(F(low), F(high))) for function, low, high in pairs]
 
 
-@pytest.mark.parametrize(
-    ("given_", "expected"),
-    [
-        # x y in [2, 3] for y in [1, 2]: x from 1 to 3.
-        (constraints((lambda ar, x, y: x * y, 2, 3)), (1, 3)),
-        # ... and x - y in [0, 5], which keeps x above y, but bounds it less by itself.
-        (constraints((lambda ar, x, y: x * y, 2, 3), (lambda ar, x, y: x - y, 0, 5)), (1, 3)),
-        # What bounds it less, before and after.
-        (constraints((lambda ar, x, y: x * y, 1, 9), (lambda ar, x, y: x * y, 2, 3),
-                     (lambda ar, x, y: x * y, F(1, 2), 4)), (1, 3)),
-        # Falling with x: y / x in [1, 2].
-        (constraints((lambda ar, x, y: y / x, 1, 2)), (F(1, 2), 2)),
-        # Out of reach at any corner: no bound.
-        (constraints((lambda ar, x, y: x + y, 90, 99)), (F(1, 8), 9)),
-    ],
-)  # fmt: skip
-def test_how_far_one_input_can_range(given_: list[Constraint], expected: Any) -> None:
-    box = {"x": (F(1, 8), F(9)), "y": (F(1), F(2))}
+@kept("reference/kept.txt", "Constraints on x in [1/8, 9] and y in [1, 2], and how far x can range")
+def test_how_far_one_input_can_range(question: str, answer: str) -> None:
+    given_, box = constraints(*eval(question)), {"x": (F(1, 8), F(9)), "y": (F(1), F(2))}
     low, high = bounds(given_, "x", box)
-    assert (low, high) == pytest.approx(expected, abs=1e-9)
+    assert (low, high) == pytest.approx(eval(answer), abs=1e-9)
     for x, y in product(samples(F(1, 8), F(9), 142), samples(F(1), F(2), 8)):
         if all(target.contains(f(EXACT, x, y)) for f, target in given_):
             assert low <= x <= high
 
 
-def test_several_constraints_together() -> None:
-    box = {"x": (F(0), F(3)), "y": (F(0), F(3))}
-    near = constraints((lambda ar, x, y: x + y, 4, 5), (lambda ar, x, y: x * y, 4, 9))
-    outcome, point = satisfying(near, box)
-    assert outcome is True
-    assert point is not None
-    assert all(target.contains(f(EXACT, **point)) for f, target in near)
-    apart = constraints((lambda ar, x, y: x + y, 0, 1), (FUNCTIONS["saddle"], 3, 9))
-    assert satisfying(apart, box)[0] is False
-    # Tangents find at once what halving the box would find late.
-    sliver = constraints(
-        (lambda ar, x, y: x + 2 * y, F(29, 10), F(291, 100)),
-        (lambda ar, x, y: x - y, F(-3, 2), F(-149, 100)),
-    )
-    outcome, point = satisfying(sliver, {"x": (F(-3), F(3)), "y": (F(0), F(9))}, budget=1)
-    assert outcome is True
-    assert point is not None
-    assert all(target.contains(f(EXACT, **point)) for f, target in sliver)
+def found(*given_: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
+    """What a search for a point comes to; what is found meets every constraint."""
+    outcome, point = satisfying(constraints(*given_), box, budget)
+    assert (outcome is True) == (point is not None)
+    if point is not None:
+        assert all(target.contains(f(EXACT, **point)) for f, target in constraints(*given_))
+    return outcome
 
 
 test_what_single_searches_find = calls(
     "reference/kept.txt",
     "Searches over boxes, and intervals",
-    vars(enclosure) | {"F": F, **FUNCTIONS, "root": lambda ar, x: ar.power(x, F(1, 3)) ** 3},
+    vars(enclosure)
+    | FUNCTIONS
+    | {"F": F, "found": found, "root": lambda ar, x: ar.power(x, F(1, 3)) ** 3},
 )
