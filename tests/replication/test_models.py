@@ -6,7 +6,6 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -26,7 +25,7 @@ from replication.models.depth import (
 )
 from replication.models.impact import Impact, InputError
 from replication.models.motion import stop_time, time_to_depth
-from replication.models.sheet import SCHEMES, Row, _fewest_steps, run
+from replication.models.sheet import SCHEMES, _fewest_steps, run
 
 # A case
 
@@ -87,15 +86,6 @@ def test_the_fewest_steps_are_no_more_than_are_taken(
     target = (impact.target_density, impact.target_resistance)
     fewest = _fewest_steps(impact.velocity, impact.stop_velocity, *inputs, *target)
     assert fewest <= run(impact, scheme).steps
-
-
-def test_a_frame_holds_the_rows() -> None:
-    sheet = run(BETA_5)
-    frame = sheet.frame()
-    assert set(frame.dtypes) == {np.dtype("float64")}
-    assert (list(frame.columns), frame.index.name) == (list(Row._fields), "row")
-    assert [tuple(row) for row in frame.to_numpy().tolist()[1:]] == list(sheet.rows[1:])
-    assert math.isnan(frame.velocity_final.iloc[0])
 
 
 @kept("replication/kept.txt", "Runs of beta-5 otherwise, and what they are warned of")

@@ -19,10 +19,10 @@ import pyarrow.parquet
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kept import kept
 from running import coldspray
 from scipy import stats
 
-from replication.cases import BETA_5
 from replication.models.depth import final_depth, normalized_depth
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
@@ -69,33 +69,13 @@ def names(folder: Path) -> list[str]:
 # What a plan means
 
 
-MEANINGS: dict[str, dict[str, list[float]]] = {
-    '[inputs]\nvelocity = ["400 m/s", 500.0]\nradius = {from = "1 um", to = 3e-6, points = 3}': {
-        "velocity": [400, 400, 400, 500, 500, 500],  # the first of the file varies slowest
-        "radius": [1e-6, 2e-6, 3e-6] * 2,
-    },
-    '[sweep]\ncase = "beta-3"\n[inputs]\nradius = "5 um"': {  # the rest is the case's
-        "radius": [5e-6],
-        "beta": [3],
-        "velocity": [500],
-        "resistance": [2.1e9],
-    },
-    '[inputs]\nresistance = ["98 ksi", 2.1e9]': {"resistance": [6.75686215e8, 2.1e9]},
-    "\ufeff[inputs]": {"depth": [0.000007674932926028623]},  # a byte order mark, one case
-    # Eq. 1. Mass goes as the cube of the radius: velocities in the ratio 8^(1/2).
-    '[inputs]\nradius = ["5.5 um", "11 um", "22 um"]\n'
-    f'velocity = {{average_velocity = "500 m/s", average_mass = {BETA_5.mass!r}}}': {
-        "velocity": [500 * math.sqrt(8), 500, 500 / math.sqrt(8)]
-    },
-}
-
-
-@pytest.mark.parametrize("text", MEANINGS)
-def test_what_a_plan_means(text: str, tmp_path: Path) -> None:
-    cases = all_of(plan_of(tmp_path, text))
-    for name, expected in MEANINGS[text].items():
-        assert cases[name].tolist() == pytest.approx(expected, rel=2e-9 if "ksi" in text else 1e-15)
-    assert ("beta" in cases) == ("resistance =" not in text)
+@kept("replication/kept.txt", "What a plan means")
+def test_what_a_plan_means(question: str, answer: str, tmp_path: Path) -> None:
+    cases = all_of(plan_of(tmp_path, question))
+    for name, expected in eval(answer).items():
+        rounding = 2e-9 if "ksi" in question else 1e-15
+        assert cases[name].tolist() == pytest.approx(expected, rel=rounding)
+    assert ("beta" in cases) == ("resistance =" not in question)
 
 
 @given(
