@@ -23,22 +23,11 @@ from kept import kept
 from running import coldspray
 from scipy import stats
 
+from replication import sweep
 from replication.models.depth import final_depth, normalized_depth
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import run
-from replication.sweep import (
-    BLOCK,
-    EXTRAS,
-    LEAST_SHARE,
-    RESULTS,
-    Plan,
-    compute,
-    read_plan,
-    read_source,
-    uniform,
-    write,
-)
 from spreadsheets.safely import write_bytes
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "sweeps"
@@ -52,14 +41,14 @@ velocity = {{ distribution = "normal", mean = "500 m/s", deviation = "50 m/s" }}
 """
 
 
-def plan_of(folder: Path, text: str) -> Plan:
+def plan_of(folder: Path, text: str) -> sweep.Plan:
     file = folder / "plan.toml"
     file.write_text(text)
-    return read_plan(file)
+    return sweep.read_plan(file)
 
 
-def all_of(plan: Plan) -> dict[str, np.ndarray]:
-    return compute(plan, 0, plan.count)
+def all_of(plan: sweep.Plan) -> dict[str, np.ndarray]:
+    return sweep.compute(plan, 0, plan.count)
 
 
 def names(folder: Path) -> list[str]:
@@ -84,7 +73,7 @@ def test_what_a_plan_means(question: str, answer: str, tmp_path: Path) -> None:
 def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
     ends = {"from": str(first), "to": str(last), "points": count}
     for scale, expected in (("linear", np.linspace), ("log", np.geomspace)):
-        source = read_source("radius", {**ends, "scale": scale})
+        source = sweep.read_source("radius", {**ends, "scale": scale})
         values = source.at(np.arange(count))
         # The exponent, at most 9, is off by two ulp (4e-15): relatively that times ln 10.
         np.testing.assert_allclose(values, expected(first, last, count), rtol=2e-14)
@@ -97,15 +86,15 @@ def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
 
 @given(seed=st.integers(0, 2**64 - 1), first=st.integers(0, 10**12), count=st.integers(0, 40))
 def test_a_case_has_its_random_number_in_any_block(seed: int, first: int, count: int) -> None:
-    whole = uniform(seed, 3, first, count + 7)
-    assert (uniform(seed, 3, first, count) == whole[:count]).all()
-    assert (uniform(seed, 3, first + count, 7) == whole[count:]).all()
-    assert ((whole >= LEAST_SHARE) & (whole <= 1 - LEAST_SHARE)).all()
+    whole = sweep.uniform(seed, 3, first, count + 7)
+    assert (sweep.uniform(seed, 3, first, count) == whole[:count]).all()
+    assert (sweep.uniform(seed, 3, first + count, 7) == whole[count:]).all()
+    assert ((whole >= sweep.LEAST_SHARE) & (whole <= 1 - sweep.LEAST_SHARE)).all()
 
 
 def test_seeds_and_inputs_have_numbers_of_their_own(tmp_path: Path) -> None:
     count = 100_000
-    drawn = [uniform(0, stream, 0, count) for stream in (0, 1)]
+    drawn = [sweep.uniform(0, stream, 0, count) for stream in (0, 1)]
     cases = plan_of(tmp_path, STREAM.format(samples=count)).inputs(0, count)
     radius, velocity = law("lognormal", 11e-6, 2.8e-6), law("normal", 500, 50)
     drawn += [radius(cases["radius"]), velocity(cases["velocity"])]  # of seed 1
@@ -135,7 +124,7 @@ def law(
     mean=st.floats(1e-6, 1e-4),
     deviation=st.floats(1e-7, 1e-4),
     lower=st.floats(1e-9, 1e-4),
-    shares=st.lists(st.floats(LEAST_SHARE, 1 - LEAST_SHARE), min_size=2, max_size=20),
+    shares=st.lists(st.floats(sweep.LEAST_SHARE, 1 - sweep.LEAST_SHARE), min_size=2, max_size=20),
 )
 def test_quantiles_are_those_of_the_distribution_within_its_bounds(
     kind: str, mean: float, deviation: float, lower: float, shares: list[float]
@@ -144,7 +133,7 @@ def test_quantiles_are_those_of_the_distribution_within_its_bounds(
     ends = {"lower": lower, "upper": lower + 2e-4}
     table = {key: repr(value) for key, value in (numbers | ends).items()}
     try:
-        source = read_source("stop_velocity", {"distribution": kind, **table})
+        source = sweep.read_source("stop_velocity", {"distribution": kind, **table})
     except ValueError:  # less than a millionth of it would be left
         return
     shares.sort()
@@ -175,7 +164,9 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             impact = Impact(**{name: float(cases[name][k]) for name in given})
             sheet, others = run(impact), {n: x for n, x in impact.motion.items() if n != "radius"}
             ratio = normalized_depth(**others)
-            assert {name: cases[name][k] for name in (*RESULTS, *EXTRAS, "resistance")} == {
+            assert {
+                name: cases[name][k] for name in (*sweep.RESULTS, *sweep.EXTRAS, "resistance")
+            } == {
                 "depth": final_depth(**impact.motion),
                 "normalized_depth": ratio,
                 "beyond_radius": ratio > 1,
@@ -204,7 +195,7 @@ def test_every_example_runs(tmp_path: Path) -> None:
         output = tmp_path / f"{example.stem}.parquet"
         assert coldspray("sweep", example, "-o", output)[::2] == (0, "")
         table = pyarrow.parquet.read_metadata(output)
-        assert table.num_rows == read_plan(example).count
+        assert table.num_rows == sweep.read_plan(example).count
 
 
 # Files
@@ -214,11 +205,11 @@ def test_every_example_runs(tmp_path: Path) -> None:
 def test_the_bytes_are_the_same_on_every_run_and_parts_are_the_whole(
     suffix: str, tmp_path: Path
 ) -> None:
-    plan, told = plan_of(tmp_path, STREAM.format(samples=2 * BLOCK + 17)), list[int]()
+    plan, told = plan_of(tmp_path, STREAM.format(samples=2 * sweep.BLOCK + 17)), list[int]()
     files = [tmp_path / f"{name}.{suffix}" for name in ("whole", "again", "first", "rest")]
     for file, numbers in zip(files, (None, None, range(1), range(1, 3)), strict=True):
-        write(plan, file, numbers=numbers, done=told.append)
-    assert told == [BLOCK, BLOCK, 17] * 3
+        sweep.write(plan, file, numbers=numbers, done=told.append)
+    assert told == [sweep.BLOCK, sweep.BLOCK, 17] * 3
     contents = [file.read_bytes() for file in files]
     assert contents[0] == contents[1]
     if suffix == "csv":
@@ -227,7 +218,9 @@ def test_the_bytes_are_the_same_on_every_run_and_parts_are_the_whole(
     whole, _, *parts = map(pyarrow.parquet.read_table, files)
     assert pyarrow.concat_tables(parts).equals(whole)
     for first, count in ((0, 1), (299, 3), (17, 583)):  # nor do cases depend on their block
-        cases = {name: column.tolist() for name, column in compute(plan, first, count).items()}
+        cases = {
+            name: column.tolist() for name, column in sweep.compute(plan, first, count).items()
+        }
         assert cases == whole.slice(first, count).to_pydict()
 
 
@@ -254,7 +247,7 @@ def test_the_command_writes_units_all_digits_and_whose_they_are(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     file = EXAMPLES / "figure-5.toml"
-    plan = read_plan(file)
+    plan = sweep.read_plan(file)
     cases = {name: column.tolist() for name, column in all_of(plan).items()}
     assert coldspray("sweep", file) == (0, "Written: figure-5.csv (101 cases)\n", "")
     rows = list(csv.DictReader(Path("figure-5.csv").read_text().splitlines()))
@@ -302,11 +295,11 @@ def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path
 ) -> None:
-    sweep = started(tmp_path)
-    send(sweep.pid, number)
-    _, err = sweep.communicate(timeout=60)
+    process = started(tmp_path)
+    send(process.pid, number)
+    _, err = process.communicate(timeout=60)
     assert err == b"coldspray sweep: interrupted; no file is left in part\n"
-    assert sweep.returncode == 128 + number
+    assert process.returncode == 128 + number
     assert names(tmp_path) == ["plan.toml"]
 
 
@@ -327,13 +320,13 @@ def started(folder: Path) -> "subprocess.Popen[bytes]":
         for number in (signal.SIGINT, signal.SIGHUP):
             signal.signal(number, signal.SIG_DFL)
 
-    sweep = subprocess.Popen(
-        command(folder, 4000 * BLOCK), stderr=-1, start_new_session=True, preexec_fn=listening
+    process = subprocess.Popen(
+        command(folder, 4000 * sweep.BLOCK), stderr=-1, start_new_session=True, preexec_fn=listening
     )
     for _ in range(6000):
         if any(draft.stat().st_size > 100_000 for draft in folder.glob(".out.csv.*.part")):
-            return sweep
-        assert sweep.poll() is None, sweep.communicate()
+            return process
+        assert process.poll() is None, process.communicate()
         time.sleep(0.01)
     pytest.fail("the sweep has not begun within a minute")
 
@@ -343,7 +336,7 @@ def started(folder: Path) -> "subprocess.Popen[bytes]":
 
 def test_dask_writes_the_same_cases(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, STREAM.format(samples=1000))
-    write(plan, tmp_path / "here.parquet")
+    sweep.write(plan, tmp_path / "here.parquet")
     command = [sys.executable, "-W", "error", EXAMPLES / "on_dask.py", tmp_path / "plan.toml"]
     for _ in range(2):  # the second finds what the first wrote
         subprocess.run([*command, tmp_path / "parts"], check=True, capture_output=True)
