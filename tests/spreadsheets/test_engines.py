@@ -124,7 +124,7 @@ def test_missing_engine_says_what_to_install(
 
 
 @pytest.fixture
-def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Engine]:
+def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], Engine]]:
     """LibreOffice with a script in front of it as ``soffice``; it must leave no file behind."""
     engine = usable("libreoffice")
     (tmp_path / "bin").mkdir()
@@ -138,34 +138,21 @@ def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], E
         program.chmod(0o755)
         return engine
 
-    return behind
+    yield behind
+    assert not list((tmp_path / "temporary").iterdir())
 
 
-@pytest.fixture(autouse=True)
-def nothing_is_left(tmp_path: Path) -> Iterator[None]:
-    yield
-    assert not list((tmp_path / "temporary").glob("*"))
-
-
-@pytest.mark.parametrize(
-    ("script", "limit", "said"),
-    [
+def test_libreoffice_that_fails_or_hangs_is_an_error(
+    office: Callable[[str], Engine], workbook: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for script, limit, said in (
         ("echo chatter >&2; exit 3", 600, "soffice ended with status 3 before it answered"),
         # Returning before the sleep is over shows that it was killed: its end is waited for.
         ("sleep 600", 1, "no answer within 1 s"),
-    ],
-)
-def test_libreoffice_that_fails_or_hangs_is_an_error(
-    script: str,
-    limit: int,
-    said: str,
-    office: Callable[[str], Engine],
-    workbook: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(engines, "TIME_LIMIT_S", limit)
-    with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
-        office(script).recalculate(workbook)
+    ):
+        monkeypatch.setattr(engines, "TIME_LIMIT_S", limit)
+        with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
+            office(script).recalculate(workbook)
 
 
 def test_libreoffice_may_want_a_restart(
