@@ -38,14 +38,6 @@ def written(f: Foreign, folder: Path) -> Path:
     return writers.with_openpyxl(f, folder / f"{f.name}.xlsx")
 
 
-@pytest.fixture
-def spoiled(tmp_path: Path) -> Path:
-    """A workbook with one number typed over a formula."""
-    f = made("french", BETA_5)
-    f.cells[f.where[DEPTH, 40]] = 3.7e-6
-    return written(f, tmp_path)
-
-
 # ---- the rules against the models
 
 
@@ -75,8 +67,10 @@ def test_the_rules_give_the_sheet_double_for_double(
 # ---- what is said
 
 
-def test_json_has_the_promised_keys_and_every_digit(spoiled: Path) -> None:
-    arguments = ("check", spoiled, "--map", "target-density=Données!C5")
+def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
+    f = made("french", BETA_5)
+    f.cells[f.where[DEPTH, 40]] = 3.7e-6  # typed over a formula
+    arguments = ("check", written(f, tmp_path), "--map", "target-density=Données!C5")
     status, out, err = coldspray(*arguments, "--json")
     record = json.loads(out)
     assert (status, err) == (1, "")
@@ -174,8 +168,7 @@ def test_a_right_sheet_of_other_inputs_is_clean(
 EVIL = "</td><script>alert(1)</script>\x9b31m\u202egnp.exe"
 
 
-@pytest.fixture
-def evil(tmp_path: Path) -> Path:
+def test_the_page_draws_the_sheet_and_no_content_reaches_it_or_the_terminal(tmp_path: Path) -> None:
     """Names, heads, labels and texts made to break a terminal or a page; one fault to show."""
     f = made("table-a1", BETA_5)
     f.cells = {("Sheet<1>&'x\u202e", r, c): v for (_, r, c), v in f.cells.items()}
@@ -184,14 +177,8 @@ def evil(tmp_path: Path) -> Path:
     f.cells[sheet, 2, 1] = f"Density {EVIL}"
     f.cells[sheet, 3, 8] = EVIL
     f.cells[sheet, 60, 4] = f'=LEN("{EVIL}")'
-    return written(f, tmp_path)
-
-
-def test_the_page_draws_the_sheet_and_no_content_reaches_it_or_the_terminal(
-    evil: Path, tmp_path: Path
-) -> None:
     page, junit = tmp_path / "page.html", tmp_path / "out.xml"
-    status, out, _ = coldspray("check", evil, "--html", page, "--junit", junit)
+    status, out, _ = coldspray("check", written(f, tmp_path), "--html", page, "--junit", junit)
     assert status == 1
     assert "\\x9b31m\\u202egnp.exe" in out
     assert all(c.isprintable() or c == "\n" for c in out)

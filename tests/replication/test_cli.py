@@ -182,17 +182,6 @@ def deeper(sheet: str, address: str, value: Any) -> Any:
     return value + 1e-12 if depth else value
 
 
-@pytest.fixture
-def check(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Return a function that verifies in other engines than those of this machine."""
-
-    def command(engines: list[Engine], *options: str) -> tuple[int, str, str]:
-        monkeypatch.setattr("spreadsheets.engines.ENGINES", tuple(engines))
-        return run("--verify", *OWN, *options)
-
-    return command
-
-
 def test_a_workbook_verifies_in_every_engine(run: Run) -> None:
     """The report's own is verified cell by cell in `tests/spreadsheets/test_workbook.py`."""
     unverified = json.loads(run("--json", "-o", "report.xlsx")[1])
@@ -211,7 +200,13 @@ def test_a_workbook_verifies_in_every_engine(run: Run) -> None:
         assert result["outcome"] == "missing" or result["cells"] > 1000
 
 
-def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(check: Run) -> None:
+def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def check(engines: list[Engine], *options: str) -> tuple[int, str, str]:
+        monkeypatch.setattr("spreadsheets.engines.ENGINES", tuple(engines))
+        return run("--verify", *OWN, *options)
+
     right, absent, echo = Fake(), Fake(reason="Absent: install it."), Fake(told=lambda *_: 41.0)
     status, out, err = check([right, absent])
     assert (status, err) == (0, "")

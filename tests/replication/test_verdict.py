@@ -18,17 +18,12 @@ from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
 from replication.audit.record import Record, SlipRecord
 from replication.audit.replica import replica
-from replication.audit.verdict import Assessment, Judge, Judgement, Reading, Verdict
+from replication.audit.verdict import Assessment, Judge, Judgement, Verdict
 from replication.models import sheet
 from replication.models.impact import Impact
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
-
-
-@cache
-def readings(name: str) -> dict[str, Reading]:
-    return {r.name: r for r in JUDGE.assess(LEDGER.claims[name]).readings}
 
 
 # Witnesses
@@ -37,7 +32,7 @@ def readings(name: str) -> dict[str, Reading]:
 def witnesses() -> Iterator[tuple[str, str, Judgement]]:
     for claim in LEDGER.claims.values():
         if claim.computation is not None and not claim.computation.restates:
-            for reading in readings(claim.id).values():
+            for reading in JUDGE.assess(claim).readings:
                 for judgement in reading.judgements:
                     if judgement.witness is not None:
                         yield claim.id, reading.name, judgement
