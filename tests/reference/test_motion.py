@@ -79,10 +79,9 @@ def test_a_box_of_sheets_holds_the_sheets_at_its_corners() -> None:
             return ar.ends(sheet_depth(ar, rows, limit))
 
     low, high = depth(speeds, strengths)
-    for speed in speeds:
-        for strength in strengths:
-            inner = depth((speed, speed), (strength, strength))
-            assert low < inner[0] <= inner[1] < high
+    for speed, strength in product(speeds, strengths):
+        inner = depth((speed, speed), (strength, strength))
+        assert low < inner[0] <= inner[1] < high
 
 
 # The exact motion

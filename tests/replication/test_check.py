@@ -1,6 +1,5 @@
 """`coldspray check` and `diff`: what is taken for what, what is said, how well it is done."""
 
-import copy
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -199,16 +198,11 @@ CONTENTS = st.one_of(
          "=A1", "=B4:B9", "=ROW()", "=Sheet9!A1", "=[1]S!A1", "=IF(1,2", "0,5", "µm"]
     ),
 )  # fmt: skip
-BASES = {f.name: f for f in (
-    made("french", BETA_5), made("table-a1", BETA_5), made("side-by-side", BETA_5),
-    made("one-velocity", BETA_5), made("printed-digits", BETA_5), drawn(3, BETA_5),
-)}  # fmt: skip
-
-
+BASES = ("french", "table-a1", "side-by-side", "one-velocity", "printed-digits", "random-3")
 EDITS = st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=6)
 
 
-@given(name=st.sampled_from(sorted(BASES)), edits=EDITS, heads=EDITS)
+@given(name=st.sampled_from(BASES), edits=EDITS, heads=EDITS)
 @example(name="random-3", edits=[(0, None), (19, 2465027.0)], heads=[])  # a step of zero
 @example(
     name="french",
@@ -219,7 +213,7 @@ EDITS = st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=6)
 def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     tmp_path_factory: pytest.TempPathFactory, name: str, edits: Edits, heads: Edits
 ) -> None:
-    f = copy.deepcopy(BASES[name])
+    f = drawn(3, BETA_5) if name == "random-3" else made(name, BETA_5)
     texts = [p for p, c in f.cells.items() if isinstance(c, str) and not c.startswith("=")]
     for places, changes in ((list(f.cells), edits), (texts, heads)):
         for at, content in changes:
