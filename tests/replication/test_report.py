@@ -193,6 +193,12 @@ def test_quantiles_of_each_law(record: Record) -> None:
         assert laws[law].standard_deviation == pytest.approx(slope * 5.6, rel=1e-9)
 
 
+def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
+    curve = record.velocity_curve
+    ends = ("figure-5-velocity-least", "figure-5-velocity-greatest")
+    assert [curve.velocity[0], curve.velocity[-1]] == [float(LEDGER.value(end)) for end in ends]
+
+
 # The files
 
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
