@@ -93,6 +93,15 @@ def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
         assert interval.meets(type(interval)(value - slack, value + slack)), line
 
 
+def test_numbers_and_symbols_are_marked_as_such(record: Record) -> None:
+    formulas = [equation.mathml for equation in record.equations]
+    formulas += [claim.mathml for claim in record.claims if claim.mathml]
+    for formula in formulas:
+        bare = re.sub("<msub>.*?</msub>", "", formula)
+        for tag, text in re.findall(r"<(m[ni])>([^<]+)</m[ni]>", bare):
+            assert (tag == "mn") == text[0].isdigit(), text
+
+
 def test_what_no_source_has_or_more_than_one_is_refused_by_name() -> None:
     for sources in ((), 2 * (Figure(means="", value=1.0, unit="m"),)):
         with pytest.raises(TypeError, match=f"Figure.unit: {len(sources)} sources"):
