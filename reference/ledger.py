@@ -480,9 +480,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         """The least and the greatest value of an entry, in SI, to search, and why these."""
         key = self._input(name).quantity
         if key is None:
-            value = self.value(name)
-            ends = sorted((value / 10, value * 10)) if value else [Fraction(-1), Fraction(1)]
-            return ends[0], ends[1], "from a tenth to ten times the printed value"
+            if not (value := self.value(name)):
+                return Fraction(-1), Fraction(1), "from -1 to 1, as zero is printed"
+            least, greatest = sorted((value / 10, value * 10))
+            return least, greatest, "from a tenth to ten times the printed value"
         quantity = self.quantities[key]
         low, high = (end * to_si(quantity.unit) for end in quantity.search)
         return low, high, quantity.reason

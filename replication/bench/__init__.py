@@ -24,7 +24,7 @@ from tqdm import tqdm
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
-from replication.bench.peers import SOLVERS, Function, depth_loop, sheet_loop
+from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
@@ -170,6 +170,8 @@ def tasks(case: Case) -> Iterator[Task]:
     for method, (form, levels, solve) in SOLVERS.items():
         for level in levels:
             yield from _solver(case, method, form.format(level), partial(solve, level))
+    alone = partial(bare_depth, *given)
+    yield Task("closed form, bare function", "no steps", "depth", alone)
     yield _many("closed form, Numba loop", "no steps", case, depth_loop, 100_001)
     for step, setting in steps:
         name, loop = "sheet, Numba loop", partial(sheet_loop, step, stop)
@@ -468,7 +470,7 @@ def figure(case: dict[str, Any]) -> bytes:
             points = [point for point in case["points"] if point["measure"] == measure]
             for method in methods:
                 line = _line(point for point in points if point["method"] == method)
-                is_peer = method in SOLVERS or "Numba" in method
+                is_peer = method in SOLVERS or "Numba" in method or "bare" in method
                 panel.plot(*line, marker="o" if is_peer else "s", label=method)
             front = [point for point in ranked(points, measure, many=False) if point["front"]]
             edge: Any = {"label": "Pareto front, one case at a time", "color": "#D55E00"}

@@ -66,25 +66,40 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
     return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]
 
 
-@njit
-def _rk4(steps: Any, b: Any, c: Any, times: Any) -> Any:
-    """The method of Runge and Kutta, with the same number of steps between any two times."""
-    depths, y, u = np.zeros(times.size), 0.0, 1.0
-    steps //= times.size - 1
-    for k in range(1, times.size):
-        h = (times[k] - times[k - 1]) / steps
-        for _ in range(steps):
-            a1 = _acceleration(y, u, b, c)
-            u2 = u + h / 2 * a1
-            a2 = _acceleration(y + h / 2 * u, u2, b, c)
-            u3 = u + h / 2 * a2
-            a3 = _acceleration(y + h / 2 * u2, u3, b, c)
-            u4 = u + h * a3
-            a4 = _acceleration(y + h * u3, u4, b, c)
-            y += h / 6 * (u + 2 * u2 + 2 * u3 + u4)
-            u += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        depths[k] = y
-    return depths
+def _runge_kutta(*rows: tuple[float, ...]) -> Function:
+    """The explicit method of a tableau: its rows, then its weights; equal steps between times."""
+    stages, weights = len(rows), np.array(rows[-1])
+    inner = np.array([(*row, *[0.0] * (stages - len(row))) for row in ((), *rows[:-1])])
+
+    @njit
+    def solve(steps: Any, b: Any, c: Any, times: Any) -> Any:
+        depths, y, u = np.zeros(times.size), 0.0, 1.0
+        dy, du = np.zeros(stages), np.zeros(stages)
+        steps //= times.size - 1
+        for k in range(1, times.size):
+            h = (times[k] - times[k - 1]) / steps
+            for _ in range(steps):
+                for i in range(stages):
+                    x, v = y, u
+                    for j in range(i):
+                        x += h * inner[i, j] * dy[j]
+                        v += h * inner[i, j] * du[j]
+                    dy[i], du[i] = v, _acceleration(x, v, b, c)
+                for i in range(stages):
+                    y += h * weights[i] * dy[i]
+                    u += h * weights[i] * du[i]
+            depths[k] = y
+        return depths
+
+    return solve
+
+
+_RK4 = _runge_kutta((1 / 2,), (0, 1 / 2), (0, 0, 1), (1 / 6, 1 / 3, 1 / 3, 1 / 6))
+_RK6 = _runge_kutta(  # of Butcher, 1964
+    (1 / 3,), (0, 2 / 3), (1 / 12, 1 / 3, -1 / 12), (-1 / 16, 9 / 8, -3 / 16, -3 / 8),
+    (0, 9 / 8, -3 / 8, -3 / 4, 1 / 2), (9 / 44, -9 / 11, 63 / 44, 18 / 11, 0, -16 / 11),
+    (11 / 120, 0, 27 / 40, 27 / 40, -4 / 15, -4 / 15, 11 / 120),
+)  # fmt: skip
 
 
 def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
@@ -126,23 +141,31 @@ SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
     },
     "odeint, Numba": ("rtol {:g}", TOLERANCES, _odeint),
     "dop853, Numba": ("rtol {:g}", TOLERANCES, _dop853),
-    "RK4, Numba": ("{} steps", (100, 200, 400, 800, 1600, 6400), _rk4),
+    "RK4, Numba": ("{} steps", (100, 200, 400, 800, 1600, 6400), _RK4),
+    "RK6, Numba": ("{} steps", (100, 200, 400), _RK6),
     "heyoka": ("tol {:g}", (1e-6, 1e-10, 2.2e-16), _heyoka),
 }
 """For each method: how a setting is shown, its settings, and the solver."""
 
 
-# Bare loops over cases, on one core, without any check
+# A bare function, and bare loops over cases on one core; without any check
+
+
+def bare_depth(V: float, R: float, rho_p: float, rho_t: float, R_t: float) -> float:
+    c = 4 * rho_p / (3 * rho_t) * math.log1p(rho_t * V**2 / (2 * R_t))
+    h = math.asin(math.sqrt(3 * min(c, 2 / 3)) / 2) / 3
+    y = 4 * math.sin(h) * math.sin(h + math.pi / 3) if c < 2 / 3 else c + 1 / 3
+    return R * y
+
+
+_bare_depth = njit(bare_depth)
 
 
 @njit
 def depth_loop(V: Any, R: Any, rho_p: Any, rho_t: Any, R_t: Any) -> Any:
     depths = np.empty(V.size)
     for i in range(V.size):
-        c = 4 * rho_p[i] / (3 * rho_t[i]) * math.log1p(rho_t[i] * V[i] ** 2 / (2 * R_t[i]))
-        h = math.asin(math.sqrt(3 * min(c, 2 / 3)) / 2) / 3
-        y = 4 * math.sin(h) * math.sin(h + math.pi / 3) if c < 2 / 3 else c + 1 / 3
-        depths[i] = R[i] * y
+        depths[i] = _bare_depth(V[i], R[i], rho_p[i], rho_t[i], R_t[i])
     return depths
 
 

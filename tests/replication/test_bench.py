@@ -107,6 +107,7 @@ def test_the_sheet_s_history_is_compared_down_to_where_the_sheet_ends(beta_5: Ca
 EXACT = {
     **dict.fromkeys(("closed form", "closed form, many"), 4 * 2.0**-52),
     **{f"Taylor series{name}": 1e-14 for name in ("", ", many", ", plain Python")},
+    "closed form, bare function": 1e-14,
     "closed form, Numba loop, many": 1e-14,
 }
 """These have no ladder of settings, and cross the radius as if it were not there."""
@@ -114,10 +115,11 @@ EXACT = {
 FINE = {
     **{name: ("rtol 1e-10", 1e-8) for name, (form, *_) in SOLVERS.items() if "rtol" in form},
     "RK4, Numba": ("400 steps", 1e-10),
+    "RK6, Numba": ("400 steps", 1e-10),
     **({"heyoka": ("tol 1e-10", 1e-9)} if find_spec("heyoka") else {}),
 }
 
-INTERPRETED = "closed form|sheet, (published|centered)|Taylor series, plain Python|solve_ivp .*"
+INTERPRETED = "(closed form|sheet, (published|centered)|.*(plain Python|bare function)|solve_ivp .*)"
 """What compiles nothing."""
 
 
