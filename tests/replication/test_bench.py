@@ -119,7 +119,9 @@ FINE = {
     **({"heyoka": ("tol 1e-10", 1e-9)} if find_spec("heyoka") else {}),
 }
 
-INTERPRETED = "(closed form|sheet, (published|centered)|.*(plain Python|bare function)|solve_ivp .*)"
+INTERPRETED = (
+    "(closed form|sheet, (published|centered)|.*(plain Python|bare function)|solve_ivp .*)"
+)
 """What compiles nothing."""
 
 
