@@ -5,7 +5,7 @@ one called beta or target resistance that of the report's other case, and nothin
 latter: no table), then one table reads a cell that is not its own.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from replication.check.examination import Examination, Input, near
 from replication.check.inputs import as_role, report_inputs
@@ -29,52 +29,59 @@ def meant(
     by_tables = set().union(*(f.read for f in tables))
     formulas = tables[0].calculation.formulas.values()
     by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
-    for role in ("resistance", "velocity", "step"):
+    for role, names in _CALLED.items():
         # Velocities and steps may be of curves and of other results; a resistance is of a table.
         read = by_tables if role == "resistance" else by_any
-        alike: dict[tuple[Position, Case, float | None], list[int]] = {}
-        for number, f in enumerate(tables):
-            names = (role, "beta") if role == "resistance" else (role,)
-            cells = (f.inputs[name].place for name in names if name in f.inputs)
-            if source := next(filter(None, cells), None):
-                alike.setdefault((source, f.case, f.rows("depth", 4)), []).append(number)
-        for (source, *_), numbers in alike.items():
-            f = tables[numbers[0]]
-            idle = (
-                as_role(cell, name, report_inputs())
-                for name in names
-                for cell in beside
-                if len(numbers) > 1 and cell.roles == {name}
-            )
-            for cell in idle:
-                place, value = cell.place, cell.si
-                if place is None or place in read:
-                    continue
-                if cell.role == "beta":
-                    stress = f.inputs.get("flow_stress")
-                    value *= stress.si if stress else report_inputs()["flow_stress"][0]
+        called = ((cell, name) for name in names for cell in beside if cell.roles == {name})
+        idle = [(place, as_role(cell, name, report_inputs())) for cell, name in called
+                if (place := cell.place) and place not in read]  # fmt: skip
+        for source, alike in _repeating(tables, names):
+            for place, cell in idle:
+                value, number = _meant_by(cell, alike), _owner(place, source, alike)
                 # A resistance or a beta may be of another model, unless the report prints it.
-                is_printed = any(near(value, each) for each in report_inputs()[role])
-                owner = _owner(place, source, {number: tables[number].table for number in numbers})
-                if owner is None or (role == "resistance" and not is_printed):
+                is_its = role != "resistance" or any(near(value, x) for x in report_inputs()[role])
+                if number is None or not is_its or near(value, getattr(alike[number].case, role)):
                     continue
-                if not near(value, getattr(f.case, role)):
-                    where = f"{address(place, True)}, {quantity(cell.si, cell.role)}"
-                    says = f"{title(cell.role)} in {where}, is read by no table"
-                    told.setdefault(owner, (role, value, says))
+                where = f"{address(place, True)}, {quantity(cell.si, cell.role)}"
+                says = f"{title(cell.role)} in {where}, is read by no table"
+                told.setdefault(number, (role, value, says))
     return told
 
 
-def _owner(place: Position, source: Position, tables: dict[int, Table]) -> int | None:
+_CALLED = {"resistance": ("resistance", "beta"), "velocity": ("velocity",), "step": ("step",)}
+"""By which names a cell tells an input."""
+
+
+def _repeating(
+    tables: Sequence[Examination], names: Sequence[str]
+) -> Iterator[tuple[Position, dict[int, Examination]]]:
+    """The cell that several equal tables read for an input of these names, and the tables."""
+    alike: dict[tuple[Position, Case, float | None], dict[int, Examination]] = {}
+    for number, f in enumerate(tables):
+        cells = (f.inputs[name].place for name in names if name in f.inputs)
+        if source := next(filter(None, cells), None):
+            alike.setdefault((source, f.case, f.rows("depth", 4)), {})[number] = f
+    return ((source, equal) for (source, *_), equal in alike.items() if len(equal) > 1)
+
+
+def _meant_by(cell: Input, alike: Mapping[int, Examination]) -> float:
+    """What a cell tells in SI, of a beta the resistance that follows from it."""
+    if cell.role != "beta":
+        return cell.si
+    stress = next(iter(alike.values())).inputs.get("flow_stress")
+    return cell.si * (stress.si if stress else report_inputs()["flow_stress"][0])
+
+
+def _owner(place: Position, source: Position, tables: dict[int, Examination]) -> int | None:
     """The table by number to which an idle cell belongs, None if it is far from all.
 
     It is the nearest, compared with the cell that is read, `source`; of several the last, which was
     copied from the first.
     """
     off = {
-        number: _apart(place, table) - _apart(source, table)
-        for number, table in reversed(tables.items())
-        if place[0] in (source[0], table.sheet)
+        number: _apart(place, f.table) - _apart(source, f.table)
+        for number, f in reversed(tables.items())
+        if place[0] in (source[0], f.table.sheet)
     }
     nearest = min(off, key=off.__getitem__, default=None)
     return None if nearest is None or off[nearest] > _BLOCK else nearest
