@@ -177,14 +177,18 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
     For a case whose result is not finite, `explain` makes the error to raise of both.
     """
     numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
-    _check(numbers)
     compute = plain if set(map(type, numbers.values())) == {float} else many
-    try:
-        results = compute(*numbers.values())
-    except ValueError as error:
-        shaped = ((name, getattr(number, "shape", ())) for name, number in numbers.items())
-        shapes = ", ".join(f"{name} {shape}" for name, shape in shaped if shape)
-        raise ValueError(f"arrays of these shapes do not broadcast: {shapes}") from error
+    if compute is many:
+        import numpy as np
+
+        shapes = {name: np.shape(number) for name, number in numbers.items()}
+        try:
+            np.broadcast_shapes(*shapes.values())
+        except ValueError as error:
+            those = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
+            raise ValueError(f"arrays of these shapes do not broadcast: {those}") from error
+    _check(numbers)
+    results = compute(*numbers.values())
     first = results[0] if isinstance(results, tuple) else results
     finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
     if not finite:
@@ -201,12 +205,14 @@ def _real(name: str, value: Any) -> Any:
         raise TypeError(f"{name} is a masked array: give the cases that are not masked")
     try:
         array = np.asarray(value)
-        kind = array.dtype.kind
-        if kind in "biuf" or (kind == "O" and not any(isinstance(x, str) for x in array.flat)):
+        others = (str, bytes, np.datetime64, np.timedelta64)
+        odd = [x for x in array.flat if isinstance(x, others)] if array.dtype == object else []
+        if array.dtype.kind in "biufO" and not odd:
             return array.astype(float, copy=False) if array.ndim else float(array)
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name} must hold real numbers, in SI units: {error}") from error
-    raise TypeError(f"{name} must hold real numbers, in SI units, not {array.dtype}")
+    what = repr(odd[0]) if odd else array.dtype
+    raise TypeError(f"{name} must hold real numbers, in SI units, not {what}")
 
 
 def _check(numbers: Numbers) -> None:

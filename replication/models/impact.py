@@ -62,7 +62,7 @@ class Impact:
             raise ValueError("give either resistance, or both beta and flow_stress")
         inputs: dict[str, float] = {}
         for name, value in ((field.name, getattr(self, field.name)) for field in fields(self)):
-            if value is None:
+            if value is None and name in ("beta", "flow_stress", "resistance"):
                 continue
             try:
                 inputs[name] = float(value)

@@ -17,13 +17,30 @@ from replication.audit import verdict, wording
 from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
 from replication.audit.record import Record, SlipRecord
-from replication.audit.replica import replica
+from replication.audit.replica import REPLICA, replica
 from replication.audit.verdict import Assessment, Judge, Judgement, Verdict
 from replication.models import sheet
 from replication.models.impact import Impact
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
+
+
+def test_no_inputs_drawn_at_random_leave_what_is_called_proven() -> None:
+    draw = random.Random(2006)
+    for claim in map(LEDGER.claims.__getitem__, ("frank-zook-rha", "frank-zook-stainless")):
+        for reading in JUDGE.assess(claim).readings:
+            model = REPLICA[claim.computations[reading.name].name]
+            for judgement in reading.judgements:
+                box = JUDGE.box(claim, judgement.convention)
+                for _ in range(50):
+                    at = {
+                        key: float(draw.choice([low, high, low + (high - low) * F(draw.random())]))
+                        for key, (low, high) in box.items()
+                    }
+                    value = F(model(**{key: at[entry] for key, (entry,) in claim.inputs.items()}))
+                    slack = value / 10**14  # some roundings of a double
+                    assert judgement.ends[0] - slack <= value <= judgement.ends[1] + slack
 
 
 # Witnesses
