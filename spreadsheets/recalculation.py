@@ -433,29 +433,38 @@ def _filled(area: Area, book: Book) -> Area:
 def _without_ends(formula: Formula, book: Book) -> Formula:
     """The formula, what it looks up without the blanks at the end: the engine finds one of these.
 
-    Ranges beside each other end alike.
+    Only what a lookup searches, its second argument: what else reads a range may count its blanks.
     """
-    lasts: dict[tuple[int, int], int] = {}
+    calls = [("", 1)]  # the functions and brackets that are open, each with its argument's number
+    pieces = []
+    for piece in formula.pieces:
+        function, argument = calls[-1]
+        if piece.kind == "function" or piece.text == "(":
+            calls.append((piece.text, 1))
+        elif piece.text == ")" and len(calls) > 1:
+            calls.pop()
+        elif piece.text == ",":
+            calls[-1] = function, argument + 1
+        searched = piece.area if function in _LOOKUPS and argument == 2 else None
+        if searched and searched.cells > 1:
+            pieces.append(piece._replace(area=_searched(searched, function, book)))
+        else:
+            pieces.append(piece)
+    return replace(formula, pieces=tuple(pieces))
 
-    def shortened(piece: Piece) -> Piece:
-        if piece.area is None or piece.area.cells == 1:
-            return piece
-        area = _filled(piece.area, book)
-        sheet, top, left, bottom, right = area
-        down = bottom - top >= right - left
-        ends = (top, bottom) if down else (left, right)
-        if ends not in lasts:
-            cells, last = book.sheets[sheet], ends[1]
-            while last > ends[0] and ((last, left) if down else (top, last)) not in cells:
-                last -= 1
-            lasts[ends] = last
-        last = lasts[ends]
-        short = area._replace(bottom=last) if down else area._replace(right=last)
-        return piece._replace(area=short)
 
-    looks_up = any(piece.text in _LOOKUPS for piece in formula.pieces)
-    pieces = tuple(map(shortened, formula.pieces)) if looks_up else formula.pieces
-    return replace(formula, pieces=pieces)
+def _searched(area: Area, function: str, book: Book) -> Area:
+    """The area down to the last cell that is not blank of the column, or row, that is searched."""
+    area, cells = _filled(area, book), book.sheets[area.sheet]
+    _, top, left, bottom, right = area
+    is_tall = bottom - top >= right - left
+    if function == "VLOOKUP(" or (function != "HLOOKUP(" and is_tall):
+        while bottom > top and (bottom, left) not in cells:
+            bottom -= 1
+    else:
+        while right > left and (top, right) not in cells:
+            right -= 1
+    return area._replace(bottom=bottom, right=right)
 
 
 def _computed(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, Value]:

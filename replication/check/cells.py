@@ -163,7 +163,7 @@ def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, s
     patterns = {shape: formulas[place] for place, shape in reversed(shapes.items())}
     pattern = patterns[usual]
     for shape, number in Counter(shapes.values()).items():
-        if number > 1 and _reads_for(patterns[shape], pattern, calculation):
+        if number >= 0.1 * len(formulas) and _reads_for(patterns[shape], pattern, calculation):
             usual, pattern = shape, patterns[shape]
     for place in places:
         if place in formulas:

@@ -147,7 +147,8 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
         of = {name for role in cell.roles for name in RESTS_ON.get(role, ())}
         read = [called.get(area.corner) for area in calculation.areas(cell.place)]
         alike = {bool(cell.roles & roles) for roles in read if roles and not roles & of}
-        return replace(cell, roles=frozenset(), label="") if len(alike) == 2 else cell
+        is_made = len(alike) == 2 and cell.unit is None
+        return replace(cell, roles=frozenset(), label="") if is_made else cell
 
     return list(map(named, cells))
 
@@ -267,8 +268,9 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
         value = calculation.values.get((sheet, row + down, column + right))
         return value.strip() if isinstance(value, str) else ""
 
-    # Behind a number and its unit stands what it was converted to.
-    another = isinstance(calculation.values.get((sheet, row, column - 2)), float)
+    # Behind a label, a number and its unit stands what it was converted to.
+    before = calculation.values.get((sheet, row, column - 2))
+    another = isinstance(before, float) and text(0, -3)
     beside = (text(0, 1), "" if another else text(0, -1), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []

@@ -65,7 +65,7 @@ def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str,
     if result.where == "beyond" and len(tables) == 1:
         return False  # it may be another number on purpose
     (f,) = read
-    if stops_elsewhere(f):
+    if stops_elsewhere(f) or result.place in f.calculation.unknown:
         return False
     meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
     unlike = next((role for role in named if not _has(f, role, named[role])), None)

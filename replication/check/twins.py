@@ -1,8 +1,8 @@
 """Tables that repeat another one, though a cell beside them tells that another input was meant.
 
 Two equal tables are no fault. But if a cell that is called velocity or step has another value, or
-one called beta or target resistance that of the report's other case, and nothing reads it (of the
-latter: no table), then one table reads a cell that is not its own.
+one called beta or target resistance that of the report's other case, and nothing calculates with
+it, then one table reads a cell that is not its own.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,9 +29,13 @@ def meant(
     by_tables = set().union(*(f.read for f in tables))
     formulas = tables[0].calculation.formulas.values()
     by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
+    # Whoever reads one cell alone takes it over, as summaries do, and does not calculate with it.
+    several = [formula for formula in formulas if len(formula.areas) > 1]
+    products = {cell.place for cell in beside if cell.roles == {"resistance"}}
+    by_most = by_tables | {a.corner for f in several if f.place not in products for a in f.areas}
+    by_most |= {a.corner for f in several if f.place in products & by_most for a in f.areas}
     for role, names in _CALLED.items():
-        # Velocities and steps may be of curves and of other results; a resistance is of a table.
-        read = by_tables if role == "resistance" else by_any
+        read = by_most if role == "resistance" else by_any
         called = ((cell, name) for name in names for cell in beside if cell.roles == {name})
         idle = [(place, as_role(cell, name, report_inputs())) for cell, name in called
                 if (place := cell.place) and place not in read]  # fmt: skip
