@@ -42,8 +42,8 @@ FUNCTIONS = frozenset((
 ))  # fmt: skip
 """What an engine may be asked for: functions of bounded cost that reach nothing outside."""
 
-
 _LOOKUPS = frozenset({"LOOKUP(", "MATCH(", "VLOOKUP(", "HLOOKUP("})
+"""Those that search a range, as pieces of a formula."""
 
 
 class Area(NamedTuple):
@@ -435,6 +435,8 @@ def _without_ends(formula: Formula, book: Book) -> Formula:
 
     Only what a lookup searches, its second argument: what else reads a range may count its blanks.
     """
+    if not any(piece.text in _LOOKUPS for piece in formula.pieces):
+        return formula
     calls = [("", 1)]  # the functions and brackets that are open, each with its argument's number
     pieces = []
     for piece in formula.pieces:

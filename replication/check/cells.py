@@ -155,14 +155,15 @@ def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, s
             )
             for place, formula in formulas.items()
         }
-        usual, often = Counter(shapes.values()).most_common(1)[0]
+        counts = Counter(shapes.values())
+        usual, often = counts.most_common(1)[0]
         if often >= 0.5 * len(formulas):
             break
     else:
         return
     patterns = {shape: formulas[place] for place, shape in reversed(shapes.items())}
     pattern = patterns[usual]
-    for shape, number in Counter(shapes.values()).items():
+    for shape, number in counts.items():
         if number >= 0.1 * len(formulas) and _reads_for(patterns[shape], pattern, calculation):
             usual, pattern = shape, patterns[shape]
     for place in places:

@@ -61,8 +61,9 @@ class Impact:
         if self.resistance is None and not all(product):
             raise ValueError("give either resistance, or both beta and flow_stress")
         inputs: dict[str, float] = {}
-        for name, value in ((field.name, getattr(self, field.name)) for field in fields(self)):
-            if value is None and name in ("beta", "flow_stress", "resistance"):
+        for field in fields(self):
+            name, value = field.name, getattr(self, field.name)
+            if value is None and field.default is None:
                 continue
             try:
                 inputs[name] = float(value)
