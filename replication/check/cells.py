@@ -10,10 +10,12 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
+from typing import NamedTuple
 
 from replication.check.examination import NEAR, Examination, near
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
-from replication.check.table import LEAST, Line, Table, address, runs
+from replication.check.table import LEAST, Line, Table, address, is_spoiling, runs
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
@@ -48,29 +50,44 @@ def drifting(f: Examination) -> None:
                 f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
 
 
-NO_CONTACT = "this area is not that of the contact at the depth of its row"
+class Wrong(NamedTuple):
+    """A column beside the table that the rows brake by, and the rows in which it is wrong."""
+
+    line: Line
+    rows: set[int]
+    says: str
+
+    def cells(self, f: Examination) -> list[Position]:
+        """Its wrong cells."""
+        return [self.line.place(f.table.zero + k) for k in sorted(self.rows)]
 
 
-def wrong_area(f: Examination) -> tuple[Line, set[int]] | None:
-    """The column of contact areas that the rows' drag uses, and the rows where it is wrong.
-
-    None if there is no such column, or if it is right.
-    """
+def wrong_beside(f: Examination) -> Wrong | None:
+    """The column of contact areas, pressures or forces because of which decelerations are wrong."""
     if not f.table.helpers or "deceleration" not in f.rows.columns:
         return None
-    forces: dict[int, tuple[float, float]] = {}
+    # What each would have to be for the row's deceleration, and what it should be.
+    area, pressure, force = (dict[int, tuple[float, float]]() for _ in range(3))
     for k in range(1, f.table.steps + 1):
         x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
         if x and v is not None and a is not None:
+            taken, right = a * f.case.mass, math.pi * contact(f.case, x)
             stress = 0.5 * f.case.target_density * v * v + f.case.resistance
-            forces[k] = a * f.case.mass / stress, math.pi * contact(f.case, x)
-    for line in f.table.helpers:
-        numbers = {k: number for k in forces if (number := line.at(f.table.zero + k))}
-        units = [forces[k][0] / number for k, number in numbers.items()]
-        is_area = len(units) >= LEAST and power_of_ten(units[0]) is not None
-        if is_area and all(near(unit, units[0]) for unit in units):
-            wrong = {k for k in numbers if not near(*forces[k])}
-            return (line, wrong) if wrong else None
+            area[k], pressure[k] = (taken / stress, right), (taken / right, stress)
+            force[k] = taken, stress * right
+    says = {
+        "area is not that of the contact at the depth of its row": area,
+        "pressure is not that at the velocity of its row": pressure,
+        "force is not that at the depth and the velocity of its row": force,
+    }
+    for (what, needed), line in product(says.items(), f.table.helpers):
+        numbers = {k: number for k in needed if (number := line.at(f.table.zero + k))}
+        units = [needed[k][0] / number for k, number in numbers.items()]
+        if len(units) < LEAST or power_of_ten(units[0]) is None:
+            continue
+        wrong = {k for k in numbers if not near(*needed[k])}
+        if wrong and all(near(unit, units[0]) for unit in units):
+            return Wrong(line, wrong, f"this {what}")
     return None
 
 
@@ -84,7 +101,7 @@ def each_cell(f: Examination) -> None:
     read = {area.corner for area in areas if area.cells == 1}
     spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
     wrong: dict[Position, tuple[str, str, float | None]] = {}
-    area = wrong_area(f)
+    beside = wrong_beside(f)
     for place, (role, k) in f.table.places.items():
         expected = f.rows.wanted(role, k)
         if place in odd:
@@ -99,9 +116,9 @@ def each_cell(f: Examination) -> None:
             continue
         elif _fails(f, role, k, expected, place in read):
             kind, text = _lone(f, role, k, expected)
-            if area and role == "deceleration" and k in area[1]:
-                place, expected = area[0].place(f.table.zero + k), None
-                text = NO_CONTACT
+            if beside and role == "deceleration" and k in beside.rows:
+                place, expected = beside.line.place(f.table.zero + k), None
+                text = beside.says
         else:
             continue
         value = f.rows.columns[role].get(k)
@@ -218,6 +235,9 @@ def _unlike(f: Examination) -> dict[Position, tuple[str, str]]:
         fails = {place: _fails_at(f, place) for place in cells}
         if any(fails[place] for place in cells if place not in odd):
             odd = {place: why for place, why in odd.items() if fails.get(place) is not False}
+    if beside := wrong_beside(f):
+        wrong, cells = set(beside.cells(f)), beside.line.cells
+        odd = {place: why for place, why in odd.items() if place in wrong or place not in cells}
     return odd
 
 
@@ -261,8 +281,9 @@ def _text(f: Examination, place: Position) -> bool:
     """Whether a text or a truth value is typed into a cell of the table, below its heads."""
     value = f.calculation.values.get(place)
     _, k = f.table.places.get(place, ("", 0))
-    typed = (k > 0 and value != "") or place in f.calculation.spoiling
-    return typed and isinstance(value, str | bool) and place not in f.calculation.formulas
+    if not isinstance(value, str | bool) or place in f.calculation.formulas:
+        return False
+    return (k > 0 and value != "") or is_spoiling(place, f.calculation)
 
 
 def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:

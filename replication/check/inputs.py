@@ -6,7 +6,7 @@ own numbers, or solved back from the rows, and is said to be so.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -15,7 +15,7 @@ from statistics import median
 
 from reference.ledger import claims_of_case, load
 from reference.units import same_dimension, to_si
-from replication.check.examination import Examination, Input
+from replication.check.examination import Examination, Input, near
 from replication.check.scheme import BRAKES, REPORT, Case, Rows, contact
 from replication.check.table import FEW, Table, address
 from replication.check.words import (
@@ -63,15 +63,20 @@ def report_inputs() -> dict[str, tuple[float, ...]]:
     return values
 
 
-def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Position]) -> Examination:
+def find(
+    table: Table,
+    candidates: Sequence[Input],
+    mapped: Mapping[str, Position],
+    elsewhere: Set[Position] = frozenset(),
+) -> Examination:
     """What is known of a table before it is judged.
 
-    `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named. Raises
-    ValueError, saying what to give, when two cells could be the same input and the rows do not
-    decide.
+    `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named,
+    `elsewhere` the cells that other tables read. Raises ValueError, saying what to give, when two
+    cells could be the same input and the rows do not decide.
     """
     calculation = table.calculation
-    read = _read_beside(table)
+    read = read_beside(table)
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     reads = _told_by_mass(_not_made_of(reads, calculation), calculation)
     nearest = {
@@ -85,8 +90,10 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
     # the mass need not read the density.
     for role in ("stop_velocity", "particle_density"):
-        if role not in choices and len(unread.get(role, ())) == 1:
-            choices[role] = unread.pop(role)
+        idle = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
+        if role not in choices and len(idle) == 1:
+            choices[role] = idle
+            del unread[role]
     if not {*choices, *unread}.issuperset(RESTS_ON["resistance"]):
         called = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
         if called:  # whatever else its formula reads, it is the resistance
@@ -97,11 +104,40 @@ def find(table: Table, candidates: Sequence[Input], mapped: Mapping[str, Positio
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
     settled = {role: entry for role, entry in examination.inputs.items() if entry.place}
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
-    single = tuple(cells[0] for cells in unread.values() if len(cells) == 1)
+    own = [_own(cells, examination, read, elsewhere) for cells in unread.values()]
+    single = tuple(cell for cell in own if cell)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
 
 
-def _read_beside(table: Table) -> dict[Position, int]:
+def _own(
+    cells: Sequence[Input], f: Examination, read: Collection[Position], elsewhere: Set[Position]
+) -> Input | None:
+    """Of cells for one input that a table does not read the one that it should; None if not clear.
+
+    What another table reads is this one's only if it stands among this one's inputs with the value
+    that the rows take, or is a flow stress, which tables share. Of several, it is the nearest to
+    cells that the table reads.
+    """
+    used = f.inputs.get(cells[0].role)
+    sheets = {f.table.sheet, *(place[0] for place in read)}
+
+    def rank(cell: Input) -> tuple[bool, float]:
+        alike = used is not None and near(cell.si, used.si)
+        _, row, column = place = cell.place or ("", 0, 0)
+        far = (abs(p[1] - row) + abs(p[2] - column) for p in read if p[0] == place[0])
+        return not alike, min(far, default=math.inf)
+
+    ranks = {
+        cell: rank(cell)
+        for cell in cells
+        if not elsewhere or (cell.place and cell.place[0] in sheets)
+        if cell.place not in elsewhere or cell.role == "flow_stress" or not rank(cell)[0]
+    }
+    nearest = [cell for cell in ranks if ranks[cell] == min(ranks.values())]
+    return nearest[0] if len(nearest) == 1 else None
+
+
+def read_beside(table: Table) -> dict[Position, int]:
     """The cells beside a table that its formulas read, and through how many others."""
     formulas = table.calculation.formulas
     read = _read((place for place in table.places if place in formulas), table.calculation)

@@ -6,7 +6,7 @@ report's is one difference, named by that rule. Then every cell by itself (`cell
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise, product
@@ -14,12 +14,11 @@ from statistics import median
 
 from reference.units import to_si
 from replication.check.cells import (
-    NO_CONTACT,
     drifting,
     each_cell,
     irregular,
     order,
-    wrong_area,
+    wrong_beside,
 )
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import RESTS_ON, label_of, report_inputs
@@ -32,6 +31,7 @@ from replication.check.scheme import (
     PARTS,
     REPORT,
     Case,
+    depth_times_ten,
     march,
 )  # fmt: skip
 from replication.check.table import ROUNDED, Line, address
@@ -74,6 +74,7 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
     if f.table.digits is None:
         _scheme(f)
         each_cell(f)
+        _taken_otherwise(f)
         _typed_inputs(f)
         _typed_columns(f)
         _texts(f)
@@ -295,10 +296,13 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
 def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
     """A target resistance that the rows take, though the cells of its factors give another."""
     used = f.inputs["resistance"]
-    solved = used.how in ("rows", "formulas", "report")
-    if not solved or math.isclose(used.si, stated, rel_tol=1e-6):
+    cells = _typing(f, used.si) or f.cells(*f.rows.shows("brake", 1))
+    if math.isclose(used.si, stated, rel_tol=1e-6):
+        if used.how == "formulas" and beta.place:
+            _lost(f, "resistance", cells, beta.place)
         return
-    cells = f.cells(*f.rows.shows("brake", 1))
+    if used.how not in ("rows", "formulas", "report"):
+        return
     taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
     where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
     text = (
@@ -310,12 +314,32 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
     f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
 
 
+def _typing(f: Examination, value: float) -> list[Position]:
+    """The cells of the column that has a number typed into most of its formulas, if one has."""
+    for line in f.table.every_line:
+        formulas = [f.calculation.formulas[p] for p in line.cells if p in f.calculation.formulas]
+        cells = [each.place for each in formulas if any(near(n, value) for n in each.literals)]
+        if len(cells) > 0.5 * len(formulas):
+            return cells
+    return []
+
+
+def _lost(f: Examination, role: str, cells: Sequence[Position], source: Position) -> None:
+    """That an input's value is typed into cells, and a change of the cell that has it is lost."""
+    line = next(line for line in f.table.every_line if line.covers(cells[0]))
+    columns = {line: title(name) for name, line in f.table.lines.items()}
+    where = address(source, with_sheet=source[0] != cells[0][0])
+    into = columns.get(line, f"the column of {address(line.cells[0])}")
+    text = f"{title(role)} is typed into {into}: a change of {where} is lost"
+    f.add("typed constant", cells, where, text, f.calculation.book[cells[0]].formula)
+
+
 def _repeated(f: Examination, role: str, value: float, told: str) -> None:
     """A table that reads an input of another one, which it repeats."""
     part, taken = "advance" if role == "step" else "brake", getattr(f.case, role)
     cells = f.cells(*f.rows.shows(part, 1))
     if role == "velocity":
-        cells = [f.table.place(f.table.speed, min(f.rows.columns[f.table.speed]))]
+        cells = f.cells(f.table.speed, min(f.rows.columns[f.table.speed]))[:1]
     text = f"the rows take {quantity(taken, role)} for {title(role)}, "
     text += f"and so repeat another table; {told}"
     f.intended = f.intended.with_input(role, value)
@@ -411,6 +435,8 @@ def _other_inputs(f: Examination) -> None:
         if role in report and entry.how not in ("report", "assumed", "follows")
         if getattr(f.intended, role, entry.si) == entry.si
         if role != "mass" or lone_mass
+        if entry.place
+        or role not in {stated.role for stated in f.unread}  # told by `_taken_otherwise`
         if not any(math.isclose(entry.si, value, rel_tol=1e-12) for value in report[role])
     }
     for role, entry in off.items():
@@ -429,44 +455,55 @@ def _other_inputs(f: Examination) -> None:
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, entry.si, entry.si / nearest)
             f.intended = f.intended.with_input(role, nearest, nearest / entry.si)
-        place = entry.place or f.table.place("depth", 1)
+        typed = _typing(f, entry.si) if entry.how == "formulas" else []
+        place = entry.place or next(iter(typed), f.table.place("depth", 1))
         solved = entry.si if entry.place is None else None
         f.add(kind, [place], scaled(nearest, 1 / entry.factor), text, solved, change)
 
 
-def _typed_inputs(f: Examination) -> None:
-    """Inputs whose value stands in formulas that do not read their cell."""
+def _taken_otherwise(f: Examination) -> None:
+    """Inputs whose cells the rows do not read, and for which they take another value."""
     for entry in f.unread:
         used = f.inputs.get(entry.role)
-        if used is None or used.place or used.how == "follows":
+        diameter = f.inputs.get("diameter") if entry.role == "radius" else None
+        if used is None or used.place or (used.how == "follows" and diameter is None):
             continue  # its cell, or those that it follows from, are known
         if entry.place is None or min(used.si, entry.si) <= 0:
             continue
         if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
-        if not math.isclose(used.si, entry.si, rel_tol=1e-6):
-            here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
-            text = f"{title(entry.role)} is {here} here, but the rows take {there}"
-            change = _changed(entry.role, used.si, used.si / entry.si)
-            f.add("typed constant", [entry.place], None, text, change=change)
-            f.intended = f.intended.with_input(entry.role, entry.si, entry.si / used.si)
-    accused = f.accused
-    columns = {title(role): (role, f.cells(role, 0)) for role in f.table.lines}
-    columns |= {
-        f"the column of {address(line.cells[0])}": ("", line.cells) for line in f.table.helpers
-    }
-    stated = (*f.unread, *f.inputs.values())
-    for entry, (column, (role, places)) in product(stated, columns.items()):
+        if math.isclose(used.si, entry.si, rel_tol=1e-6):
+            continue
+        cells = _typing(f, used.si) or [entry.place]
+        if diameter and diameter.place:
+            cells = [diameter.place]
+        elif entry.role == "velocity":
+            cells = f.cells(f.table.speed, min(f.rows.columns[f.table.speed]))[:1]
+        where = address(entry.place, entry.place[0] != cells[0][0])
+        here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
+        text = f"{title(entry.role)} is {here} in {where}, but the rows take {there}"
+        change, formula = _changed(entry.role, used.si, used.si / entry.si), None
+        if cells[0] != entry.place:
+            formula = f.calculation.book[cells[0]].formula
+        f.add("typed constant", cells, None, text, formula, change)
+        f.intended = f.intended.with_input(entry.role, entry.si, entry.si / used.si)
+
+
+def _typed_inputs(f: Examination) -> None:
+    """Inputs whose value stands in formulas that do not read their cell."""
+    accused, told = f.accused, set[tuple[str, Position]]()
+    columns = [(role, f.cells(role, 0)) for role in f.table.lines]
+    columns += [("", line.cells) for line in f.table.helpers]
+    for entry, (role, places) in product((*f.inputs.values(), *f.unread), columns):
         if entry.place is None:
             continue
         cells = [place for k, place in enumerate(places)
                  if place not in accused and _typed_in(f, entry, role, k, place)]  # fmt: skip
         # A number in a few formulas of many is one of their own, such as the row's.
-        if len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2]):
-            formula = f.calculation.book[cells[0]].formula
-            where = address(entry.place, with_sheet=entry.place[0] != cells[0][0])
-            text = f"{title(entry.role)} is typed into {column}: a change of {where} is lost"
-            f.add("typed constant", cells, where, text, formula)
+        often = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
+        if often and (entry.role, cells[0]) not in told:
+            told.add((entry.role, cells[0]))
+            _lost(f, entry.role, cells, entry.place)
 
 
 def _typed_columns(f: Examination) -> None:
@@ -504,13 +541,17 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
         pairs = pairwise(piece.text for piece in formula.pieces)
         typed = any(sign in ("<", "<=", ">", ">=") and to == f"{value:g}" for sign, to in pairs)
     else:
-        values = {entry.si, value} | ({value / 2, entry.si / 2} if entry.role == "step" else set())
-        typed = any(
-            near(number, wanted) and not _plain(wanted)
-            for wanted, number in product(values, formula.literals)
-        )
+        values = {wanted for wanted in (entry.si, value) if not _plain(wanted)}
+        if entry.role == "step":  # the first row takes half of it, be it 1e-10 s, which is no unit
+            halves = (entry.si / 2, value / 2)
+            values |= {h for h in halves if not _plain(h) or (k == 1 and power_of_ten(h) in _ODD)}
+        typed = any(near(*pair) for pair in product(values, formula.literals))
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != entry.place for cell in read)
+
+
+_ODD = frozenset({-11, -10, -8, -7, -5, -4, -1})
+"""Powers of ten by which nobody converts times to seconds."""
 
 
 def _plain(value: float) -> bool:
@@ -545,7 +586,8 @@ def _scheme(f: Examination) -> None:
             shares |= {rule: f.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         # Where formulas of some rows are right, those that are not are found one by one.
-        line = f.line(part)
+        beside = wrong_beside(f) if part == "brake" and best != BEYOND else None
+        line = beside.line if beside else f.line(part)
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, f.table))
         if is_mixed or ((best != published or shares[best] < 0.5) and _is_explained(f, part)):
             continue
@@ -586,23 +628,26 @@ def _named(f: Examination) -> None:
     for part, rule in f.rows.others.items():
         _, cells, wanted = _from_first_unlike(f, part)
         cells = cells[:1] if part == "start" else cells
-        if part == "brake" and (area := wrong_area(f)):
-            line, rows_off = area
-            cells, wanted = [line.place(f.table.zero + k) for k in sorted(rows_off)], None
+        if part == "brake" and (beside := wrong_beside(f)):
+            cells, wanted = beside.cells(f), None
         text = f"{rule.name}: {rule.says}"
         f.add("other scheme", cells, wanted, text, change={part: rule})
 
 
 def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
-    area = wrong_area(f) if part == "brake" else None
-    column = area[0] if area else f.line(part)
+    beside = wrong_beside(f) if part == "brake" else None
+    column = beside.line if beside else f.line(part)
     pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
     ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(near(each, ratio) for each in ratios) < 0.5 * len(ratios):
+        for slip in (3, -3, 6, -6) if part == "brake" else ():
+            if f.share(part, depth_times_ten(slip)) >= 0.9:
+                text = f"the contact area takes the depth as {times_too(slip)}: a unit is not"
+                return "unit", f"{text} converted rightly", column
         text = "these cells follow no scheme that this program knows"
-        return "other scheme", text if column in f.table.lines.values() else NO_CONTACT, column
+        return "other scheme", beside.says if beside else text, column
     what, base, constant = "step", f.case.step, "the time step"
     if part == "brake":
         what, base, constant = "force", math.pi, "pi"
@@ -638,6 +683,12 @@ def _as_rounded(f: Examination) -> None:
     """Judge typed and rounded numbers by whole runs, of the scheme that fits them best."""
     parts = ("brake", "start", "advance", "end")
     others = [REPORT | {part: rule} for part in parts for rule in KNOWN[part][1:]]
+    # The report's own table may stand beside a sheet that has other inputs.
+    report = {role: values[0] for role, values in report_inputs().items()}
+    printed = Case(**{each.name: report[each.name] for each in fields(Case) if each.name in report})
+    if not any(_misprints(f, march(printed, steps=f.table.steps))):
+        f.intended, f.rows = printed, replace(f.rows, case=printed)
+        f.inputs = {role: each for role, each in f.inputs.items() if near(each.si, report[role])}
     runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
     # Some rules need another brake to go with them: by themselves they give no rows.
     tried = [

@@ -215,6 +215,18 @@ BEYOND = _brake(
     "area beyond the radius", lambda c, x, v: deceleration(c, x, v, area=c.diameter * x - x * x),
     "the contact area shrinks again beyond the depth R, where the report keeps pi R²",
 )  # fmt: skip
+
+
+def depth_times_ten(power: int) -> Rule:
+    """The report's rule with a depth so many powers of ten too large in D x - x²."""
+
+    def wrong(case: Case, x: float, v: float) -> float:
+        x *= 10.0**power
+        return deceleration(case, x, v, area=case.diameter * x - x * x)
+
+    return _brake("", wrong)
+
+
 BRAKES = (
     _brake("velocity at the beginning", deceleration),
     _brake("centered", _centered,
@@ -231,6 +243,9 @@ BRAKES = (
            lambda c, x, v: deceleration(replace(c, target_density=c.particle_density,
                                                 own_mass=c.mass), x, v),
            "the drag has the particle's density, where the target's belongs"),
+    _brake("drag with v for v²",
+           lambda c, x, v: deceleration(c, x, v, factor=0.5 / v if v else 0.0),
+           "the drag has the velocity where its square belongs"),
     _brake("drag at impact velocity", lambda c, x, _: deceleration(c, x, c.velocity),
            "the drag is taken at the impact velocity in every row"),
     _brake("area without x²", lambda c, x, v: deceleration(c, x, v, area=c.diameter * x),
@@ -238,6 +253,8 @@ BRAKES = (
     _brake("area with R for D",
            lambda c, x, v: deceleration(c, x, v, area=c.radius * x - x * x),
            "the contact area has the radius where the diameter belongs"),
+    _brake("area of a circle with radius x", lambda c, x, v: deceleration(c, x, v, area=x * x),
+           "the contact area is pi x², a circle whose radius is the depth"),
     _brake("area of the whole sphere",
            lambda c, x, v: deceleration(c, x, v, area=c.radius * c.radius),
            "the contact area is that of the whole sphere, pi R², at every depth"),
@@ -269,6 +286,8 @@ ADVANCES = (
     _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
     _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
              "the depth moves on by the initial velocity of the row before"),
+    _advance("impact velocity", lambda r, _: r.case.velocity,
+             "the depth moves on by the impact velocity in every row"),
     _advance("final velocity", lambda r, k: r["velocity_final", k],
              "the depth moves on by the velocity at the end of the row"),
     _advance("mean velocity", _mean,

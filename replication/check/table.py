@@ -105,6 +105,11 @@ class Line:
         at = self.index(place)
         return at is not None and self.first <= at <= self.last
 
+    def is_headed_by(self, place: Position) -> bool:
+        """Whether a cell stands where its head may be."""
+        at = self.index(place)
+        return at is not None and self.first - _ABOVE <= at < self.first
+
     def overlaps(self, another: "Line") -> bool:
         """Whether a cell is in both."""
         here, there = ((line.sheet, line.number, line.across) for line in (self, another))
@@ -230,7 +235,9 @@ def lines(calculation: Calculation) -> Iterator[Line]:
         # Each cell by its line and its place along it.
         places = {(p if across else p[::-1]): (sheet, *p) for p in cells}
         values = {p: calculation.values.get(place) for p, place in places.items()}
-        used = sorted({at for (_, at), value in values.items() if value is not None})
+        numbers_at = {at for (_, at), value in values.items() if not isinstance(value, str | None)}
+        formulas_at = {at for (_, at), place in places.items() if place in calculation.formulas}
+        used = sorted(numbers_at | formulas_at)
         blank = _left_out(Line(calculation, sheet, across), used, places)
         by_line: dict[int, dict[int, float | None]] = {}
         for (number, at), value in values.items():
@@ -239,7 +246,8 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             place = places[number, at]
             if _sums_up(calculation, place, across):
                 continue
-            if usable is not None or calculation.error(place) or place in calculation.spoiling:
+            wrong = calculation.error(place) or is_spoiling(place, calculation)
+            if usable is not None or wrong:
                 at -= sum(before < at for before in blank)
                 by_line.setdefault(number, {})[at] = usable
         filled = Counter(at for numbers in by_line.values() for at in numbers)
@@ -248,6 +256,11 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             for first, last in _runs(sorted(numbers), filled, line):
                 run = tuple(numbers.get(at) for at in range(first, last + 1))
                 yield replace(line, first=first, values=run).headed()
+
+
+def is_spoiling(place: Position, calculation: Calculation) -> bool:
+    """Whether a cell is a text for which formulas give errors, and no head that they stray to."""
+    return place in calculation.spoiling and not column_roles(str(calculation.values[place]))
 
 
 def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
@@ -261,7 +274,7 @@ def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
 def _left_out(
     line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
 ) -> tuple[int, ...]:
-    """Blank rows (or columns) of a sheet in the midst of formulas that step over them."""
+    """Rows (or columns) without numbers in the midst of formulas that step over them."""
     gaps = {here: before for before, here in pairwise(used) if here - before > 1}
     stepped: set[int] = set()
     for number, here in places:
@@ -502,7 +515,12 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
                 "many rows"
             )
     taken = {line for table in chosen for line in table.lines.values()}
-    chosen = [replace(t, helpers=tuple(h for h in t.helpers if h not in taken)) for t in chosen]
+    chosen = [
+        replace(
+            t, helpers=tuple(h for h in t.helpers if h not in taken and _nearest(h, chosen) is t)
+        )
+        for t in chosen
+    ]
     independent = [table for table in chosen if not _viewed(table, chosen)]
     sheets = list(calculation.book.sheets)
     return sorted(independent, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
@@ -531,13 +549,15 @@ def _score(depth: Line, speed: Line) -> float:
     rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
     if len(rows) < LEAST:
         return 0.0
-    fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
-    grows = depth.reads(depth, 1)
+    grows, named = depth.reads(depth, 1), ("depth" in depth.roles) + speed.is_speed
+    # Where both are named, their numbers may be rounded to three digits.
+    close = 10 * _CLOSE if named == 2 else _CLOSE
+    pairs = ((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
+    fit = _constant(pairs, close)
     given = (depth.given is not None) + (speed.given is not None)
     # A velocity that ends higher than it began is the axis of a curve.
     if not grows and not given and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
         return 0.0
-    named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
     reads = depth.reads(speed, 0) or depth.reads(speed, 1)
     return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given
@@ -550,6 +570,12 @@ def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float =
     if not middle or not math.isfinite(middle):
         return 0.0
     return sum(abs(ratio / middle - 1) < close for ratio in ratios) / len(ratios)
+
+
+def _nearest(line: Line, chosen: Sequence[Table]) -> Table:
+    """Of the tables that a line stands beside the one nearest to it."""
+    beside = (table for table in chosen if line in table.helpers)
+    return min(beside, key=lambda table: abs(table.lines["depth"].number - line.number))
 
 
 def _viewed(table: Table, others: Sequence[Table]) -> bool:

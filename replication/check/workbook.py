@@ -11,7 +11,13 @@ from pathlib import Path
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.inputs import find, label_of, numbers_beside, report_inputs
+from replication.check.inputs import (
+    find,
+    label_of,
+    numbers_beside,
+    read_beside,
+    report_inputs,
+)
 from replication.check.judge import judge
 from replication.check.results import misread
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
@@ -94,12 +100,17 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         if not read_tables:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
-        examinations = [find(table, beside, cells) for table in read_tables]
+        reads = [set(read_beside(table)) for table in read_tables]
+        examinations = [
+            find(table, beside, cells, set().union(*reads[:n], *reads[n + 1 :]))
+            for n, table in enumerate(read_tables)
+        ]
     repeating = meant(examinations, beside)
     for number, f in enumerate(examinations):
         judge(f, repeating.get(number))
     misread(examinations)
-    numbers = [number for f in examinations for number in _held(f, len(examinations) == 1)]
+    sheets = [f.table.sheet for f in examinations]
+    numbers = [number for f in examinations for number in _held(f, sheets)]
     silent = list(_without_numbers(calculation))
     beside_tables = [
         *_stale(calculation, examinations),
@@ -235,7 +246,7 @@ def _texts_as_inputs(
     """Texts in the cells of inputs, where some tables are silent: one that reads a text is."""
     lines = [line for f in examinations for line in f.table.every_line]
     for place in sorted(_labelled_texts(calculation)) if silent else ():
-        if all(line.index(place) is None for line in lines):  # else it is the head of a column
+        if not any(line.is_headed_by(place) for line in lines):
             text = "it is a text, not a number: nothing that reads it can be checked"
             shown, rank = repr(calculation.values[place]), examinations[0].rank(place)
             yield Difference("typed number", (place,), None, shown, text, rank)
@@ -249,8 +260,12 @@ def _without_numbers(calculation: Calculation) -> Iterator[Difference]:
             below = ((sheet, row + k, column) for k in range(1, 3 * LEAST))
             cells = [place for place in below if place in calculation.formulas]
             if len(cells) > LEAST and {*map(calculation.number, cells)} == {None}:
-                says = f"below {quoted(text)} no formula gives a number: no table is found there"
-                difference = Difference("not calculated", (cells[0],), None, None, says, (8,))
+                error = calculation.error(cells[0])
+                kind, says = "not calculated", f"below {quoted(text)} no formula gives a number"
+                if error:
+                    kind, says = "odd formula", f"below {quoted(text)} formulas give {error}"
+                says += ": no table is found there"
+                difference = Difference(kind, (cells[0],), None, error, says, (8,))
                 silent.setdefault(sheet, difference)
     yield from silent.values()
 
@@ -268,10 +283,11 @@ _ROWS = 5
 """Rows that Table A-1 prints, the impact among them."""
 
 
-def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
+def _held(f: Examination, sheets: Sequence[str]) -> Iterator[HeldNumber]:
     """The printed numbers that a table of one of the report's cases holds, each judged.
 
-    `alone`: it is the only table, so labelled results are its own.
+    Labelled results are its own if it is the only table; of several, on `sheets`, if it is the only
+    one on theirs.
     """
     report = report_inputs()
     # With other inputs than the report's nothing is as it prints.
@@ -292,7 +308,9 @@ def _held(f: Examination, alone: bool) -> Iterator[HeldNumber]:
             name = f"a1-{role.replace('_', '-')}-{k}"
             if name in load().claims and k in column:
                 yield _judged(name, f.table.place(role, k), Fraction(column[k]))
-    yield from _results(f, case, f.table.results if alone else ())
+    lone, here = len(sheets) == 1, f.table.sheet if sheets.count(f.table.sheet) == 1 else None
+    results = [each for each in f.table.results if lone or each.place[0] == here]
+    yield from _results(f, case, results)
 
 
 def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[HeldNumber]:
