@@ -3,14 +3,14 @@
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import pairwise
 from string import digits
 
 from reference.arithmetic import Floats
 from reference.enclosure import Solutions, enclose, solve
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger
-from reference.printed import Interval, parse
+from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.printed import parse
 from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
@@ -27,33 +27,20 @@ class Screen:
 
     def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
         self.ledger, self.assumed = ledger, assumed
-        self._prepared = cache(self._prepare)
 
-    def agrees(
-        self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] | None = None
-    ) -> bool:
+    def agrees(self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] = {}) -> bool:
         """Whether a claim with a computation agrees, with some entries changed (SI)."""
         if claim.computations[reading].restates:
-            return restates(self.ledger, claim, changed or {})
-        function, values, target = self._prepared(claim, reading)
-        if changed:
-            values = {name: float(changed.get(name, value)) for name, value in values.items()}
+            return restates(self.ledger, claim, changed)
+        known, value_of, target = {**self.assumed, **changed}, self.ledger.value, claim.target()
+        inputs = {e: float(known[e] if e in known else value_of(e)) for e in claim.entries}
         try:
-            value = Fraction(function(_FLOATS, **values))
+            value = Fraction(self.ledger.function(claim, reading=reading)(_FLOATS, **inputs))
         except (ArithmeticError, ValueError, TypeError):
             return False  # in doubles these inputs have no result, or only a complex one
         if target.is_point and target.lower is not None:
             return abs(value - target.lower) <= _CLOSE * abs(target.lower)
         return target.contains(value)
-
-    def _prepare(self, claim: Claim, reading: str) -> tuple[Function, dict[str, float], Interval]:
-        """The claim's function, its inputs as printed, and the interval that it must meet."""
-        known = self.assumed
-        values = {
-            name: float(known[name] if name in known else self.ledger.value(name))
-            for name in claim.entries
-        }
-        return self.ledger.function(claim, reading=reading), values, claim.target()
 
     def failing(self, names: Iterable[str]) -> set[str]:
         """Those of the claims that do not agree."""
@@ -88,9 +75,6 @@ class Explainer:
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
-        self.solutions = cache(self._solutions)
-        self._repairs_by = cache(lambda name, entry: list(self._repairs(name, entry)))
-        self.slips = cache(lambda claim: list(self._slips(claim)))
 
     def _screens(self, ledger: Ledger) -> list[Screen]:
         """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
@@ -138,7 +122,7 @@ class Explainer:
             proof=proof,
         )
 
-    def _solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
+    def solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
         """The values of an entry (SI), the others as printed, with which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
         function = self.ledger.function(claim, reading=reading)
@@ -183,7 +167,7 @@ class Explainer:
         """The edits of these entries that make a claim or an equation agree, best first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         return sorted(
-            (repair for entry in entries for repair in self._repairs_by(name, entry)),
+            (repair for entry in entries for repair in self._repairs(name, entry)),
             key=lambda r: (
                 r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
             ),
@@ -297,9 +281,9 @@ class Explainer:
 
     # Slips
 
-    def _slips(self, claim: Claim) -> Iterator[SlipRecord]:
+    def slips(self, claim: Claim) -> list[SlipRecord]:
         """The claim computed with each slip that the ledger knows of its equations."""
-        target, rounded = claim.target(), Convention(choices_exact=False)
+        target, rounded, records = claim.target(), Convention(choices_exact=False), []
         for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
             ledger = self.ledger
             if slip.text is not None:
@@ -313,7 +297,8 @@ class Explainer:
             if target.encloses(*at_print):
                 fits = "as printed"
             value = float(at_print[0] / claim.si)
-            yield SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits)
+            records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
+        return records
 
 
 _BISECTIONS = 40
