@@ -182,7 +182,8 @@ def solve(
             inner.append(part)
             outer.append(part)
         elif not target.excludes(*range_.ends):
-            first, last = _crossings(value, part, target, range_.signs[name] > 0)
+            rises = range_.signs[name] > 0
+            first, last = (_crossing(value, part, target, rises, end) for end in (0, 1))
             outer.append((first[0], last[1]))
             within = first[1], last[0]
             if within[0] <= within[1] and all(target.encloses(*value(x)) for x in within):
@@ -190,26 +191,16 @@ def solve(
     return Solutions(search, _merged(inner), _merged(outer))
 
 
-def _crossings(
-    value: Callable[[Fraction], Ends], part: Ends, target: Interval, rises: bool
-) -> tuple[Ends, Ends]:
-    """Brackets of the two places between which a rising or falling function is in the target."""
-
-    def crossing(place: int) -> Ends:
-        at_lower = rises == (place == 0)
-        goal = target.lower if at_lower else target.upper
-        least, greatest = ends[place]
-        # At the end of the part the target may be entered or left already.
-        if goal is None or (least > goal if at_lower else greatest < goal):
-            return part[place], part[place]
-        return _bracket(value, part, goal, rises)
-
-    ends = value(part[0]), value(part[1])
-    return crossing(0), crossing(1)
-
-
-def _bracket(value: Callable[[Fraction], Ends], part: Ends, goal: Fraction, rises: bool) -> Ends:
-    """Where a function that rises or falls all over the part takes a value, between proven ends."""
+def _crossing(
+    value: Callable[[Fraction], Ends], part: Ends, target: Interval, rises: bool, end: int
+) -> Ends:
+    """Between which inputs a rising or falling function enters the target (end 0) or leaves it."""
+    at_lower = rises == (end == 0)
+    goal = target.lower if at_lower else target.upper
+    least, greatest = value(part[end])
+    # At the end of the part the target may be entered or left already.
+    if goal is None or (least > goal if at_lower else greatest < goal):
+        return part[end], part[end]
     (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
     while high - low > width:
         # Not in the middle: a goal that is hit exactly cannot be decided.
@@ -257,22 +248,15 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     for function, target in constraints:
         range_ = enclose(function, box)
         for top in (0, 1) if range_.is_monotone else ():
-            others = _corner(box, name, range_.signs, top)
+            # To let this input go far up, those that act like it must be low, the others high.
+            alike = {key: range_.signs.get(key, 1) == range_.signs.get(name, 1) for key in box}
+            others = {key: ends[alike[key] != top] for key, ends in box.items() if key != name}
             if target.encloses(*_plain(function, _points({**others, name: outer[top]}))):
                 continue  # it bounds the input farther out
             if beyond := solve(function, name, box[name], target, others=others).outer:
                 bound = (beyond[0][0], beyond[-1][1])[top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
     return outer[0], outer[1]
-
-
-def _corner(box: Box, name: str, signs: Mapping[str, int], top: int) -> dict[str, Fraction]:
-    """The other inputs at the ends that let the named one go farthest down (0) or up (1).
-
-    To go up where the function rises with it, the others must keep the function low.
-    """
-    low = (signs.get(name, 1) > 0) == bool(top)
-    return {key: ends[(signs.get(key, 1) > 0) != low] for key, ends in box.items() if key != name}
 
 
 def satisfying(

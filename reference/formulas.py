@@ -133,11 +133,6 @@ def computing(
     return value
 
 
-def _final_sheet_depth(ar: Arithmetic, centered: bool, **inputs: Number) -> Number:
-    rows = sheet_rows(ar, centered=centered, **inputs)
-    return sheet_depth(ar, rows, inputs["stop_velocity"])
-
-
 def _cell(column: str) -> Callable[..., Number]:
     """One column of the sheet, in a given row."""
 
@@ -154,7 +149,7 @@ FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
     "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),
     "greatest_beta": lambda ar, **betas: reduce(ar.greatest, betas.values()),
     **{f"row_{column}": _cell(column) for column in Row._fields},
-    "final_sheet_depth": _final_sheet_depth,
+    "final_sheet_depth": sheet_depth,
 }
 """Computations that cannot be written in the report's notation."""
 

@@ -72,11 +72,12 @@ def sheet_rows(
     raise ArithmeticError(f"the sheet does not end in {most_rows} rows")
 
 
-def sheet_depth(ar: Arithmetic, rows: Iterator[Row], stop_velocity: Number) -> Number:
+def sheet_depth(ar: Arithmetic, centered: bool, stop_velocity: Number, **inputs: Number) -> Number:
     """Depth [m] in the first row whose final velocity is below the stop velocity [m/s].
 
-    In interval arithmetic: the hull over every row that may be the first.
+    In interval arithmetic: the hull over every row that may be the first. Inputs as of the rows.
     """
+    rows = sheet_rows(ar, centered=centered, stop_velocity=stop_velocity, **inputs)
     return ar.hull(
         [row.depth for row in rows if ar.below(row.velocity_final, stop_velocity) is not False]
     )

@@ -13,6 +13,7 @@ from reference.arithmetic import Rationals, Reals
 from reference.intervals import Intervals
 from reference.motion import Trajectory, sheet_depth, sheet_rows
 
+INPUTS = ("velocity", "radius", "particle_density", "target_density", "resistance")
 SHALLOW = (F(500), F(11, 10**6), F(8900), F(7850), F(35 * 10**8))
 DEEP = (F(1500), F(11, 10**6), F(8900), F(7850), F(21 * 10**8))
 CASES = {"ends below the radius": SHALLOW, "crosses the radius": DEEP}
@@ -60,7 +61,8 @@ def test_the_sheet_ends_below_the_stop_velocity_and_nears_the_exact_depth(center
         step, stop = ar.number(STEP / parts), ar.number(F(1, parts))
         rows = list(sheet_rows(ar, *case, step=step, stop_velocity=stop, centered=centered))
         assert rows[-1].velocity_final < stop <= rows[-1].velocity_initial
-        assert sheet_depth(ar, iter(rows), stop) == rows[-1].depth
+        inputs = dict(zip(INPUTS, case, strict=True))
+        assert sheet_depth(ar, centered, stop, step=step, **inputs) == rows[-1].depth
         errors.append(abs(rows[-1].depth - exact))
     assert errors[1] < errors[0] < 500 * STEP / 2
 
@@ -74,9 +76,8 @@ def test_a_box_of_sheets_holds_the_sheets_at_its_corners() -> None:
             inputs = [
                 ar.interval(*ends) for ends in (speed, *((x, x) for x in SHALLOW[1:4]), strength)
             ]
-            limit = ar.number(stop)
-            rows = sheet_rows(ar, *inputs, step=ar.number(STEP), stop_velocity=limit)
-            return ar.ends(sheet_depth(ar, rows, limit))
+            case = dict(zip(INPUTS, inputs, strict=True))
+            return ar.ends(sheet_depth(ar, False, ar.number(stop), step=ar.number(STEP), **case))
 
     low, high = depth(speeds, strengths)
     for speed, strength in product(speeds, strengths):
