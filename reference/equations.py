@@ -91,12 +91,6 @@ class _Reader:
         problem = f"cannot read {rest!r}" if rest else "something is missing"
         return EquationError(f"{problem} at the end of {self.text!r}")
 
-    def take(self, sign: str) -> bool:
-        """Whether this sign comes next; if so, it is passed over."""
-        taken = self.next[:2] == ("sign", sign)
-        self.at += taken
-        return taken
-
     def within(self, opening: str, closing: str) -> Node:
         self.expect(opening)
         node = self.expression()
@@ -104,12 +98,14 @@ class _Reader:
         return node
 
     def expect(self, sign: str) -> None:
-        if not self.take(sign):
+        if self.next[:2] != ("sign", sign):
             raise EquationError(f"{sign!r} is missing in {self.text!r}")
+        self.at += 1
 
     def expression(self, binding: int = 0) -> Node:
         """What follows, as far as its operators bind more tightly than `binding`."""
-        if binding == 0 and self.take("-"):
+        if binding == 0 and self.next[:2] == ("sign", "-"):
+            self.at += 1
             left = Node("negative", (self.expression(1),))
         else:
             left = self.operand("(")

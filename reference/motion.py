@@ -116,9 +116,7 @@ class Trajectory:
 
     def _depth_of(self, c: Number) -> Number:
         """y after a given work c: y^2 - y^3/3 = c up to y = 1, and one y for one c beyond."""
-        limit = self.context.mpf(2) / 3
-        beyond = self.reals.greatest(c - limit, self.context.zero)
-        return self.reals.cap_root(self.reals.least(c, limit)) + beyond
+        return self.reals.cap_root(c) if 3 * c < 2 else c + self.context.mpf(1) / 3
 
     def _velocity(self, short: Number) -> Number:
         """u = v/V where the depth is short of the final one by `short` radii."""
