@@ -17,7 +17,6 @@ from replication.audit.verdict import Judge, follows, restates
 
 # A quick look
 
-_FLOATS = Floats()
 _CLOSE = Fraction(1, 10**9)
 """How near a double must come to an exact number, such as 2/3; relative."""
 
@@ -35,7 +34,7 @@ class Screen:
         known, value_of, target = {**self.assumed, **changed}, self.ledger.value, claim.target()
         inputs = {e: float(known[e] if e in known else value_of(e)) for e in claim.entries}
         try:
-            value = Fraction(self.ledger.function(claim, reading=reading)(_FLOATS, **inputs))
+            value = Fraction(self.ledger.function(claim, reading=reading)(Floats(), **inputs))
         except (ArithmeticError, ValueError, TypeError):
             return False  # in doubles these inputs have no result, or only a complex one
         if target.is_point and target.lower is not None:
@@ -161,31 +160,24 @@ class Explainer:
         likelier typing error comes first. A constant is repaired together with its equation.
         """
         name = self.ledger.equation_of(name) or name
-        return self._sorted(name, self._suspects(name))
+        return self._repairs(name, self._suspects(name))
 
-    def _sorted(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
+    def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
         """The edits of these entries that make a claim or an equation agree, best first."""
-        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
-        return sorted(
-            (repair for entry in entries for repair in self._repairs(name, entry)),
-            key=lambda r: (
-                r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
-            ),
-        )[:_SHOWN]  # fmt: skip
-
-    def _repairs(self, name: str, entry: str) -> Iterator[RepairRecord]:
-        for text, kind in edits_of(self.ledger, entry):
-            reading = self._mends(name, entry, text)
-            if reading is not None:
-                yield RepairRecord(
-                    entry=entry,
-                    title=self.ledger.title(entry),
-                    reading=reading,
-                    printed=self.ledger.printed_text(entry),
-                    text=text,
-                    kind=kind,
-                    failing=sorted(self._failing(entry, text)),
-                )
+        kinds, repairs = (*NUMBER_EDITS, *EQUATION_EDITS), []
+        for entry in entries:
+            title, printed = self.ledger.title(entry), self.ledger.printed_text(entry)
+            for text, kind in edits_of(self.ledger, entry):
+                if (reading := self._mends(name, entry, text)) is not None:
+                    failing = sorted(self._failing(entry, text))
+                    repairs.append(
+                        RepairRecord(entry=entry, title=title, reading=reading, printed=printed,
+                                     text=text, kind=kind, failing=failing)
+                    )  # fmt: skip
+        repairs.sort(key=lambda r: (
+            r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
+        ))  # fmt: skip
+        return repairs[:_SHOWN]
 
     def _suspects(self, name: str) -> list[str]:
         """Where a misprint may be: in it, in its entries, in its equations and their constants."""
@@ -264,7 +256,7 @@ class Explainer:
         quickest = min(names, key=self._cost)
         suspects = [set(self._suspects(name)) for name in names]
         common = set.intersection(*suspects) or suspects[0]
-        repairs = self._sorted(quickest, [e for e in self._suspects(quickest) if e in common])
+        repairs = self._repairs(quickest, [e for e in self._suspects(quickest) if e in common])
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _cost(self, name: str) -> tuple[int, str]:

@@ -222,16 +222,14 @@ class Judge:
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
         box = self.box(claim, convention)
         ends = enclose(function, box).ends
-        judged = partial(_judgement, claim, convention)
         if target.excludes(*ends):
-            return judged(Verdict.NOT_REPRODUCED, ends)
+            return _judgement(claim, convention, Verdict.NOT_REPRODUCED, ends)
         outcome, witness = self._meeting((function, target), claim, convention)
-        if outcome is None:
-            return judged(Verdict.UNDECIDED, ends)
-        if outcome:
-            return judged(Verdict.WITHIN_ROUNDING, ends, witness)
-        alone = bool(claim.inferred) and satisfying([(function, target)], box, _BUDGET // 10)[0]
-        return judged(Verdict.NOT_REPRODUCED, ends, None, alone is True)
+        verdict = {
+            True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
+        }[outcome]  # fmt: skip
+        alone = outcome is False and satisfying([(function, target)], box, _BUDGET // 10)[0]
+        return _judgement(claim, convention, verdict, ends, witness, alone is True)
 
     def _meeting(
         self, constraint: Constraint, claim: Claim, convention: Convention
@@ -320,8 +318,7 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Itera
     if claim.by_scheme and usual.rounding is Rounding.CUT:
         yield replace(usual, header_exact=True)
         return
-    whole_sheet = claim.by_scheme and claim.row is None
-    choices_exact = (True, False) if chosen and not whole_sheet else (True,)
+    choices_exact = (True, False) if chosen and not claim.by_whole_sheet else (True,)
     for choices, head in product(choices_exact, (False, True) if header else (False,)):
         yield replace(usual, choices_exact=choices, header_exact=head)
 
@@ -395,15 +392,9 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
 
     def passing(claim: str, corrected: Mapping[str, Fraction]) -> list[Fraction]:
         """The values of a constant with which every check holds, another constant corrected."""
-        number = printed[claim]
-
-        def passes(value: Fraction) -> bool:
-            if value == number and not corrected:
-                return holds
-            text = ledger.printed_text(name, {**corrected, claim: value})
-            return follows(ledger.misprint(name, text), name)
-
-        return list(filter(passes, sorted({*_USUAL, number, 2 * number, number / 2})))
+        tried = sorted({*_USUAL, *(printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))})
+        texts = {value: ledger.printed_text(name, {**corrected, claim: value}) for value in tried}
+        return [v for v, text in texts.items() if follows(ledger.misprint(name, text), name)]
 
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
