@@ -30,6 +30,12 @@ def approaches(known: Known) -> list[r.Approach]:
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
     forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED))
     models = {beta: case(known, beta) for beta in BETAS}
+
+    def cratered(impact: Impact) -> float:
+        """X/R at the constant pressure R_t: the work R_t CV is the energy rho_p PV V^2 / 2."""
+        energy = impact.particle_density * impact.velocity**2 / 2
+        return crater_depth(energy / impact.target_resistance)
+
     rows = [
         ("observed", f"CV/PV = {drawn}, the line in Figure 1", line, ""),
         ("observed", f"CV/PV = {taken}, as taken for Eq. 4", computed("observed-depth-ratio"),
@@ -37,7 +43,7 @@ def approaches(known: Known) -> list[r.Approach]:
         *(("sheet", f"beta = {beta}", sheet.run(impact).normalized_depth, f"ratio-beta-{beta}")
           for beta, impact in models.items()),
         *(("exact", f"beta = {beta}", exact_ratio(impact), "") for beta, impact in models.items()),
-        *(("constant pressure", f"beta = {beta}", constant_pressure_ratio(impact), "")
+        *(("constant pressure", f"beta = {beta}", cratered(impact), "")
           for beta, impact in models.items()),
         *(("Frank-Zook", f"{name}, {form}", computed(claim, reading), claim)
           for name, claim in (("armor", "frank-zook-rha"),
@@ -51,16 +57,6 @@ def approaches(known: Known) -> list[r.Approach]:
                    printed=claims[claim].shown if claim else "")
         for kind, name, value, claim in rows
     ]  # fmt: skip
-
-
-def constant_pressure_ratio(impact: Impact) -> float:
-    """X/R [1] of a crater at the constant pressure R_t: the model without the target's inertia.
-
-    The work R_t CV equals the kinetic energy rho_p PV V^2 / 2, so CV/PV = rho_p V^2 / (2 R_t);
-    deeper than R the crater goes on as a cylinder.
-    """
-    ratio = impact.particle_density * impact.velocity**2 / (2 * impact.target_resistance)
-    return crater_depth(ratio)
 
 
 # What the depth depends on

@@ -18,9 +18,6 @@ from replication.models.depth import final_depth
 from replication.models.sheet import run
 from replication.text import aligned
 
-Outcome = dict[str, Any]
-
-
 # With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1 at rest.
 _HALF_BURIED = {
     "particle_density": 4000.0,
@@ -86,7 +83,7 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
 """What makes a case hard, and the inputs in which it differs from the report's beta-5."""
 
 
-def outcome(name: str) -> Outcome:
+def outcome(name: str) -> dict[str, Any]:
     """The sheet, the closed form and the exact depth of a hard case; depths in m.
 
     `refused` is the message where the inputs are refused, `sheet_refused` where only the sheet is.
@@ -95,7 +92,7 @@ def outcome(name: str) -> Outcome:
     Inputs that are no finite numbers are given as text.
     """
     changes = HARD_CASES[name]
-    result: Outcome = {
+    result: dict[str, Any] = {
         "name": name,
         "changes": {key: x if math.isfinite(x) else str(x) for key, x in changes.items()},
         **dict.fromkeys(("refused", "sheet_refused"), ""),
@@ -181,7 +178,11 @@ def record(count: int, seed: int) -> dict[str, Any]:
 def text(record: dict[str, Any]) -> str:
     """The hard cases as a table, notes under it, and the worst of the random cases."""
     heads = ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
-    notes = [f"{case['name']}: {note}" for case in record["cases"] for note in _notes(case)]
+    notes = []
+    for case in record["cases"]:
+        refusals = (case[key] for key in ("refused", "sheet_refused") if case[key])
+        said = (*map("refused: {}".format, refusals), *case["warnings"])
+        notes += [f"{case['name']}: {note}" for note in said]
     worst = record["random"]
     inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
     return "\n".join(
@@ -196,12 +197,7 @@ def text(record: dict[str, Any]) -> str:
     )
 
 
-def _notes(case: Outcome) -> list[str]:
-    refused = [f"refused: {note}" for note in (case["refused"], case["sheet_refused"]) if note]
-    return refused + list(case["warnings"])
-
-
-def _line(case: Outcome) -> tuple[str, ...]:
+def _line(case: dict[str, Any]) -> tuple[str, ...]:
     sheet, closed = ("-", "refused", ""), ("", "", "")
     if case["steps"] is not None:
         off = f"{100 * case['sheet_error']:+.3g} %"
