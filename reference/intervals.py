@@ -8,6 +8,7 @@ keeps the rounding errors of either end. A point is a ball, computed with by Arb
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import reduce
 from math import prod
 from typing import Any
 
@@ -39,7 +40,7 @@ class Span(Operators):
         if self.low >= _ZERO and low >= _ZERO:
             return Span(self.low * low, self.high * high)
         corners = [x * y for x in (self.low, self.high) for y in (low, high)]
-        return Span(_least(*corners), _greatest(*corners))
+        return Span(reduce(arb.min, corners), reduce(arb.max, corners))
 
     def __truediv__(self, other: Number) -> Number:
         return self * _inverse(*_balls(other))
@@ -53,7 +54,7 @@ class Span(Operators):
             raise ValueError(f"the power {power} of an interval is negative")
         low, high = self.low, self.high
         if power % 2 == 0 and not low >= _ZERO:
-            low, high = _greatest(low, -high, _ZERO), _greatest(-low, high)
+            low, high = low.max(-high).max(_ZERO), high.max(-low)
         # By products, as Arb's own real power knows nothing of a ball about 0.
         return Span(prod([low] * power, start=_ONE), prod([high] * power, start=_ONE))
 
@@ -71,21 +72,6 @@ def _balls(x: Number) -> tuple[Any, Any]:
     """The balls, or integers, at the least and the greatest end of a number."""
     return (x.low, x.high) if isinstance(x, Span) else (x, x)
 
-
-def _least(first: arb, *others: arb) -> arb:
-    """A ball that contains the least of the numbers: one of these balls if it is clear which."""
-    for ball in others:
-        if not (first <= ball or first.contains(ball)):
-            first = ball if ball <= first or ball.contains(first) else first.min(ball)
-    return first
-
-
-def _greatest(*balls: arb) -> arb:
-    return -_least(*(-ball for ball in balls))
-
-
-def _between(low: arb, high: arb) -> Number:
-    return low if low is high else Span(low, high)
 
 
 def _increasing(function: Callable[[arb], arb], x: Number) -> Number:
@@ -153,7 +139,7 @@ class Intervals(Arithmetic):
         if _balls(x)[1] <= _balls(bound)[0]:
             return x
         (low, high), (other_low, other_high) = _bounded(x), _bounded(bound)
-        return _between(_least(low, other_low), _least(high, other_high))
+        return Span(low.min(other_low), high.min(other_high))
 
     def contact_share(self, y: Number) -> Number:
         return _increasing(lambda end: end * (2 - end), y)
@@ -184,7 +170,7 @@ class Intervals(Arithmetic):
 
     def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
-        return _between(_least(*lows), _greatest(*highs))
+        return Span(reduce(arb.min, lows), reduce(arb.max, highs))
 
 
 def _ball(value: Fraction | int) -> arb:
