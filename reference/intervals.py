@@ -73,7 +73,6 @@ def _balls(x: Number) -> tuple[Any, Any]:
     return (x.low, x.high) if isinstance(x, Span) else (x, x)
 
 
-
 def _increasing(function: Callable[[arb], arb], x: Number) -> Number:
     return Span(function(x.low), function(x.high)) if isinstance(x, Span) else function(x)
 

@@ -81,11 +81,6 @@ class Explainer:
         each = [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
         return [Screen(ledger, assumed) for assumed in each]
 
-    @cached_property
-    def _as_printed(self) -> list[Screen]:
-        """Quick looks at the ledger as it stands."""
-        return self._screens(self.ledger)
-
     # Single inputs
 
     def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
@@ -148,8 +143,9 @@ class Explainer:
 
     def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
         """Whether all claims that confirm a number agree with this value of it (SI)."""
+        screen = Screen(self.ledger, self.judge.assumed)
         claims = map(self.ledger.claims.__getitem__, chosen.shown_by)
-        return all(self._as_printed[-1].agrees(claim, "", {chosen.id: value}) for claim in claims)
+        return all(screen.agrees(claim, "", {chosen.id: value}) for claim in claims)
 
     # Misprints
 
@@ -168,8 +164,9 @@ class Explainer:
         for entry in entries:
             title, printed = self.ledger.title(entry), self.ledger.printed_text(entry)
             for text, kind in edits_of(self.ledger, entry):
-                if (reading := self._mends(name, entry, text)) is not None:
-                    failing = sorted(self._failing(entry, text))
+                changed = self.ledger.misprint(entry, text)
+                if (reading := self._agreeing(name, entry, changed)) is not None:
+                    failing = sorted(self._failing(entry, changed))
                     repairs.append(
                         RepairRecord(entry=entry, title=title, reading=reading, printed=printed,
                                      text=text, kind=kind, failing=failing)
@@ -179,64 +176,54 @@ class Explainer:
         ))  # fmt: skip
         return repairs[:_SHOWN]
 
-    def _suspects(self, name: str) -> list[str]:
+    def _suspects(self, name: str) -> set[str]:
         """Where a misprint may be: in it, in its entries, in its equations and their constants."""
-        if name in self.ledger.equations:
-            premises = self.ledger.equations[name].premises.values()
-            equations = dict.fromkeys([name, *(premise.equation for premise in premises)])
-            return [*equations, *(c for e in equations for c in self.ledger.constants_of(e))]
-        claims = self.ledger.claims
-        claim = claims[name]
-        entries = [*claim.stated]
-        for unknown in (entry for entry in claim.entries if entry in self.judge.moved):
-            # Its evidence does not admit the nominal value: what that rests on may be misprinted.
-            evidence = self.ledger.inferred[unknown.removeprefix(INFERRED)].evidence
-            entries += [entry for piece in evidence for entry in claims[piece].stated]
-        more = [key for key in (claim.against, claim.within) if key]
-        constants = [c for e in claim.uses for c in self.ledger.constants_of(e)]
-        return list(dict.fromkeys([name, *entries, *more, *claim.uses, *constants]))
-
-    def _mends(self, name: str, entry: str, text: str) -> str | None:
-        """The first reading of the claim or equation that agrees with the edit, or None."""
-        within = self.ledger.equation_of(name)
-        if within is not None:
-            return "" if follows(self.ledger.misprint(entry, text), within) else None
-        claim, screens, values = self.ledger.claims[name], self._as_printed, {}
-        if claim.computation is None:
-            return self._suits(claim, text) if entry == name else None
-        if entry in (name, claim.against) or self.ledger.equation_of(entry):
-            changed = self.ledger.misprint(entry, text)
-            claim, screens = changed.claims[name], self._screens(changed)
+        ledger = self.ledger
+        if name in ledger.equations:
+            premises = ledger.equations[name].premises.values()
+            suspects = equations = {name, *(premise.equation for premise in premises)}
         else:
-            values[entry] = parse(text).value * self.ledger.claims[entry].si
-        agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r, values))
+            claim = ledger.claims[name]
+            equations = set(claim.uses)
+            beside = {key for key in (claim.against, claim.within) if key}
+            suspects = {name, *claim.stated} | beside | equations
+            for unknown in self.judge.moved.intersection(claim.entries):
+                # Its evidence does not admit the nominal value: what it rests on may be misprinted.
+                evidence = ledger.inferred[unknown.removeprefix(INFERRED)].evidence
+                suspects |= {entry for piece in evidence for entry in ledger.claims[piece].stated}
+        return suspects | {c for e in equations for c in ledger.constants_of(e)}
+
+    def _agreeing(self, name: str, entry: str, changed: Ledger) -> str | None:
+        """The first reading of a claim or equation that agrees in a ledger with a changed entry.
+
+        A number that nothing computes has to agree with its sources and with what confirms it.
+        """
+        within = changed.equation_of(name)
+        if within is not None:
+            return "" if follows(changed, within) else None
+        claim, screens = changed.claims[name], self._screens(changed)
+        if claim.computation is None:
+            if entry != name or not self._is_shown(claim, claim.value):
+                return None
+            sources = changed.sources_of(name)
+            agrees = not sources or any(claim.target().meets(s.interval) for s in sources)
+            return "" if agrees else None
+        agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r))
         return next(agreeing, None)
 
-    def _suits(self, claim: Claim, text: str) -> str | None:
-        """As `_mends`, of a number that nothing computes: by its sources and what confirms it."""
-        changed = self.ledger.misprint(claim.id, text).claims[claim.id]
-        sources = self.ledger.sources_of(claim.id)
-        if sources and not any(changed.target().meets(source.interval) for source in sources):
-            return None
-        return "" if self._is_shown(claim, changed.value) else None
-
-    def _failing(self, entry: str, text: str) -> set[str]:
+    def _failing(self, entry: str, changed: Ledger) -> set[str]:
         """All claims and equations that fail with the edit, also those that it does not touch."""
-        changed = self.ledger.misprint(entry, text)
-        touched = dependents(self.ledger, entry)
+        touched, within = dependents(self.ledger, entry), self.ledger.equation_of(entry)
         failing = min((s.failing(touched) for s in self._screens(changed)), key=len)
-        within, bad = self.ledger.equation_of(entry), self._bad_equations
         if within is not None:
-            bad = (bad - {within}) | (set() if follows(changed, within) else {within})
-        return (self._failing_now - touched) | failing | bad
+            touched.add(within)
+            failing |= set() if follows(changed, within) else {within}
+        return (self._failing_now - touched) | failing
 
     @cached_property
     def _failing_now(self) -> set[str]:
-        return self._as_printed[-1].failing(self.ledger.claims)
-
-    @cached_property
-    def _bad_equations(self) -> set[str]:
-        return {name for name in self.ledger.equations if not follows(self.ledger, name)}
+        claims = Screen(self.ledger, self.judge.assumed).failing(self.ledger.claims)
+        return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One culprit for all that fails
 
@@ -254,9 +241,9 @@ class Explainer:
         if not names:
             return []
         quickest = min(names, key=self._cost)
-        suspects = [set(self._suspects(name)) for name in names]
+        suspects = [self._suspects(name) for name in names]
         common = set.intersection(*suspects) or suspects[0]
-        repairs = self._repairs(quickest, [e for e in self._suspects(quickest) if e in common])
+        repairs = self._repairs(quickest, common & self._suspects(quickest))
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _cost(self, name: str) -> tuple[int, str]:
