@@ -102,11 +102,7 @@ class InexactError(ArithmeticError):
 
 
 class Rationals(Arithmetic):
-    """Exact fractions, for as long as a formula needs no other numbers.
-
-    >>> Rationals().number(1) / 3
-    Fraction(1, 3)
-    """
+    """Exact fractions, for as long as a formula needs no other numbers."""
 
     number = Fraction
 
@@ -121,11 +117,7 @@ class Rationals(Arithmetic):
 
 
 class Floats(Arithmetic):
-    """IEEE doubles: fast, but their results prove nothing.
-
-    >>> f"{Floats().cap_root(0.08):.4f}"
-    '0.2980'
-    """
+    """IEEE doubles: fast, but their results prove nothing."""
 
     pi = math.pi
     number: Callable[[Any], Number] = float

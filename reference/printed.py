@@ -62,11 +62,7 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
-        """The lower and the upper end. Raises ValueError where one is infinite.
-
-        >>> Interval(Fraction(1), Fraction(2)).ends
-        (Fraction(1, 1), Fraction(2, 1))
-        """
+        """The lower and the upper end. Raises ValueError where one is infinite."""
         if self.lower is None or self.upper is None:
             raise ValueError(f"{self} has no end on one side")
         return self.lower, self.upper

@@ -28,11 +28,7 @@ from replication.text import number, powers_of_ten, quantity
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a copy of its ledger with a misprint.
-
-    >>> print(audit().claim("depth-beta-5").verdict)
-    reproduced
-    """
+    """Audit every number and equation of the report, or of a copy of its ledger with a misprint."""
     return Audit(ledger or ledgers.load()).record()
 
 
@@ -247,11 +243,7 @@ _UNREAD = SimpleNamespace(
 
 
 def _short(value: Fraction) -> str:
-    """A number as it is put into a formula.
-
-    >>> _short(Fraction(2, 3)), _short(Fraction(8900)), _short(Fraction(76 * 10**8))
-    ('2/3', '8900', '7.6×10⁹')
-    """
+    """A number as it is put into a formula: 2/3, 8900, 7.6×10⁹."""
     return str(value) if 1 < value.denominator < 10 else powers_of_ten(number(value))
 
 

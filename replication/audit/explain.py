@@ -30,7 +30,7 @@ class Screen:
     def agrees(self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] = {}) -> bool:
         """Whether a claim with a computation agrees, with some entries changed (SI)."""
         if claim.computations[reading].restates:
-            return restates(self.ledger, claim, changed)
+            return restates(self.ledger, claim)
         known, value_of, target = {**self.assumed, **changed}, self.ledger.value, claim.target()
         inputs = {e: float(known[e] if e in known else value_of(e)) for e in claim.entries}
         try:

@@ -55,11 +55,6 @@ class Inference:
         self._joining = [ledger.claims[key] for key in (*self.entry.header, *self.agreeing)]
 
     @cached_property
-    def inputs(self) -> set[str]:
-        """The other inputs of the evidence and of the header of Table A-1."""
-        return {name for claim in self._joining for name in claim.entries} - {self.name}
-
-    @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
         return Inference(self.ledger, self.name, centered=self.centered, by_mass=True).inner
@@ -102,7 +97,8 @@ class Inference:
         The printed mass and density give the radius more closely than its own digits do: where the
         header is rounded, the mass varies and the radius follows from it.
         """
-        claims, entry, names = self.ledger.claims, self.entry, self.inputs
+        claims, entry = self.ledger.claims, self.entry
+        names = {name for claim in self._joining for name in claim.entries} - {self.name}
         constraints: list[Constraint] = [
             (self.ledger.function(claim, centered=self.centered), claim.target())
             for claim in self._joining

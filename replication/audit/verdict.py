@@ -105,11 +105,10 @@ class Assessment(msgspec.Struct, frozen=True):
     readings: tuple[Reading, ...] = ()
 
 
-def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> bool:
+def restates(ledger: Ledger, claim: Claim) -> bool:
     """Whether a claim that only repeats or counts agrees with what it repeats or counts.
 
-    It does if some value prints like both texts and, of a bound, satisfies it. `changed` gives the
-    repeated number another value (SI).
+    It does if some value prints like both texts and, of a bound, satisfies it.
     """
     assert claim.computation is not None
     if claim.computation.name == "count":
@@ -118,8 +117,6 @@ def restates(ledger: Ledger, claim: Claim, changed: Mapping[str, Fraction]) -> b
     # A choice or an exact number has one value; a bound or an "about" has its own interval.
     loose = claim.bound is not None or claim.kind == "approximation"
     interval = claim.target() if loose else claim.as_input(Convention())
-    if name in changed:
-        return interval.contains(changed[name])
     return interval.meets(ledger.claims[name].as_input(Convention()))
 
 
@@ -161,7 +158,7 @@ class Judge:
         A claim whose formula has none at the inputs as printed does not follow from them.
         """
         if claim.computation is not None and claim.computation.restates:
-            agrees = restates(self.ledger, claim, {})
+            agrees = restates(self.ledger, claim)
             return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
