@@ -468,11 +468,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return self.inferred[name.removeprefix(INFERRED)] if unknown else self.claims[name]
 
     def value(self, name: str) -> Fraction:
-        """An entry's value as printed, or the nominal one of an inferred input, in SI.
-
-        >>> float(load().value("flow-stress"))
-        700000000.0
-        """
+        """An entry's value as printed, or the nominal one of an inferred input, in SI."""
         entry = self._input(name)
         return entry.nominal * to_si(entry.unit) if isinstance(entry, Inferred) else entry.value
 

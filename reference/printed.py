@@ -84,11 +84,7 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
         return self.encloses(lower, upper) or self.excludes(lower, upper)
 
     def meets(self, another: "Interval") -> bool:
-        """Whether some value lies in both.
-
-        >>> parse("403").interval().meets(parse("404").interval())
-        False
-        """
+        """Whether some value lies in both."""
         return self._starts <= another._stops and another._starts <= self._stops
 
     def scaled(self, factor: Fraction) -> "Interval":

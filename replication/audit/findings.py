@@ -44,8 +44,6 @@ _CONVENTIONS = {
 }
 """How inputs are taken: header and choices exact, only the header rounded, or both rounded."""
 
-_READINGS = {"computed": "", "derived": DERIVED}
-
 
 class Known:
     """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
@@ -134,10 +132,9 @@ class Evidence:
 
     def __init__(self, known: Known, finding: asserted.Finding) -> None:
         self.known, self.finding = known, finding
-        self.formulas = dict(finding.where)
-        for name, piece in finding.evidence.items():
-            if piece.formula and not piece.over:
-                self.formulas[name] = piece.formula
+        pieces = finding.evidence.items()
+        calculated = {name: p.formula for name, p in pieces if p.formula and not p.over}
+        self.formulas = {**finding.where, **calculated}
         self.value = cache(self._value)
 
     def __getitem__(self, name: str) -> float:
@@ -247,7 +244,7 @@ class Evidence:
             judged = [
                 judgement.verdict
                 for reading in assessment.readings
-                if not part or reading.name == _READINGS[part]
+                if not part or reading.name == (DERIVED if part == "derived" else "")
                 for judgement in reading.judgements
                 if under.items() <= to_builtins(judgement.convention).items()
             ]
