@@ -145,11 +145,9 @@ def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
 
     Empty if no value of the search satisfies any of it.
     """
-    best: tuple[str, ...] = ()
-    for value in sorted({low for solutions in each.values() for low, _ in solutions.inner}):
-        agreeing = tuple(name for name, solutions in each.items() if solutions.admits(value))
-        best = max(best, agreeing, key=len)
-    return best
+    values = sorted({low for solutions in each.values() for low, _ in solutions.inner})
+    sets = (tuple(name for name, own in each.items() if own.admits(value)) for value in values)
+    return max(sets, key=len, default=())
 
 
 def _intersection(first: Sequence[Ends], *others: Sequence[Ends]) -> list[Ends]:
