@@ -88,9 +88,9 @@ class Audit(Known):
     def claim(self, claim: Claim) -> r.ClaimRecord:
         """One claim, as data."""
         assessment = self.assessment(claim)
+        readings = [self._reading(claim, reading) for reading in assessment.readings]
+        read, *others = readings or [_UNREAD]
         is_open = assessment.verdict.is_open
-        first = assessment.readings[0] if assessment.readings else None
-        read: r.ReadingRecord | SimpleNamespace = self._reading(claim, first) if first else _UNREAD
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
         restates = claim.computation is not None and claim.computation.restates
@@ -106,8 +106,8 @@ class Audit(Known):
             interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
-            error_in_last_digit=_error(claim, first),
-            readings=[self._reading(claim, reading) for reading in assessment.readings[1:]],
+            error_in_last_digit=_error(claim, read.computed),
+            readings=others,
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(self.judge, claim, read.computed),
             explanation=assessment.reason,
@@ -115,9 +115,9 @@ class Audit(Known):
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
             figures=self._figures(claim),
-            back_solved=self.explainer.back_solved(claim) if is_open and first else [],
+            back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
-            slips=self.explainer.slips(claim) if is_open and first else [],
+            slips=self.explainer.slips(claim) if is_open and readings else [],
         )
 
     @staticmethod
@@ -235,7 +235,7 @@ class Audit(Known):
         )
 
 
-_UNREAD = SimpleNamespace(
+_UNREAD: Any = SimpleNamespace(
     computed=None, reference=None, enclosure=None, enclosure_exact=None, witness=None, holds="",
     otherwise=[],
 )  # fmt: skip
@@ -255,13 +255,13 @@ _NUMBERS = replace(
 """The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
 
 
-def _error(claim: Claim, reading: Reading | None) -> float | None:
+def _error(claim: Claim, computed: float | None) -> float | None:
     """Computed minus printed, in units of the last printed digit; None where that says nothing."""
     printed = claim.printed
-    if reading is None or printed is None or claim.bound is not None or printed.quantum == 0:
+    if computed is None or printed is None or claim.bound is not None or printed.quantum == 0:
         return None
     quantum = printed.quanta[-1] if claim.kind == "approximation" else printed.quantum
-    return float((Fraction(reading.computed) - printed.value) / quantum)
+    return float((Fraction(computed) - printed.value) / quantum)
 
 
 def _proven(judgement: Judgement) -> dict[str, Any]:

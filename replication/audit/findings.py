@@ -244,7 +244,7 @@ class Evidence:
             judged = [
                 judgement.verdict
                 for reading in assessment.readings
-                if not part or reading.name == (DERIVED if part == "derived" else "")
+                if not part or reading.name == {"computed": "", "derived": DERIVED}[part]
                 for judgement in reading.judgements
                 if under.items() <= to_builtins(judgement.convention).items()
             ]
