@@ -1,6 +1,6 @@
 """The verdicts: whether a printed number or equation follows from what the report prints."""
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
@@ -15,7 +15,7 @@ from reference.arithmetic import InexactError, Rationals, Reals
 from reference.enclosure import Box, Constraint, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
-from reference.ledger import INFERRED, Claim, Convention, Function, Ledger, in_header
+from reference.ledger import INFERRED, Claim, Convention, Ledger, in_header
 from reference.printed import Interval, Rounding
 from reference.units import Dimension, DimensionError
 from replication.audit.inference import Inference
@@ -266,14 +266,23 @@ class Judge:
         return self.inference(entry, centered=convention.centered).admitted(convention)
 
     def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
-        """A proven range of a claim's values, in SI; one exact value where that can be told."""
+        """A proven range of a claim's values, in SI.
+
+        One exact value if the box allows only one, by inputs that make a difference, and that is
+        rational: only so can it be told to lie exactly on an end of a printed interval.
+        """
         function = self.ledger.function(claim, reading=name, centered=centered)
         range_, computation = enclose(function, box), claim.computations[name]
         decided = all(claim.target(rounding).decides(*range_.ends) for rounding in Rounding)
         # Of a whole sheet, or where a row squares twice, the fractions grow very long.
         long = computation.by_scheme and (not computation.by_row or (centered and decided))
-        exact = None if long else _exactly(function, box, range_.idle)
-        return range_.ends if exact is None else (exact, exact)
+        if long or any(box[entry][0] != box[entry][1] for entry in box.keys() - range_.idle):
+            return range_.ends
+        try:
+            exact = Fraction(function(_RATIONALS, **{key: low for key, (low, _) in box.items()}))
+        except InexactError:
+            return range_.ends
+        return exact, exact
 
 
 def _judgement(
@@ -281,20 +290,6 @@ def _judgement(
 ) -> Judgement:
     """As `Judgement`, the ends given in SI."""
     return Judgement(convention, verdict, (ends[0] / claim.si, ends[1] / claim.si), *more)
-
-
-def _exactly(function: Function, box: Box, idle: Set[str]) -> Fraction | None:
-    """The function's value as a fraction, if the box allows only one value and that is rational.
-
-    Only so can it be told to lie exactly on an end of a printed interval. `idle` inputs are proven
-    to make no difference.
-    """
-    if any(low != high and name not in idle for name, (low, high) in box.items()):
-        return None
-    try:
-        return Fraction(function(_RATIONALS, **{name: low for name, (low, _) in box.items()}))
-    except InexactError:
-        return None
 
 
 _BUDGET = 100
