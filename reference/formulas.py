@@ -13,7 +13,7 @@ uses them.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 from itertools import islice
 from typing import Any, Literal
 
@@ -133,14 +133,9 @@ def computing(
     return value
 
 
-def _cell(column: str) -> Callable[..., Number]:
-    """One column of the sheet, in a given row."""
-
-    def cell(ar: Arithmetic, row: int, centered: bool, **inputs: Number) -> Number:
-        rows = sheet_rows(ar, centered=centered, **inputs)
-        return getattr(next(islice(rows, row - 1, None)), column)
-
-    return cell
+def _cell(column: str, ar: Arithmetic, row: int, centered: bool, **inputs: Number) -> Number:
+    rows = sheet_rows(ar, centered=centered, **inputs)
+    return getattr(next(islice(rows, row - 1, None)), column)
 
 
 FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
@@ -148,7 +143,7 @@ FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
     "force_power": lambda _: (unit_dimension("N") / unit_dimension("Pa")).powers[1],
     "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),
     "greatest_beta": lambda ar, **betas: reduce(ar.greatest, betas.values()),
-    **{f"row_{column}": _cell(column) for column in Row._fields},
+    **{f"row_{column}": partial(_cell, column) for column in Row._fields},
     "final_sheet_depth": sheet_depth,
 }
 """Computations that cannot be written in the report's notation."""

@@ -6,6 +6,7 @@ written separately, and the audit compares them.
 
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from replication.models import crater, estimates, sheet
 from replication.models.impact import Impact, particle_mass
@@ -22,13 +23,8 @@ def replica(name: str, inputs: Mapping[str, float], **settings: object) -> float
     return float(REPLICA[name](**inputs, **settings))
 
 
-def _cell(column: str) -> Callable[..., float]:
-    """The cell of one column in the given row of the sheet."""
-
-    def cell(row: int, scheme: str, **inputs: float) -> float:
-        return float(getattr(sheet.run(Impact(**inputs), scheme).rows[row], column))
-
-    return cell
+def _cell(column: str, row: int, scheme: str, **inputs: float) -> float:
+    return float(getattr(sheet.run(Impact(**inputs), scheme).rows[row], column))
 
 
 def _deceleration_at_start(depth: float, velocity: float, **inputs: float) -> float:
@@ -70,10 +66,10 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "strain_rate": estimates.strain_rate,
     "particle_mass": particle_mass,
     "row_time": lambda row, step: row * step,
-    "row_velocity_initial": _cell("velocity_initial"),
-    "row_depth": _cell("depth"),
-    "row_deceleration": _cell("deceleration"),
-    "row_velocity_final": _cell("velocity_final"),
+    "row_velocity_initial": partial(_cell, "velocity_initial"),
+    "row_depth": partial(_cell, "depth"),
+    "row_deceleration": partial(_cell, "deceleration"),
+    "row_velocity_final": partial(_cell, "velocity_final"),
     "deceleration_at_start": _deceleration_at_start,
     "final_sheet_depth": lambda scheme, **case: sheet.run(Impact(**case), scheme).final_depth,
     "frank_zook_as_printed": estimates.frank_zook_as_printed,
