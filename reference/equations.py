@@ -188,28 +188,24 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     >>> print(evaluate(expression, Reals(15), {"alpha": Reals(15).number(2)}))
     1.61734342130654
     """
-
-    def value(node: Node) -> Any:
-        if node.kind == "symbol":
-            known = ar.pi if node.name == "pi" else values.get(node.name)
-            if known is None:
-                raise EquationError(f"the symbol {node.name} has no value here")
-            return ar.number(known) if type(known) is Fraction else known
-        if node.kind == "number":
-            return ar.number(node.value)
-        if node.kind == "power":
-            base, power = node.parts[0], _exponent(node.parts[1], values)
-            if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
-                base, power = base.parts[0], power * _exponent(base.parts[1], values)
-            if power.denominator == 1 and power > 0:
-                return value(base) ** int(power)
-            return ar.power(value(base), power)
-        numbers = map(value, node.parts)
-        if node.kind in _OPERATIONS:
-            return _OPERATIONS[node.kind](ar, *numbers)
-        return getattr(ar, node.kind)(*numbers)
-
-    return value(node)
+    if node.kind == "symbol":
+        known = ar.pi if node.name == "pi" else values.get(node.name)
+        if known is None:
+            raise EquationError(f"the symbol {node.name} has no value here")
+        return ar.number(known) if type(known) is Fraction else known
+    if node.kind == "number":
+        return ar.number(node.value)
+    if node.kind == "power":
+        base, power = node.parts[0], _exponent(node.parts[1], values)
+        if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
+            base, power = base.parts[0], power * _exponent(base.parts[1], values)
+        value = evaluate(base, ar, values)
+        is_natural = power.denominator == 1 and power > 0
+        return value ** int(power) if is_natural else ar.power(value, power)
+    numbers = [evaluate(part, ar, values) for part in node.parts]
+    if node.kind in _OPERATIONS:
+        return _OPERATIONS[node.kind](ar, *numbers)
+    return getattr(ar, node.kind)(*numbers)
 
 
 _OPERATIONS: Mapping[str, Callable[..., Any]] = {
