@@ -225,8 +225,9 @@ class Judge:
         verdict = {
             True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
         }[outcome]  # fmt: skip
-        alone = outcome is False and satisfying([(function, target)], box, _BUDGET // 10)[0]
-        return _judgement(claim, convention, verdict, ends, witness, alone is True)
+        alone = outcome is False and bool(claim.inferred)
+        alone = alone and satisfying([(function, target)], box, _BUDGET // 10)[0] is True
+        return _judgement(claim, convention, verdict, ends, witness, alone)
 
     def _meeting(
         self, constraint: Constraint, claim: Claim, convention: Convention
