@@ -50,9 +50,8 @@ LEAST_SHARE = 2.0**-53
 def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
     """Uniform numbers in (0, 1) of the cases from `first` on, shape (count,).
 
-    Each is a function of the seed, the stream (one for each input) and the number of its case:
-    Philox makes four random words at a time from the case's number. Their upper 52 bits plus one
-    half, scaled, are neither 0 nor 1.
+    Each is a function of the seed, the stream (one for each input) and the number of its case, of
+    which Philox makes four random words at a time. Their upper 52 bits plus one half are scaled.
 
     >>> bool((uniform(1, 0, 0, 10)[7:] == uniform(1, 0, 7, 3)).all())
     True
@@ -79,12 +78,11 @@ class Source:
 class Plan:
     """The cases of a sweep.
 
-    `sources` has every input, in the file's order: the first varies slowest. For each combination
-    of listed values there are `samples` cases, each with its own random numbers, which follow from
-    `seed`. The velocity is not in `sources` if it follows from the mass, by Eq. 1: then `by_mass`
-    has its average_velocity V [m/s] and average_mass m_o [kg]. `scheme` is that of the sheet,
-    `extras` are names of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError where an
-    input or a combination of inputs would leave the range that `Impact` allows.
+    `sources` has every input, in the file's order: the first varies slowest. Each combination of
+    listed values has `samples` cases, drawn by the `seed`. A velocity that follows from the mass,
+    by Eq. 1, is not in `sources`: `by_mass` has its average_velocity V [m/s] and average_mass m_o
+    [kg]. `extras` are names of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError
+    where a combination of inputs would leave the range that `Impact` allows.
     """
 
     sources: dict[str, Source]
@@ -99,11 +97,10 @@ class Plan:
         if self.count > MAX_CASES:
             raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
         # All that `Impact` checks is monotone in each input: the ends stand for the rest.
-        bounds = {name: source.bounds for name, source in self.sources.items()}
-        varying = {name: ends for name, ends in bounds.items() if ends[0] != ends[1]}
-        for corner in itertools.product(*varying.values()):
-            ends = dict(zip(varying, corner, strict=True))
-            case = {name: least for name, (least, _) in bounds.items()} | ends
+        bounds = {name: dict.fromkeys(source.bounds) for name, source in self.sources.items()}
+        for corner in itertools.product(*bounds.values()):
+            case = dict(zip(bounds, corner, strict=True))
+            ends = {name: value for name, value in case.items() if len(bounds[name]) > 1}
             if law := self.by_mass:
                 mass = particle_mass(case["radius"], case["particle_density"])
                 # Without a mass there is no velocity: infinity, which is refused.
@@ -158,25 +155,20 @@ class Plan:
 def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     """Inputs and results of `count` cases from number `first` on, by column, SI.
 
-    The inputs, depth at rest [m], normalized_depth [1], beyond_radius, and the extras of the plan,
-    each of shape (count,): the same for a case whatever is computed beside it. Raises ValueError
-    naming the case that the sheet refuses.
+    Each has the shape (count,), and is the same for a case whatever is computed beside it. Raises
+    ValueError naming the case that the sheet refuses.
     """
     inputs = plan.inputs(first, count)
     motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
     velocity, radius, *materials = motion.values()
     ratio = arrays.normalized_depth(velocity, *materials)
-    results = {
-        "depth": radius * ratio,
-        "normalized_depth": ratio,
-        "beyond_radius": ratio > 1,
-    }
+    results = {"depth": radius * ratio, "normalized_depth": ratio, "beyond_radius": ratio > 1}
     if "stop_time" in plan.extras:
         results["stop_time"] = arrays.stop_time(**motion)
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
         try:
-            stepping: Any = {name: inputs[name] for name in ("step", "stop_velocity")}
-            sheets = arrays.run_many(**motion, **stepping, scheme=plan.scheme)
+            motion |= {name: inputs[name] for name in ("step", "stop_velocity")}
+            sheets = arrays.run_many(**motion, scheme=plan.scheme)
         except InputError as error:
             number = error.index[0]
             given = ", ".join(f"{name} {float(value[number])!r}" for name, value in inputs.items())
@@ -380,9 +372,9 @@ def write(
 ) -> None:
     """Compute the blocks of these numbers (default: all) and write them to one file.
 
-    The suffix of the path says which: .csv or .parquet. `done` is told the number of cases of each
-    block. The same plan and numbers make the same bytes. Raises ValueError and OSError as
-    `check_output` and `compute` do, and leaves no file then.
+    The path's suffix is .csv or .parquet. `done` is told the number of cases of each block. The
+    same plan and numbers make the same bytes. Raises as `check_output` and `compute` do, and leaves
+    no file then.
     """
     import pyarrow as pa
 
