@@ -73,9 +73,8 @@ class Case:
     def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
         """The worst relative error of depths [m], measured down to a velocity [m/s], 0 for rest.
 
-        For a "depth" they are the final depths of the cases of `columns`, of which eleven are
-        compared. For a "history" they are the depths at `times`, and their errors are relative to
-        the depth at rest; if there is a row for each case of `columns`, the middle row is compared.
+        Of the final depths of `columns` eleven are compared. Those of a "history" are at `times`,
+        in the middle row if there is one for each case, with errors relative to the depth at rest.
         Of a tuple of results, such as depth and velocity, the first is compared.
         """
         computed = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
@@ -113,9 +112,8 @@ def build(name: str) -> Case:
 def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
     """The k-th time as a double, and the exact depth at that very double.
 
-    The time for a depth takes one quadrature, the depth for a time would take a dozen. Depths
-    X (1 - s^2), with s falling evenly, are about evenly spaced in time. Rounding the time to a
-    double leaves out 1e-16 of the motion; one Taylor step adds that again, to within 1e-32.
+    Depths X (1 - s^2), with s falling evenly, are about evenly spaced in time. Rounding the time to
+    a double leaves out 1e-16 of the motion; one Taylor step adds that again, to within 1e-32.
     """
     s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
     depth = motion.final_depth * (1 - s * s)
@@ -134,8 +132,7 @@ STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
 class Task:
     """A method at a setting: `run` answers what `measure` asks, down to a velocity `stop` [m/s].
 
-    One run computes `cases` cases at once. If the method is `compiled`, that is part of its first
-    run.
+    One run computes `cases` cases at once; the first compiles the method if it is `compiled`.
     """
 
     method: str
@@ -330,13 +327,9 @@ def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) 
     """The fastest method for so many digits and its `best` time [s]; None where there is none."""
     able = (point for point in ranked(points, measure, many) if met(point) <= error_for(digits))
     first = next(able, None)
-    method, best = (title(first), first["best"]) if first else (None, None)
-    return {"measure": measure, "many": many, "digits": digits, "method": method, "best": best}
-
-
-def title(point: Point) -> str:
-    """Method and setting."""
-    return f"{point['method']}, {point['setting']}"
+    method = first and f"{first['method']}, {first['setting']}"
+    asked = {"measure": measure, "many": many, "digits": digits}
+    return asked | {"method": method, "best": first and first["best"]}
 
 
 def _machine() -> dict[str, Any]:
@@ -399,7 +392,7 @@ def _table(points: Sequence[Point]) -> Iterator[str]:
     yield from aligned(rows)
     for point in points:
         if point["gap"]:
-            yield f"- {title(point)}, {MEASURES[point['measure']]}: {point['gap']}"
+            yield "- {method}, {setting}, {}: {gap}".format(MEASURES[point["measure"]], **point)
 
 
 def _cells(point: Point | None) -> tuple[str, ...]:
