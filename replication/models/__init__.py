@@ -1,4 +1,1 @@
-"""The models: one module each, the short ones in `estimates`; functions of plain floats, one case.
-
-`arrays` compiles the same functions for many cases at once and checks what they are given.
-"""
+"""The models: functions of plain floats, one case; `arrays` compiles the same ones for many."""

@@ -61,11 +61,8 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, many, explain)
+        compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases), explain)
         return _contained(compute, bound.arguments, (float,))
-
-    def many(*values: Any) -> Any:
-        return _each(ufunc(model), *values)
 
     symbols = "\n".join(f"- {name}: {_SYMBOLS[name]}" for name in signature.parameters)
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC.format(inputs=symbols)}"
@@ -172,7 +169,7 @@ def run_many(
 
 
 def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -> Any:
-    """The results of the plain model for numbers, or of the compiled one for arrays, all checked.
+    """The checked results of the plain model, or for arrays of the compiled one.
 
     For a case whose result is not finite, `explain` makes the error to raise of both.
     """
@@ -260,10 +257,9 @@ def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -
 def _each(function: Any, *values: Any) -> Any:
     """The results of a ufunc for values that broadcast; histories have an axis of times besides.
 
-    Many cases are shared out to all cores by Python's threads, as compiled code releases Python's
-    lock. Numba's own threads may not be started from two threads at once, and do not survive a
-    fork. Only the main thread starts any: a caller with threads, such as dask, has shared out its
-    work already.
+    Python's threads share out many cases to all cores: Numba's own may not be started from two
+    threads at once, and do not survive a fork. Only the main thread starts any: a caller with
+    threads, such as dask, has shared out its work already.
     """
     import threading
 
@@ -356,10 +352,7 @@ def _make_known() -> None:
 
 
 def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
-    """The results of `compute`, which takes numbers and arrays, in the containers of the inputs.
-
-    `types` has the type of each result.
-    """
+    """The results of `compute`, of these types, in the containers of the inputs."""
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
         return compute(**inputs)
@@ -424,8 +417,9 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
     import pandas as pd
 
     index: Any = next((x.index for x in inputs.values() if isinstance(x, pd.Series)), None)
-    numbers, of_pandas = dict(inputs), _of("pandas", inputs)
-    for name, value in inputs.items():
+    numbers = dict(inputs)
+    for name in _of("pandas", inputs):
+        value = inputs[name]
         if isinstance(value, pd.DataFrame):
             raise TypeError(f"{name} is a DataFrame: give its columns, each a Series")
         if isinstance(value, pd.Series):
@@ -434,9 +428,8 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
             repeated = value.index[value.index.duplicated()]
             if len(repeated) and not value.index.equals(index):
                 raise ValueError(f"{name} has more than one value for the label {repeated[0]}")
-            numbers[name] = value.reindex(index).to_numpy()
-        elif name in of_pandas:  # an Index, say
-            numbers[name] = np.asarray(value)
+            value = value.reindex(index)
+        numbers[name] = np.asarray(value)
     if index is None:
         return within(*numbers.values())
     try:

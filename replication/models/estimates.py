@@ -1,8 +1,7 @@
-"""What the report estimates beside the penetration itself: stream, resistance, Frank and Zook.
+"""What the report estimates beside the penetration itself.
 
-The stream of particles (Eq. 1), the strain rate, the target resistance and its factor beta by two
-routes (Eqs. 7-11), the centerline stress, and the Frank-Zook depth of a noneroding penetrator
-(Eqs. 14-17), derived and as printed.
+Particle velocity (Eq. 1), strain rate, target resistance and its factor beta by two routes (Eqs.
+7-11), centerline stress, and the Frank-Zook depth of a noneroding penetrator (Eqs. 14-17).
 """
 
 import math
@@ -94,10 +93,8 @@ def frank_zook_derived(
 ) -> float:  # fmt: skip
     """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
 
-    -(L rho_p + k_1 rho_t D) dv/dt = k_t rho_t v^2 + R_t, integrated from V to rest, is X/D =
-    ((L/D) (rho_p/rho_t) + k_1) / (2 k_t) ln(1 + k_t rho_t V^2 / R_t): the right side of Eq. 16, but
-    for the depth in *diameters*. Eq. 16 prints X/R in front of it. Inputs as of
-    `frank_zook_as_printed`.
+    -(L rho_p + k_1 rho_t D) dv/dt = k_t rho_t v^2 + R_t, integrated from V to rest, gives the right
+    side of Eq. 16 for the depth in *diameters*. Inputs as of `frank_zook_as_printed`.
 
     >>> f"{frank_zook_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.255'
@@ -109,11 +106,9 @@ def frank_zook_derived(
 def sphere_length_ratio(length_ratio: float = 1.0) -> float:
     """L/D [1] of the cylinder of the sphere's mass and diameter (section 3): 2/3.
 
-    That is the sphere's volume over the volume of the cylinder around it, times the `length_ratio`
-    L/D [1] of that cylinder, which is 1.
+    From (pi / 6) D^3 = (pi / 4) D^2 L; `length_ratio` L/D [1] of the cylinder around it is 1.
 
     >>> sphere_length_ratio() == 2 / 3
     True
     """
-    # (pi / 6) D^3 = (pi / 4) D^2 L
     return (1 / 6) / (1 / 4) * length_ratio

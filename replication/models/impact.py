@@ -9,9 +9,9 @@ MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 
 class InputError(ValueError):
-    """An input, or a value computed from the inputs, that is refused: its name and what is wrong.
+    """An input, or a value computed from inputs, that is refused: its name and what is wrong.
 
-    For an element of an array also its index, in a pandas Series its label.
+    Of an array also the element's index, of a pandas Series its label.
 
     >>> print(InputError("radius", "is -1.0: it must not be", (0, 3)))
     radius[0, 3] is -1.0: it must not be
@@ -32,12 +32,9 @@ class Impact:
 
     velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], target_density rho_t [kg/m^3],
     step dt [s], stop_velocity [m/s]; the target resistance R_t [Pa] either as `resistance` or as
-    the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). The step and the stop velocity
-    default to the appendix's 0.2 ns and 1 m/s.
-
-    Raises ValueError naming the input that is not finite, not positive (the stop velocity may be
-    zero), missing, or given twice; and where mass, resistance or dynamic pressure leave the range
-    of doubles.
+    the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). Raises ValueError naming what is
+    not finite, not positive (the stop velocity may be zero), missing, given twice, or leaves the
+    range of doubles.
 
     >>> Impact(velocity=500, radius=11e-6, particle_density=8900, target_density=7850,
     ...        beta=5, flow_stress=700e6).target_resistance

@@ -175,10 +175,7 @@ def _expand(
 
 
 def _states(y: Series, w: Series, s: Series, at: Series, dy: Series, count: int) -> None:
-    """Fill in depth and dy at the first `count` times s since the start of the step.
-
-    As arrays, so that the compiled code takes several times at once.
-    """
+    """Depths and dy at the first `count` times s of the step; arrays, for the compiled code."""
     for i in range(count):
         depth, speed = y[ORDER], w[ORDER]
         for k in range(ORDER - 1, -1, -1):
@@ -201,8 +198,7 @@ def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float
     """The time along the series at which the motion has this depth and dy, which must occur there.
 
     Newton's method on the distance left, projected on the direction of the motion in the plane of
-    depth and velocity: at touch, where the velocity does not change yet, the depth decides; at
-    rest, where the depth no longer changes, the velocity does.
+    depth and velocity: at touch the depth decides, at rest the velocity.
     """
     for _ in range(10):
         at, dy, ddy = _state(y, w, s)

@@ -80,10 +80,9 @@ class Sheet:
 def run(impact: Impact, scheme: str = "published") -> Sheet:
     """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
 
-    With the scheme "published" a row's drag is taken at the row's initial velocity, with "centered"
-    at its middle one (appendix, Eqs. A-1 to A-3). Gives the rows and what is read from them. Raises
-    ValueError when more than `MAX_STEPS` rows are needed, or the last row is beyond the range of
-    doubles.
+    The scheme "published" takes a row's drag at its initial velocity, "centered" at its middle one
+    (appendix, Eqs. A-1 to A-3). Raises ValueError when more than `MAX_STEPS` rows are needed, or
+    the last row is beyond the range of doubles.
 
     >>> from replication.cases import BETA_5
     >>> sheet = run(BETA_5)
