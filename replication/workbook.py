@@ -22,7 +22,7 @@ from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
 from replication.models.impact import Impact, particle_mass
-from replication.models.sheet import Row, Sheet, check_scheme, deceleration, run
+from replication.models.sheet import Row, Sheet, deceleration, run
 from replication.text import with_unit
 from spreadsheets import cases, emit, sheets
 from spreadsheets.cases import CaseSheet, Input
@@ -68,18 +68,14 @@ def build(
     The report's has both of its cases, and what is about the report alone: the sheets with its
     other time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: those to
     prepare after row 0, by default twice as many as the longest case takes. record: the finished
-    audit, made where it is needed and not given. Of an input that its cell cannot hold to the last
-    bit in the cell's unit, the nearest number that it can hold is taken.
-
-    Raises ValueError where a number is outside of what the workbook takes, and where a case takes
-    more steps than there are rows.
+    audit, made where it is needed and not given. An input is rounded to what its cell can hold.
+    Raises ValueError for a number that the workbook does not take, and for too few rows.
 
     >>> book = build(BETA_5)
     >>> place = book.plan.where["case.depth_um"]
     >>> place[0], f"{book.values['case.depth_um']:.2f}"
     ('Sheet beta 5', '7.67')
     """
-    check_scheme(scheme)
     ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
@@ -455,10 +451,7 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
 def live_verdicts(
     ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
 ) -> dict[str, Value]:
-    """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells.
-
-    A test compares the live verdicts with the proven ones.
-    """
+    """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells."""
     audit: Tree = {}
     for claim in sheets.computed_claims(ledger):
         value = values[plan.cell(place_of(str(claim.workbook))).key]
@@ -576,11 +569,8 @@ def _verdict(value: Value, interval: Interval) -> str:
 
 
 def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
-    """A number of Table A-1 minus the printed one, in units of the last digit unless exact.
-
-    A dash where the table has fewer rows.
-    """
+    """A number of Table A-1 minus the printed one, in units of the last digit unless exact."""
     if not isinstance(value, float):
-        return "–"
+        return "–"  # the table has fewer rows
     difference = value - float(printed.value)
     return difference if exact else round(difference / float(printed.quantum), sheets.DIGITS)

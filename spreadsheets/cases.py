@@ -4,9 +4,8 @@
 the value in use in SI units, the report's, and the limits within which a number is accepted. What
 follows from the inputs stands below them.
 
-On the sheet of a case, rows below the stop stay blank until an input needs them. If even they do
-not suffice, the sheet says so instead of giving a depth; if the time step is too long for the
-motion, too.
+On the sheet of a case, rows below the stop stay blank until an input needs them. If they do not
+suffice, or the time step is too long for the motion, the sheet says so.
 """
 
 from collections.abc import Mapping, Sequence
@@ -49,12 +48,11 @@ SCHEMES = {
 class CaseSheet:
     """One case: what its sheet is called, how long it is, and what of the report is its own.
 
-    slug: "low" or "high" where two cases stand side by side, "case" where one is alone; its keys
-    and defined names carry it. label: what tells it from the other, as written ("β = 5"). steps,
-    rows: those in use and those prepared, after row 0. beta: the beta, "3" or "5", of the report's
-    case beside which it stands. is_reports: it is that case. resistance_given: the target
-    resistance is an input and not the product of beta and the flow stress. coarse: with the step
-    `dt_coarse`.
+    slug: "low" or "high" of two cases, "case" of one alone; its keys and defined names carry it.
+    label: what tells it from the other, as written ("β = 5"). steps, rows: those in use and those
+    prepared, after row 0. beta: the beta, "3" or "5", of the report's case beside which it stands.
+    is_reports: it is that case. resistance_given: the target resistance is an input and not the
+    product of beta and the flow stress. coarse: with the step `dt_coarse`.
     """
 
     name: str
@@ -136,9 +134,8 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
 class Input(NamedTuple):
     """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
 
-    source: the id of the claim that prints it, or of an inferred input. attribute: what it is of an
-    impact, if it belongs to a case. unit_in_use, factor: where that is another unit, it and what
-    brings the number to it, in a formula.
+    source: the claim that prints it, or an inferred input. attribute: what it is of an impact, if
+    it belongs to a case. unit_in_use, factor: another unit, and what brings the number to it.
     """
 
     name: str

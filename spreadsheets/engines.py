@@ -31,15 +31,11 @@ from typing import Any
 from spreadsheets.plan import Place, Value, WorkbookPlan
 
 Values = dict[str, dict[str, Value]]
-"""Worksheet name -> address such as "B7" -> value. As an engine gives them:
+"""Worksheet name -> address such as "B7" -> value.
 
-- A worksheet without values, or a chart sheet, is absent.
-- A number is a float, and so is a date (its serial number).
-- A boolean is a bool; LibreOffice stores booleans as numbers and gives 1.0 and 0.0, which compare
-  equal to True and False.
-- A blank cell is absent, and so is one whose formula gives the empty string.
-- An error is the text that stands for it, such as "#VALUE!". LibreOffice has errors of its own
-  ("Err:502"). Text that merely spells an error cannot be told from it.
+Absent are blank cells, formulas that give the empty string, and sheets without values. A number or
+a date (its serial number) is a float; a boolean a bool, of LibreOffice 1.0 or 0.0; an error the
+text that stands for it, such as "#VALUE!", or "Err:502" of LibreOffice.
 """
 
 Cell = tuple[str, str, Value | None]
@@ -73,7 +69,7 @@ class Engine(ABC):
 
     @abstractmethod
     def _cells(self, path: Path) -> Iterator[Cell]:
-        """Recalculate a workbook and yield its cells, blank ones included or not."""
+        """The cells of a workbook, recalculated; blank ones included or not."""
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
         """The cells of each of several workbooks."""
@@ -197,12 +193,10 @@ def run_program(
 
 
 class LibreOffice(Engine):
-    """LibreOffice through UNO, its programming interface: the only way to its exact doubles.
+    """LibreOffice through UNO, its programming interface; what it saves is rounded to 15 digits.
 
-    What LibreOffice saves is rounded to 15 digits, so nothing is read from a saved file. The UNO
-    bindings belong to one certain Python, seldom the one that runs this: `uno_script.py` runs in
-    the first of this Python, `python3` on the PATH, `/usr/bin/python3` and LibreOffice's own that
-    can import them. An office starts in one to two seconds; several workbooks share it.
+    The UNO bindings belong to one certain Python, seldom this one: `uno_script.py` runs in the
+    first that can import them. An office starts in a second or two; several workbooks share it.
     """
 
     name = "libreoffice"
@@ -264,9 +258,8 @@ def _version_in(output: str, pattern: str) -> str:
 class Gnumeric(Engine):
     """Gnumeric through its converter `ssconvert`.
 
-    Its own file format keeps no values, and CSV cannot tell a number from text, so the recalculated
-    workbook is written as .xlsx, with all digits, and read by openpyxl. Debian's Gnumeric computes
-    in long doubles, which are rounded to doubles only on reading.
+    It writes the recalculated workbook as .xlsx, with all digits. Debian's computes in long
+    doubles, which are rounded to doubles only on reading.
     """
 
     name = "gnumeric"
@@ -372,9 +365,8 @@ def tolerances(
 ) -> dict[Place, float]:
     """How far the number of a formula may lie from the expected one; for most, not at all.
 
-    long_doubles: for an engine of 80-bit long doubles, the bound on the rounding errors of our
-    doubles, relative to the largest number of a cell's column, or to the cell's own where it stands
-    alone.
+    long_doubles: of an engine that computes in them, the bound on the rounding errors of our
+    doubles, relative to the largest number of a cell's column, or to its own if it stands alone.
     """
     sizes: dict[str, float] = {}
     numbers = [
@@ -397,8 +389,8 @@ class EngineCheck:
 
     `outcome` is "verified"; "differs", if any cell is wrong; "missing"; "echoes", if it gives
     stored values back and so verifies nothing; or "failed". `reason` says more of the last three.
-    seconds: of one recalculation, from the file to the values. cells: formulas compared. rounded:
-    cells that differ, but within their tolerance. wrong: those beyond, and those of another kind.
+    seconds: of one recalculation. cells: formulas compared. rounded: those that differ within their
+    tolerance. wrong: those beyond, and those of another kind.
     """
 
     engine: str
@@ -419,10 +411,7 @@ class EngineCheck:
 def verify(
     path: Path, plan: WorkbookPlan, expected: Values, engine: Engine, *, long_doubles: float
 ) -> EngineCheck:
-    """Recalculate a file in an engine and compare every cell with the value it must have.
-
-    Numbers must be the same double, but for the `tolerances`.
-    """
+    """Recalculate a file in an engine and compare every cell, within the `tolerances`."""
     if (reason := engine.missing()) is not None:
         return EngineCheck(engine.name, outcome="missing", reason=reason)
     known = None
@@ -438,12 +427,7 @@ def verify(
         return EngineCheck(engine.name, known, "failed", str(error))
     allowed = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
     wrong = compare(expected, recalculated, allowed)
-    return EngineCheck(
-        engine.name,
-        known,
-        "differs" if wrong else "verified",
-        seconds=seconds,
-        cells=sum(bool(cell.formula) for _, cell in plan.cells()),
-        rounded=len(compare(expected, recalculated)) - len(wrong),
-        wrong=wrong,
-    )
+    formulas = sum(bool(cell.formula) for _, cell in plan.cells())
+    rounded = len(compare(expected, recalculated)) - len(wrong)
+    outcome = "differs" if wrong else "verified"
+    return EngineCheck(engine.name, known, outcome, None, seconds, formulas, rounded, wrong)

@@ -35,17 +35,13 @@ Place = tuple[str, str]
 
 
 class Cell(NamedTuple):
-    """One cell.
-
-    It holds a `text`, a `number`, an input (a `key` alone), or a `formula` with a key; or nothing
-    but a style.
+    """One cell: a `text`, a `number`, an input (a `key` alone), or a `formula` with a key.
 
     shown: the number format. name: what formulas call it. unit: of its value, spelled as in the
-    ledger. claim: the id of the claim whose printed text, or printed number, it shows.
-    like: names a set of cells of like size, such as the velocities of a sheet; their rounding
-    errors are as large as the largest of them allows. link: where a click on the text leads.
-    limits, choices: what may be typed, the least and the greatest number in its unit, or one of
-    these texts. wrap: long text takes several lines.
+    ledger. claim: the claim whose printed text, or number, it shows. like: names a set of cells of
+    like size; their rounding errors are as large as the largest of them allows. link: where a click
+    on the text leads. limits, choices: what may be typed, the least and the greatest number in its
+    unit, or one of these texts. wrap: long text takes several lines.
     """
 
     text: str = ""
@@ -122,18 +118,17 @@ MESSAGES: Mapping[str, str] = tables()["messages"]
 """What the workbook says of its inputs and of a run, by short names."""
 
 
-_FUNCTIONS: Mapping[str, str] = tables()["functions"]
-
-
 def filled(text: str, words: Mapping[str, object]) -> str:
     """A text of `sheets.toml` with functions, messages and these words in place of braces.
 
     >>> filled("={rest_depth:{c}}", {"c": "B7"})[:18]
     '=IF(B7<=2/3,4*SIN('
     """
-    text = re.sub(
-        r"\{(\w+):((?:\w|\{\w+\})+)\}", lambda m: re.sub(r"\bx\b", m[2], _FUNCTIONS[m[1]]), text
-    )
+
+    def called(match: re.Match[str]) -> str:
+        return re.sub(r"\bx\b", match[2], tables()["functions"][match[1]])
+
+    text = re.sub(r"\{(\w+):((?:\w|\{\w+\})+)\}", called, text)
     return text.format_map({**MESSAGES, "none": NOT_COMPUTED, **words})
 
 
@@ -149,11 +144,10 @@ def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str
 class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
-    It is filled from the top; `row` is where the next cells go. entry: what `sheets.toml` says of
-    it. frozen: the first cell that scrolls. repeated_rows: first and last row that head every
-    printed page. print_area: the cells printed, all by default. page_break: the last row of page 1.
-    filtered: a table with a filter. curves: those of its chart. described: what that shows, in
-    words, with values by key as written: "{high.depth_um:.4g}".
+    row: where the next cells go. entry: what `sheets.toml` says of it. frozen: the first cell that
+    scrolls. repeated_rows: first and last row that head every printed page. page_break: the last
+    row of page 1. filtered: a table with a filter. curves: those of its chart. described: what that
+    shows, in words, with values by key as written: "{high.depth_um:.4g}".
     """
 
     name: str
