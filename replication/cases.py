@@ -33,8 +33,7 @@ CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     """The named case, changed by what the file gives, changed by what is given singly.
 
-    Inputs are texts such as "11 um" or "1.1e-5". Raises ValueError or OSError with a message for
-    the user.
+    Inputs are texts such as "11 um" or "1.1e-5". Raises ValueError or OSError.
 
     >>> read_case("beta-5", None, {"radius": "5 um"}).radius
     5e-06

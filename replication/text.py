@@ -159,8 +159,7 @@ def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> lis
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     """Rows as columns within a width; what is too long goes on in the next line.
 
-    Heads give way first, then the widest column. A word is broken only where the width leaves no
-    choice.
+    Heads give way first, then the widest column; words only where nothing else is left.
 
     >>> print(columns([("a", "one two three"), ("bc", "four")], 14))
     a   one two
