@@ -103,8 +103,7 @@ def tables_of(
 ) -> Iterator[tuple[dict[str, dict[str, Any]], bytes]]:
     """The tables of a TOML file by name, and its bytes; a ValueError in the block names the file.
 
-    Raises OSError, or ValueError for what is no TOML, one table too many or too few, or what is no
-    table.
+    Raises OSError, or ValueError for what is no TOML or has other tables than these.
     """
     content = _content(path)
     with place(str(path)):
@@ -139,8 +138,7 @@ _DIGITS = 400
 def read_number(text: str, unit: str) -> float:
     """A number with or without a unit, as SI; `unit` tells what it must measure.
 
-    Without a unit it is taken to be SI already. Raises ValueError for what is no number, is not
-    finite, or has another unit.
+    Without a unit it is SI. Raises ValueError for no finite number, or one with another unit.
 
     >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
     (5e-10, 1.1e-05)
@@ -156,8 +154,7 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(f"{text!r}: write the decimal comma as a point")
     if given_unit and not same_dimension(given_unit, unit):
         wrong = f"{given_unit} does not measure what {unit} does"
-        problem = "give no unit" if unit == "1" else wrong
-        raise ValueError(f"{text!r}: {problem}")
+        raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else wrong}")
     try:
         return float(Fraction(match["number"]) * to_si(given_unit or "1"))
     except OverflowError as error:

@@ -168,11 +168,7 @@ def _si(typed: float, unit: str) -> float:
 
 
 def _typed(si: float, unit: str) -> float:
-    """The number to type so that the cell holds this SI value, or the nearest that it can hold.
-
-    >>> _typed(2e-10, "ns"), _typed(11e-6, "um")
-    (0.2, 11.0)
-    """
+    """The number to type so that the cell holds this SI value, or the nearest that it can hold."""
     nearest = float(Fraction(si) / to_si(unit))
     around = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
     return next((typed for typed in around if _si(typed, unit) == si), nearest)

@@ -50,10 +50,9 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
 
 
 def check(path: Path, *, force: bool = False) -> None:
-    """Raise OSError where nothing can be written, or must not be.
+    """Raise OSError where nothing can be written, or a file stands that is not `is_own`.
 
-    FileExistsError: where a file stands that is not, byte for byte, one that we wrote; `force`
-    admits any file.
+    `force` admits any file.
     """
     target = check_target(path)
     if target.exists() and not force and not is_own(target):
@@ -208,11 +207,7 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
 
 
 def _absolute(sheet: str, cells: str) -> str:
-    """Cells as a name or a chart refers to them.
-
-    >>> _absolute("Figure 5", "B5:B25")
-    "'Figure 5'!$B$5:$B$25"
-    """
+    """Cells as a name or a chart refers to them: 'Figure 5'!$B$5:$B$25."""
     return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 

@@ -1,12 +1,9 @@
 """Recalculate workbooks in LibreOffice and print the values of each as a line of JSON.
 
 Run by `engines.py` as `PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...` with a Python that has the
-UNO bindings, perhaps an old one: only `uno` and the standard library can be imported here, and no
-part of this project. On failure the last line of standard error says why. Whoever runs this script
-gives it a time limit and cleans up after it.
-
-The JSON maps each sheet's name to its rows from A1 on: numbers with all their digits, text (""
-where a cell is blank) and errors as text.
+UNO bindings, perhaps an old one: only `uno` and the standard library can be imported here. On
+failure the last line of standard error says why. The JSON maps each sheet's name to its rows from
+A1 on: numbers with all their digits, text ("" where a cell is blank) and errors as text.
 """
 
 from __future__ import annotations
@@ -61,12 +58,11 @@ def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
 
 def load(desktop: Any, workbook: str) -> Any:
     """Load a workbook without a window; only as .xlsx, or any text would do for a document."""
-    options = []
-    for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML")):
-        option = uno.createUnoStruct("com.sun.star.beans.PropertyValue")
-        option.Name, option.Value = name, value
-        options.append(option)
-    document = desktop.loadComponentFromURL(Path(workbook).as_uri(), "_blank", 0, tuple(options))
+    options = tuple(
+        uno.createUnoStruct("com.sun.star.beans.PropertyValue", Name=name, Value=value)
+        for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML"))
+    )
+    document = desktop.loadComponentFromURL(Path(workbook).as_uri(), "_blank", 0, options)
     if document is None:
         sys.exit("cannot load the workbook")
     return document

@@ -1,8 +1,7 @@
 """The command `coldspray`: reads the command line, runs one command, says what went wrong.
 
 What a command takes stands in `options.toml`; `run_depth` of `commands` does what `depth` is for.
-Only the options of the command that is asked for are declared, and it imports what it needs when
-it runs, so that a light command starts fast.
+Only its own options are declared, and it imports what it needs, so that a light one starts fast.
 """
 
 import argparse
@@ -202,11 +201,7 @@ def _share(text: str) -> float:
 
 
 def _whole(least: int, most: int) -> Callable[[str], int]:
-    """A reader of whole numbers within bounds.
-
-    >>> _whole(1, 40)("8")
-    8
-    """
+    """A reader of whole numbers within bounds."""
 
     def read(text: str) -> int:
         digits = text.strip()

@@ -28,25 +28,14 @@ millisecond, ten times what handing it out takes, and its data fit into a core's
 
 _DOC = """
 
-Inputs, in SI units:
-
-{inputs}
+Inputs: velocity V [m/s] at impact, radius R [m], particle_density rho_p and target_density rho_t
+[kg/m^3], resistance R_t [Pa]; at_velocity v and stop_velocity [m/s]; at_depth x [m].
 
 Each is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and the
 result is of their kind. Raises ValueError, naming the first element that is out of range, where the
 model by itself would give NaN; TypeError for what holds no real numbers.
 """
-
-_SYMBOLS = {
-    "at_velocity": "v [m/s]",
-    "at_depth": "x [m]",
-    "stop_velocity": "[m/s]",
-    "velocity": "V [m/s]",
-    "radius": "R [m]",
-    "particle_density": "rho_p [kg/m^3]",
-    "target_density": "rho_t [kg/m^3]",
-    "resistance": "R_t [Pa]",
-}
+"""What is added to the docstrings of all models for arrays."""
 
 
 def _for_anything(model: Model, explain: Model | None = None) -> Model:
@@ -64,8 +53,7 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
         compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases), explain)
         return _contained(compute, bound.arguments, (float,))
 
-    symbols = "\n".join(f"- {name}: {_SYMBOLS[name]}" for name in signature.parameters)
-    function.__doc__ = f"{inspect.getdoc(model)}{_DOC.format(inputs=symbols)}"
+    function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
     function.__module__ = __name__  # where pickle finds it
     return function
 
