@@ -27,7 +27,6 @@ from spreadsheets.plan import (
     recorded,
     row_formulas,
     tables,
-    text,
     unit_text,
 )
 
@@ -180,23 +179,23 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     page.table("CFHIKL", "C")
     first = page.row
     for block, entries in inputs_of(cases, report).items():
-        page.put(A=text(block, "block"))
+        page.put(A=Cell(block, "block"))
         for entry in entries:
             page.put(**_input(ledger, entry, page.row))
         page.row += 1
     checks = f"E{first}:E{page.row}"
     page.single_cells(checks=checks)
-    page.put(A=text("What follows from them", "block"))
+    page.put(A=Cell("What follows from them", "block"))
     derived, words = dict(tables()["derived"]), [case.words for case in cases]
     if cases[0].resistance_given:
         del derived["target"]
     page.lines(ledger, "inputs", derived, words, "ABFGIJ", headed=False)
     page.row += 1
-    page.put(A=text("Constants", "block"))
+    page.put(A=Cell("Constants", "block"))
     for name, entry in tables()["constants"].items():
         number = recorded(f"inputs.{name}", name=name, unit=entry["unit"])
-        named = text(name, "unit")
-        page.put(B=text(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
+        named = Cell(name, "unit")
+        page.put(B=Cell(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
     bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
     page.rules = [
@@ -211,7 +210,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     key, unit = f"inputs.{entry.name}", entry.unit_in_use or entry.unit
     if entry.source.startswith(INFERRED):
         style, same, place = "inferred", "as inferred", "inferred from Table A-1"
-        prints = text("nowhere", "recorded")
+        prints = Cell("nowhere", "recorded")
     else:
         style, same, place = "input", "the report’s", str(ledger.claims[entry.source].place)
         prints = printed(ledger, entry.source, entry.unit)
@@ -219,8 +218,8 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     texts = filled_in(tables()["input"], words)
     shown = "0.0####E+00" if entry.factor else "General"
     return {
-        "A": text(entry.symbol, "text"),
-        "B": text(entry.meaning or ledger.title(entry.source)),
+        "A": Cell(entry.symbol, "text"),
+        "B": Cell(entry.meaning or ledger.title(entry.source)),
         "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
         "E": formula(f"{key}.check", texts["check"], "text"),
@@ -228,10 +227,10 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
         "I": prints,
-        "J": text(place, "unit"),
+        "J": Cell(place, "unit"),
         "K": recorded(entry.limits[0]),
         "L": recorded(entry.limits[1]),
-        "M": text(entry.name, "unit"),
+        "M": Cell(entry.name, "unit"),
     }
 
 
@@ -253,7 +252,7 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.widths = {**page.widths, "H": 13.0 if centered else page.widths["H"]}
     page.single_cells(**case.words)
     if case.resistance_given:
-        page.cells["I1"] = text(case.label, "title")
+        page.cells["I1"] = Cell(case.label, "title")
         del page.cells["I2"]
     page.row = top
     words = case.words | {"drag": "H" if centered else "C"}
@@ -309,10 +308,10 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         cells[address] = formula(f"table.{key}", expression, shown=shown, unit=unit)
 
     for row, (key, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
-        cells[f"A{row}"] = text(label)
+        cells[f"A{row}"] = Cell(label)
         live(f"B{row}", key, f"={symbol}".format_map(case.words))
     for column, head in heads.items():
-        cells[f"{column}{_FIRST - 1}"] = text(head, "head" if column in "AB" else "head right")
+        cells[f"{column}{_FIRST - 1}"] = Cell(head, "head" if column in "AB" else "head right")
     columns = {column: entries["H" if column == "G" else column] for column in heads}
     columns["A"] = tables()["table_a1"]["time"]
     words = case.words | {"drag": "G" if centered else "C"}
@@ -331,7 +330,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     beside = " Columns H to M are the report’s text." if report else ""
     page.say(f"Table A-1, rigid body penetration. {live_columns}{beside}")
     page.say("M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.")
-    cells["A18"] = text(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    cells["A18"] = Cell(f"Back to {HOME}", "link", link=(HOME, "A1"))
     return page
 
 
@@ -339,10 +338,10 @@ def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     """The table as the report prints it, in columns H to M."""
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
     labels = enumerate((label for label, _ in ABOVE_TABLE.values()), start=1)
-    cells = {f"H{row}": text(label, "unit") for row, label in labels}
+    cells = {f"H{row}": Cell(label, "unit") for row, label in labels}
     for column, head in tables()["table_a1"]["heads"].items():
         if head:
-            cells[f"{shifted[column]}{_FIRST - 1}"] = text(head, "unit right")
+            cells[f"{shifted[column]}{_FIRST - 1}"] = Cell(head, "unit right")
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells

@@ -45,10 +45,10 @@ class Cell(NamedTuple):
     """
 
     text: str = ""
+    style: str = "body"
     number: float | None = None
     key: str = ""
     formula: str = ""
-    style: str = "body"
     shown: str = "General"
     name: str = ""
     unit: str = "1"
@@ -58,11 +58,6 @@ class Cell(NamedTuple):
     limits: tuple[float, float] | None = None
     choices: Sequence[str] = ()
     wrap: bool = False
-
-
-def text(words: str, style: str = "body", **more: Any) -> Cell:
-    """A cell with a text."""
-    return Cell(text=words, style=style, **more)
 
 
 def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:
@@ -79,14 +74,14 @@ def recorded(number: float | str, **more: Any) -> Cell:
 
 def unit_text(unit: str) -> Cell:
     """The unit beside a number."""
-    return text(written(unit) or "–", "unit")
+    return Cell(written(unit) or "–", "unit")
 
 
 def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
     """The text of a claim as the report prints it, with its unit where that is another."""
     claim = ledger.claims[name]
     claim_unit = "" if claim.unit == unit else f" {written(claim.unit)}"
-    return text(f"{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
+    return Cell(f"{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
 
 
 class Rule(NamedTuple):
@@ -174,8 +169,8 @@ class SheetPlan:
             print_area=entry.get("print_area", ""), page_break=entry.get("page_break"),
         )  # fmt: skip
         if "title" in entry:
-            page.put(A=text(entry["title"], "title"))
-            page.put(A=text(f"Back to {HOME}", "link", link=(HOME, "A1")))
+            page.put(A=Cell(entry["title"], "title"))
+            page.put(A=Cell(f"Back to {HOME}", "link", link=(HOME, "A1")))
         page.row = entry.get("at", page.row)
         for note in entry.get("notes", ()):
             page.say(filled(note, words), width=entry.get("width", 165))
@@ -194,7 +189,7 @@ class SheetPlan:
     def say(self, words: str, style: str = "note", width: int = 165) -> None:
         """A running text, broken into lines that fit a page."""
         for line in wrap(words, width, break_on_hyphens=False):
-            self.put(A=text(line, style))
+            self.put(A=Cell(line, style))
 
     def grid(
         self, columns: Mapping[str, Mapping[str, Any]], part: str, words: Mapping[str, object],
@@ -232,10 +227,10 @@ class SheetPlan:
     ) -> None:
         """Heads of columns, and units under them; `right` names the columns of numbers."""
         styles = ("right" if c in right else "unit" if c != "A" else "" for c in columns)
-        cells = (text(w, f"head {style}".rstrip()) for w, style in zip(words, styles, strict=True))
+        cells = (Cell(w, f"head {style}".rstrip()) for w, style in zip(words, styles, strict=True))
         self.put(**dict(zip(columns, cells, strict=True)))
         if units:
-            under = (None if unit is None else text(unit, "unit right") for unit in units)
+            under = (None if unit is None else Cell(unit, "unit right") for unit in units)
             self.put(**dict(zip(columns, under, strict=True)))
 
     def table(self, right: str, frozen: str) -> None:
@@ -281,7 +276,7 @@ class SheetPlan:
         for number, (head, block) in enumerate(blocks.items()):
             if headed:
                 self.row += number > 0
-                self.put(**{columns[0]: text(head, "block")})
+                self.put(**{columns[0]: Cell(head, "block")})
             pairs = product(cases, block.items())
             lines = {key.format_map(words): (words, line) for words, (key, line) in pairs}
             for key, (words, line) in lines.items():
@@ -299,12 +294,12 @@ class SheetPlan:
                 )
                 addresses[key.rpartition(".")[2]] = cell
                 cells = (
-                    symbol and text(symbol, "text"),
-                    meaning and text(meaning),
+                    symbol and Cell(symbol, "text"),
+                    meaning and Cell(meaning),
                     value,
                     unit_text(value.unit),
                     claim and printed(ledger, claim, value.unit),
-                    place and text(place, "unit"),
+                    place and Cell(place, "unit"),
                 )
                 self.put(**dict(zip(columns, cells, strict=True)))
 

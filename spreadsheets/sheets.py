@@ -36,7 +36,6 @@ from spreadsheets.plan import (
     printed,
     recorded,
     tables,
-    text,
     unit_text,
 )
 
@@ -110,7 +109,7 @@ def _overview(
     """The first sheet; `sheets` are the others."""
     report, scheme = ledger.report, cases[0].scheme
     page = SheetPlan.begun(HOME)
-    page.put(A=text(title, "title"))
+    page.put(A=Cell(title, "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
         f"{scheme} scheme: {SCHEMES[scheme]}.",
@@ -124,11 +123,11 @@ def _overview(
         page.page_break = page.row
     _block(page, "sheets")
     for sheet in sheets:
-        link = text(sheet.name, "link", link=(sheet.name, "A1"))
-        page.put(A=link, B=text(sheet.entry["shows"]))
+        link = Cell(sheet.name, "link", link=(sheet.name, "A1"))
+        page.put(A=link, B=Cell(sheet.entry["shows"]))
     _block(page, "how_to_read")
     for style, meaning in page.entry["how_to_read"].items():
-        page.put(A=text("1.23", f"{style} sample"), B=text(meaning, "text"))
+        page.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
     page.print_area = f"A1:F{page.row - 1}"
     return page
 
@@ -142,7 +141,7 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
         end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
         page.put(
-            A=text(case.name, "link", link=(case.name, "A1")),
+            A=Cell(case.name, "link", link=(case.name, "A1")),
             B=formula(f"{key}.depth_um", f"=depth_um{end}", "result", **like, **fixed),
             D=formula(f"{key}.normalized_depth", f"=normalized_depth{end}", "result", **fixed),
             F=formula(f"{key}.message", f"={beta}message{end}", "state"),
@@ -152,7 +151,7 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
     for name, words in page.entry["counts"].items():
         page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
-        page.put(A=text(words, "link", link=("Inputs", "A1")), B=count)
+        page.put(A=Cell(words, "link", link=("Inputs", "A1")), B=count)
 
 
 def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
@@ -161,20 +160,20 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
-            cells = {"A": text(claim.title), "B": printed(ledger, name), "D": text(first, "text")}
+            cells = {"A": Cell(claim.title), "B": printed(ledger, name), "D": Cell(first, "text")}
             if claim.workbook:
                 reference = "='{}'!{}".format(*place_of(claim.workbook))
                 shown = "0.0" if ledger.value(name) > 100 else "0.0000"
                 cells["C"] = formula(f"overview.{name}", reference, "result", shown=shown)
             page.put(**cells)
             for line in more:
-                page.put(D=text(line, "text"))
+                page.put(D=Cell(line, "text"))
     _block(page, "verdicts", right="BDE")
     given = [(verdict, count) for verdict, count in findings.counts.items() if count]
     for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
-        cells = {"A": text(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
+        cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
         if kind:
-            cells["D"] = text(kind[0], "number")
+            cells["D"] = Cell(kind[0], "number")
             cells["E"] = formula(f"overview.audit_{kind[1]}", f"=audit_{kind[1]}", "result")
         page.put(**cells)
     page.say(page.entry["about_verdicts"])
@@ -212,11 +211,11 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     page = SheetPlan.begun("Audit")
     page.print_area, page.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
     page.row = 6
-    page.put(A=text("Live verdicts", "block"))
+    page.put(A=Cell("Live verdicts", "block"))
     for words, ending in KINDS:
         count = f'=COUNTIF({verdicts},"{words}")'
         counted = formula(f"audit.{ending}", count, "message", name=f"audit_{ending}")
-        page.put(A=text(words, "text"), B=counted)
+        page.put(A=Cell(words, "text"), B=counted)
     page.row = _HEAD_ROW
     page.table("CEHI", "B")
     for claim in ledger.claims.values():
@@ -240,8 +239,8 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
         difference = f'=IF(ISNUMBER(E{row}),{difference},"–")'
         shown, live = table.cells[address].shown, f"='Audit'!F{in_audit[claim.id]}"
         page.put(
-            A=text(address, "link", link=(table.name, address)),
-            B=text(claim.title),
+            A=Cell(address, "link", link=(table.name, address)),
+            B=Cell(claim.title),
             C=unit_text(claim.unit),
             D=recorded(float(claim.printed.value), claim=claim.id, shown=shown),
             E=formula(f"{key}.computed", computed, shown="0.0000000000000000E+00", unit=claim.unit),
@@ -256,16 +255,16 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
 def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
     """A claim; where a cell computes it, the live verdict and the ends of what prints so, too."""
     cells = {
-        "A": text(claim.id),
-        "B": text(claim.title, wrap=True),
+        "A": Cell(claim.id),
+        "B": Cell(claim.title, wrap=True),
         "C": printed(ledger, claim.id, claim.unit, wrap=True),
         "D": unit_text(claim.unit),
-        "G": text(findings.verdicts[claim.id], "text", wrap=True),
-        "J": text(str(claim.place), "unit"),
-        "L": text(findings.explanations[claim.id], "unit"),
+        "G": Cell(findings.verdicts[claim.id], "text", wrap=True),
+        "J": Cell(str(claim.place), "unit"),
+        "L": Cell(findings.explanations[claim.id], "unit"),
     }
     if not claim.workbook:
-        return cells | {"F": text("–", "text")}
+        return cells | {"F": Cell("–", "text")}
     # Fixed decimals for most, powers of ten where those would be long.
     size = 0 if claim.printed is None else abs(claim.printed.value)
     shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
@@ -276,7 +275,7 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
     return cells | {
         "E": formula(f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit),
         "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
-        "K": text(claim.workbook, "link", link=place),
+        "K": Cell(claim.workbook, "link", link=place),
     }
 
 
@@ -312,7 +311,7 @@ def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
         page.cells[f"A{row}"] = formula(f"{key}.message", message, "message")
         page.rules += case.rules(f"A{row}")
         page.row = 4
-        page.put(**{columns[0]: text(case.name, "block")})
+        page.put(**{columns[0]: Cell(case.name, "block")})
         entries = page.entry["columns"].values()
         page.grid(dict(zip(columns, entries, strict=True)), key, case.words, case.rows + 1)
         x, y = (f"{column}7:{column}{page.row - 1}" for column in columns)
@@ -367,7 +366,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
     page.row = first - 2
     page.grid(page.entry["columns"], "convergence", {}, LEVELS)
-    page.put(A=text("At rest, without steps"))
+    page.put(A=Cell("At rest, without steps"))
     ladder = page.entry["ladder"]
     for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
         key, label = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
@@ -375,7 +374,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         page.row = first - 2
         page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
         # Called as it was when it was computed.
-        page.cells[label] = text(f"{case.name}, {case.label}", "block")
+        page.cells[label] = Cell(f"{case.name}, {case.label}", "block")
         at_rest = recorded(f"{key}.rest_um", shown=ladder["depth_um"]["shown"])
         page.cells[f"{columns[1]}{last + 1}"] = at_rest
         ends = (
@@ -400,7 +399,7 @@ def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
         same = f"=IF(ABS(J{page.row}-K{page.row})*1000000000000<=ABS(J{page.row}),1,0)"
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
         page.put(
-            I=text(name, "text"),
+            I=Cell(name, "text"),
             J=recorded(f"convergence.run.{name}", shown=shown),
             K=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
             L=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
