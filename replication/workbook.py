@@ -197,12 +197,15 @@ def _typed_inputs(
 
 def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     """What the plan must know of a case's sheet, apart from its length."""
-    beta = impact.beta
+    beta, name, label = impact.beta, "Sheet", "R_t as given"
+    if beta is not None:
+        # As spreadsheet programs round, the decimal that is shown, and join a number to a text.
+        rounded = Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP)
+        name, label = f"Sheet beta {beta:.4g}", f"β = {float(rounded):.15g}"
     return CaseSheet(
-        name="Sheet" if beta is None else f"Sheet beta {beta:.4g}",
+        name=name,
         slug=slug,
-        # As spreadsheet programs join a number to a text.
-        label="R_t as given" if beta is None else f"β = {_six_decimals(beta):.15g}",
+        label=label,
         scheme=scheme,
         beta="3" if beta == BETA_3.beta else "5",
         is_reports=impact in (BETA_3, BETA_5),
@@ -216,11 +219,6 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
 """The sheet of each case in the plan, and its rows."""
-
-
-def _six_decimals(beta: float) -> float:
-    """Rounded as spreadsheet programs round: the decimal that is shown, and halves upwards."""
-    return float(Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP))
 
 
 def _values(
@@ -292,7 +290,8 @@ def _inputs(
 def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     impact, final = sheet.impact, sheet.rows[-1]
     trust, message = _state(sheet)
-    v, at_rest, at_stop = impact.velocity, _at_rest(impact), _at_stop(impact)
+    v, at_rest = impact.velocity, _without_steps(impact)
+    at_stop = _without_steps(impact, to_stop=True)
     label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
     return {
         **impact.motion,
@@ -332,7 +331,7 @@ def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
 def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
     low, high, last = si["V_from"], si["V_to"], sheets.POINTS - 1
     velocities = [low + (high - low) * point / last for point in range(sheets.POINTS)]
-    points = [_at_rest(replace(impact, velocity=velocity)) for velocity in velocities]
+    points = [_without_steps(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {key: [point[key] for point in points] for key in points[0]}
     return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
 
@@ -371,10 +370,12 @@ def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
 def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     radius = si["D_mean"] / 2
     volume = crater.volume(radius)
+    volume_um3 = volume * 1e6 * 1e6 * 1e6
     contact = crater.contact_diameter(third, si["D_mean"])
     values: Tree = {
-        **_volume("particle_volume", volume),
-        "on_line": si["CV_PV_line"] * (volume * 1e6 * 1e6 * 1e6),
+        "particle_volume": volume,
+        "particle_volume_um3": volume_um3,
+        "on_line": si["CV_PV_line"] * volume_um3,
         "third": third,
         "contact_diameter": contact,
         "contact_diameter_um": contact * 1e6,
@@ -382,12 +383,14 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
         y = crater.depth_from_volume_ratio(si[name])
         x = y * radius
+        volume = crater.cap_volume(x, radius)
         values[which] = {
             "normalized_depth": y,
             "over_diameter": y / 2,
             "depth": x,
             "depth_um": x * 1e6,
-            **_volume("volume", crater.cap_volume(x, radius)),
+            "volume": volume,
+            "volume_um3": volume * 1e6 * 1e6 * 1e6,
             "ratio": crater.volume_ratio(y),
         }
     sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
@@ -475,31 +478,22 @@ def _of(thing: object, *names: str) -> dict[str, Any]:
     return {name: getattr(thing, name) for name in names}
 
 
-def _at_rest(impact: Impact) -> dict[str, float]:
-    v, _, *materials = impact.motion.values()
-    return _without_steps(impact, 0.0, depth.normalized_depth(v, *materials))
-
-
-def _at_stop(impact: Impact) -> dict[str, float]:
-    """As `_at_rest`, but at the stop velocity; depth 0 if the impact is slower."""
-    stop = min(impact.stop_velocity, impact.velocity)
-    reached = depth.depth_at_velocity(stop, *impact.motion.values())
-    return _without_steps(impact, stop, reached / impact.radius)
-
-
-def _without_steps(impact: Impact, slowed_to: float, normalized_depth: float) -> dict[str, float]:
-    """The closed form's terms, and the depth at which the particle has slowed to a velocity u.
+def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
+    """The closed form's terms and the depth at rest, or at the stop velocity: u = 0 or v_stop.
 
     p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1] and c = (4 rho_p / 3 rho_t) ln(1 + p) [1].
     """
     v, radius, particle, target, r_t = impact.motion.values()
-    lost = target * (v - slowed_to) * (v + slowed_to)
-    pressure = lost / (2 * r_t + target * slowed_to * slowed_to)
+    u, reached = 0.0, depth.normalized_depth(v, particle, target, r_t)
+    if to_stop:
+        u = min(impact.stop_velocity, v)  # an impact below it goes nowhere
+        reached = depth.depth_at_velocity(u, **impact.motion) / radius
+    pressure = target * (v - u) * (v + u) / (2 * r_t + target * u * u)
     return {
         "pressure": pressure,
         "c": 4 * particle / (3 * target) * math.log1p(pressure),
-        "normalized_depth": normalized_depth,
-        "depth_um": radius * normalized_depth * 1e6,
+        "normalized_depth": reached,
+        "depth_um": radius * reached * 1e6,
     }
 
 
@@ -509,10 +503,6 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
     message = ("doubtful", "reversed", "early" if "short" in kinds else "complete")[trust]
     return trust, MESSAGES[message if sheet.steps else "no_steps"]
-
-
-def _volume(name: str, volume: float) -> dict[str, float]:
-    return {name: volume, f"{name}_um3": volume * 1e6 * 1e6 * 1e6}
 
 
 def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
