@@ -132,7 +132,6 @@ _NUMBER = re.compile(
     r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*"
     r"(?P<unit>(?![\s.]|[eE]?[-+]?\d).*)"
 )
-_DIGITS = 400
 
 
 def read_number(text: str, unit: str) -> float:
@@ -144,7 +143,7 @@ def read_number(text: str, unit: str) -> float:
     (5e-10, 1.1e-05)
     """
     text = text.replace("\N{MINUS SIGN}", "-")  # as word processors write it
-    match = _NUMBER.fullmatch(text.strip()) if len(text) < _DIGITS else None
+    match = _NUMBER.fullmatch(text.strip()) if len(text) < 400 else None
     if match is None:
         raise ValueError(
             f"{quoted(text, 40)} is not a finite number with or without a unit, such as '1 {unit}'"

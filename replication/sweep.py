@@ -1,8 +1,7 @@
 """Sweeps: many cases by a plan from a TOML file, computed in blocks, written as CSV or Parquet.
 
-The values of an input come from a list or a range, a distribution, or Eq. 1. All values of a source
-lie within its `bounds`, rounding included. If the bounds are in range, so is all between them; so a
-sweep is refused before it runs, not in the middle.
+The values of an input come from a list or a range, a distribution, or Eq. 1. All lie within the
+`bounds` of their source, rounding included, so that a sweep is refused before it runs.
 """
 
 import hashlib
@@ -240,9 +239,7 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, f
 
 
 def read_source(name: str, value: Any) -> Source:
-    """The source of an input; whether the input may have such values is checked later.
-
-    Raises ValueError that says what is wrong and what would be right.
+    """The source of an input, which may still be out of range. Raises ValueError.
 
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
     (1e-06, 5e-06)

@@ -18,9 +18,7 @@ from reference.units import superscript, written
 
 
 def json_text(record: Any) -> str:
-    r"""One JSON document; every float with the digits that make it the same double again.
-
-    Raises ValueError for a float that is not finite, which JSON cannot hold.
+    r"""One JSON document, every float with all its digits; ValueError for one that is not finite.
 
     >>> json_text({"depth": 1e-06})
     '{\n  "depth": 1e-06\n}\n'

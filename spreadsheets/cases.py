@@ -1,11 +1,9 @@
 """The sheets `Inputs`, of each case (its rows to the stop, its result), and `Table A-1`.
 
-`Inputs` has every physical number, typed into yellow cells in the report's units. Beside each stand
-the value in use in SI units, the report's, and the limits within which a number is accepted. What
-follows from the inputs stands below them.
-
-On the sheet of a case, rows below the stop stay blank until an input needs them. If they do not
-suffice, or the time step is too long for the motion, the sheet says so.
+`Inputs` has every physical number, typed into yellow cells in the report's units; beside each the
+value in use in SI units, the report's, and the limits within which a number is accepted. On the
+sheet of a case, rows below the stop stay blank until an input needs them. If they do not suffice,
+or the time step is too long for the motion, the sheet says so.
 """
 
 from collections.abc import Mapping, Sequence
@@ -32,9 +30,6 @@ from spreadsheets.plan import (
 
 MAX_ROWS = 20_000
 """A sheet of more rows is refused: writing it takes half a minute and gigabytes of memory."""
-
-SPARE_ROWS = 100
-"""At least so many rows stay blank after the stop, for inputs that need more steps."""
 
 SCHEMES = {
     "published": "the drag is taken at the velocity with which a row begins",
@@ -111,7 +106,8 @@ class CaseSheet:
 def prepared_rows(steps: int, wanted: int | None = None) -> int:
     """Rows to prepare for so many steps: as wanted, or twice as many, in full hundreds.
 
-    Raises ValueError where that is too few for the steps or more than `MAX_ROWS`.
+    At least a hundred stay blank below the stop, for other inputs. Raises ValueError where the rows
+    are too few for the steps or more than `MAX_ROWS`.
 
     >>> prepared_rows(178), prepared_rows(3), prepared_rows(178, 1000)
     (400, 200, 1000)
@@ -121,7 +117,7 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
             f"the workbook would need {steps:,} rows, more than {MAX_ROWS:,}: take a larger step"
         )
     if wanted is None:
-        return min(-(-max(2 * steps, steps + SPARE_ROWS) // 100) * 100, MAX_ROWS)
+        return min(-(-max(2 * steps, steps + 100) // 100) * 100, MAX_ROWS)
     if not max(steps, 1) <= wanted <= MAX_ROWS:
         raise ValueError(f"{wanted:,} rows will not do: give {steps:,} to {MAX_ROWS:,}")
     return wanted
@@ -150,9 +146,6 @@ class Input(NamedTuple):
     def of_report(self, ledger: Ledger) -> float:
         """The report's number in this unit."""
         return float(ledger.value(self.source) / to_si(self.unit))
-
-
-_BAD = ("too small", "too large", "no number")
 
 
 def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
@@ -197,7 +190,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         named = Cell(name, "unit")
         page.put(B=Cell(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
-    bad = ",".join(f'$E{first}="{word}"' for word in _BAD)
+    bad = ",".join(f'$E{first}="{word}"' for word in ("too small", "too large", "no number"))
     page.rules = [
         Rule(checks, f"=OR({bad})", "warning"),
         Rule(checks, f'=$E{first}="yours"', "changed"),
@@ -315,9 +308,8 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     columns = {column: entries["H" if column == "G" else column] for column in heads}
     columns["A"] = tables()["table_a1"]["time"]
     words = case.words | {"drag": "G" if centered else "C"}
+    del columns["B"]
     for column, entry in columns.items():
-        if column == "B":
-            continue
         if "start" in entry:
             start = f"=IF(ISNUMBER('{case.name}'!A{FIRST_ROW}),{entry['start']},\"\")"
             entry = {**entry, "start": start}

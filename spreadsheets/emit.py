@@ -78,8 +78,7 @@ _CORRECTIONS = (
 def is_own(path: Path) -> bool:
     """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
 
-    Its parts must give its seal, and packing them again must give this file. One that another
-    version of zlib packed counts as changed.
+    Its parts, packed again, must give it; what another version of zlib packed counts as changed.
     """
     content = path.read_bytes()
     try:

@@ -2,9 +2,8 @@
 
     IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
-An engine opens a workbook, computes every formula again and gives the values by sheet and address;
-`Values` says how each kind of value comes back. Two engines come with pip, two from the
-system. The libraries behind them are imported only when an engine is used.
+An engine computes every formula of a workbook again and gives the `Values`. Two engines come with
+pip, two from the system. Their libraries are imported only when an engine is used.
 """
 
 import json
@@ -300,10 +299,7 @@ ENGINES: tuple[Engine, ...] = (IronCalc(), Formualizer(), LibreOffice(), Gnumeri
 
 
 def repairs_wrong_value(engine: Engine) -> bool:
-    """Plant a wrong stored value beside a formula and tell whether the engine puts it right.
-
-    One that gives stored values back verifies nothing.
-    """
+    """Plant a wrong stored value beside a formula and tell whether the engine puts it right."""
     import xlsxwriter
 
     with TemporaryDirectory(prefix="coldspray-") as folder:

@@ -400,8 +400,7 @@ _REFERENCE = re.compile(
 def guarded(expression: str) -> str:
     """The formula, calculated where all that it refers to are numbers.
 
-    Elsewhere it says that nothing was computed. A mere reference is left as it is: it shows what it
-    refers to.
+    Elsewhere it says that nothing was computed. A mere reference is left as it is.
 
     >>> guarded("=2*R_p"), guarded("=R_p")
     ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')

@@ -102,18 +102,17 @@ def _signals_wait() -> Iterator[None]:
     if current_thread() is not main_thread():
         yield
         return
-    names = ("SIGINT", "SIGTERM", "SIGHUP")  # Windows has no hangup
-    ending, heard = [getattr(signal, name) for name in names if hasattr(signal, name)], list[int]()
-    before = {number: signal.getsignal(number) for number in ending}
-    for number, handler in before.items():
-        if handler not in (signal.SIG_IGN, None):
-            signal.signal(number, lambda number, _: heard.append(number))
+    heard: list[int] = []
+    before = {}
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no hangup
+        if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
+            before[number] = signal.signal(number, lambda number, _: heard.append(number))
     try:
         yield
     finally:
         for number, handler in before.items():
-            if handler is not None:
-                signal.signal(number, handler)
+            signal.signal(number, handler)
         for number in heard[:1]:
             signal.raise_signal(number)
 

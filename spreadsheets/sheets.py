@@ -67,9 +67,9 @@ def workbook_plan(
 ) -> WorkbookPlan:
     """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
 
-    With `findings`, the result of the audit, it is the report's own workbook, with all that is
-    about the report alone; `pages` then has the same cases with the coarser step, too. Raises
-    ValueError where the ledger has a claim computed by a cell that is none.
+    With `findings` it is the report's own workbook, with all that is about the report alone;
+    `pages` then has the same cases with the coarser step, too. Raises ValueError for a claim of
+    the ledger that is computed by no cell.
     """
     report, cases = findings is not None, [page for page in pages if not page.coarse]
     table = table_a1(ledger, cases[-1], report)

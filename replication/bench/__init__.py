@@ -229,9 +229,8 @@ def bench(
     """Measure everything on the named cases: the JSON of `coldspray bench`.
 
     A task's repeats get about `limit` seconds. The tasks of a case take turns, so that a busy spell
-    of the machine spoils one repeat of each and not all of one. A progress bar is shown unless
-    `quiet`; if that is None, on a terminal. Raises ValueError for a case that is not there and a
-    limit that is not positive.
+    of the machine spoils one repeat of each and not all of one. Unless `quiet` there is a progress
+    bar; if that is None, on a terminal. Raises ValueError for another case or no positive limit.
     """
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")

@@ -2,8 +2,7 @@
 
 Solvers take y = x/R, u = v/V and time in units of R/V: y' = u and u' = -(b u^2 + c) A(y)
 (Eqs. 12-13). A solver gets its setting, b, c and times, and gives y at these times. SciPy's
-`solve_ivp` finds rest by an event. The others are told when rest comes, and integrate up to there:
-that they know no events is not held against them.
+`solve_ivp` finds rest by an event; the others are told when it comes, and integrate up to there.
 """
 
 import math

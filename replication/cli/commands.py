@@ -6,7 +6,6 @@ import os
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -141,8 +140,8 @@ def run_workbook(options: argparse.Namespace) -> int:
         "file": str(options.output),
         "passed": passed if options.verify else None,
         "long_double_bound": book.rounding,
-        "engines": list(map(asdict, checks)),
-        "warnings": list(book.warnings),
+        "engines": checks,
+        "warnings": book.warnings,
     }
     verified = ["", *_verified(checks, book.rounding)] if checks else []
     _tell(options, record, "\n".join([f"Written: {one_line(str(options.output))}", *verified]))
@@ -204,15 +203,12 @@ def run_sheet(options: argparse.Namespace) -> int:
         heads = ("time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]")
         table = ((time * 1e9, v, x * 1e6, a, final) for time, v, x, a, final in sheet.rows)
         lines = zip(("row", *range(len(sheet.rows))), numbers(heads, table), strict=True)
-        return "\n".join(
-            [
-                *(f"{k:>5}{line}" for k, line in lines),
-                "",
-                f"final depth       {number(sheet.final_depth * 1e6, 8)} um",
-                f"normalized depth  {number(sheet.normalized_depth, 8)}",
-                f"steps             {sheet.steps}",
-            ]
+        results = (
+            f"final depth       {number(sheet.final_depth * 1e6, 8)} um\n"
+            f"normalized depth  {number(sheet.normalized_depth, 8)}\n"
+            f"steps             {sheet.steps}"
         )
+        return "\n".join([*(f"{k:>5}{line}" for k, line in lines), "", results])
 
     return _put(options, record, text, rows, doubts)
 
@@ -344,9 +340,8 @@ def run_check(options: argparse.Namespace) -> int:
             raise ValueError(f"--map {name[:40]}: it is given twice")
         mapping[name] = where.strip()
     checked = check(options.file, mapping)
-    return _put_found(
-        options, check_record(checked), checked.differences, checked.calculation, KINDS
-    )
+    record = check_record(checked)
+    return _put_found(options, record, checked.differences, checked.calculation, KINDS)
 
 
 def run_diff(options: argparse.Namespace) -> int:

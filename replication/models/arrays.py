@@ -16,9 +16,6 @@ from replication.models import crater, depth, impact, motion, sheet
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
 Model = Callable[..., Any]
-Numbers = Mapping[str, Any]
-"""The inputs by name, each a float or an array of doubles."""
-
 LEAST, GREATEST = 1e-40, 1e40
 """Of inputs between these `check_range` refuses nothing: its products have at most six factors."""
 
@@ -200,7 +197,7 @@ def _real(name: str, value: Any) -> Any:
     raise TypeError(f"{name} must hold real numbers, in SI units, not {what}")
 
 
-def _check(numbers: Numbers) -> None:
+def _check(numbers: Mapping[str, Any]) -> None:
     """Raise InputError for the first element that no model takes, if there is one."""
     for name, value in numbers.items():
         low, high = value, value
@@ -211,7 +208,7 @@ def _check(numbers: Numbers) -> None:
             return
 
 
-def _refuse(numbers: Numbers, result: Any = 0.0, explain: Model | None = None) -> None:
+def _refuse(numbers: Mapping[str, Any], result: Any = 0.0, explain: Model | None = None) -> None:
     """Raise for the first element that `check` or `check_range` refuses, or without a result."""
     import numpy as np
 
