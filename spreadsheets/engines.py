@@ -114,8 +114,10 @@ def address(row: int, column: int) -> str:
 # From pip
 
 
-class _Package(Engine):
-    """A Python package of the engine's name."""
+class IronCalc(Engine):
+    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
+
+    name = "ironcalc"
 
     def missing(self) -> str | None:
         if find_spec(self.name) is not None:
@@ -124,12 +126,6 @@ class _Package(Engine):
 
     def version(self) -> str:
         return version(self.name)
-
-
-class IronCalc(_Package):
-    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
-
-    name = "ironcalc"
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         import ironcalc
@@ -144,7 +140,7 @@ class IronCalc(_Package):
             yield names[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
-class Formualizer(_Package):
+class Formualizer(IronCalc):
     """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
 
     name = "formualizer"
@@ -160,7 +156,7 @@ class Formualizer(_Package):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        for sheet, place, _ in IronCalc()._cells(path):
+        for sheet, place, _ in super()._cells(path):
             value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error
                 value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")

@@ -29,13 +29,7 @@ def history(
 ) -> None:  # fmt: skip
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
-    Errors are below 1e-14 of the final depth and of the impact velocity; from the stop time on the
-    results are the final depth and 0. NaN at times that are negative or not finite.
-
-    >>> depth, speed = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
-    >>> history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9, depth, speed)
-    >>> [f"{x * 1e6:.4f}" for x in depth], [f"{v:.2f}" for v in speed]
-    (['0.0000', '4.5634', '7.6749'], ['500.00', '378.56', '0.00'])
+    What they are, and how exact, says `arrays.history`. NaN at negative and at not finite times.
     """
     V, R, rho_p, rho_t, R_t = velocity, radius, particle_density, target_density, resistance
     final = normalized_depth(V, rho_p, rho_t, R_t)

@@ -108,12 +108,7 @@ def last_row(
 ) -> None:  # fmt: skip
     """Fill in depth x [m] and number of the sheet's last row, each as the one element of its array.
 
-    NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. SI units.
-
-    >>> depth, steps = [0.0], [0]
-    >>> last_row(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10, 1.0, False, depth, steps)
-    >>> f"{depth[0] * 1e6:.2f}", steps[0]
-    ('7.67', 131)
+    NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. Inputs as of `run_many`.
     """
     x, v, k = 0.0, velocity, 0
     motion = velocity, radius, particle_density, target_density, resistance
