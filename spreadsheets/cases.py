@@ -253,7 +253,7 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.row = top
     results = tables()["case"] | (tables()["coarse"] if case.coarse else {})
     page.lines(ledger, case.part, results, [case.words], "IJKLMN")
-    page.frozen, page.repeated_rows = f"A{FIRST_ROW}", (top, top + 1)
+    page.headed = "A", top, top + 1
     page.print_area = f"A1:M{max(FIRST_ROW + case.steps, page.row - 1)}"
     used = f"A{FIRST_ROW}:{max(columns)}{FIRST_ROW + case.rows}"
     page.rules = [

@@ -157,8 +157,10 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
 def _set_up(page: Any, sheet: SheetPlan) -> None:
     """Scrolling, column widths and print set-up."""
     page.hide_gridlines(2)
-    if sheet.frozen:
-        page.freeze_panes(sheet.frozen)
+    if sheet.headed:
+        scrolling, first, last = sheet.headed
+        page.freeze_panes(f"{scrolling}{last + 1}")
+        page.repeat_rows(first - 1, last - 1)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width)
     page.set_landscape()
@@ -171,9 +173,6 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
         page.print_area(sheet.print_area)
     if sheet.page_break:
         page.set_h_pagebreaks([sheet.page_break])
-    if sheet.repeated_rows:
-        first, last = sheet.repeated_rows
-        page.repeat_rows(first - 1, last - 1)
     if sheet.filtered:
         page.autofilter(sheet.filtered)
     # Texts that the report prints are texts, and formulas differ from their neighbors by design.

@@ -139,10 +139,10 @@ def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str
 class SheetPlan:
     """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
 
-    row: where the next cells go. entry: what `sheets.toml` says of it. frozen: the first cell that
-    scrolls. repeated_rows: first and last row that head every printed page. page_break: the last
-    row of page 1. filtered: a table with a filter. curves: those of its chart. described: what that
-    shows, in words, with values by key as written: "{high.depth_um:.4g}".
+    row: where the next cells go. entry: what `sheets.toml` says of it. headed: the first column
+    that scrolls, and the first and last row of heads, which do not, and head every printed page.
+    page_break: the last row of page 1. filtered: a table with a filter. curves: those of its chart.
+    described: what that shows, in words, with values by key as written: "{high.depth_um:.4g}".
     """
 
     name: str
@@ -150,8 +150,7 @@ class SheetPlan:
     widths: Mapping[str, float] = field(default_factory=dict)
     row: int = 1
     entry: Mapping[str, Any] = field(default_factory=dict)
-    frozen: str = ""
-    repeated_rows: tuple[int, int] | None = None
+    headed: tuple[str, int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
     curves: Sequence[Curve] = ()
     described: str = ""
@@ -233,15 +232,12 @@ class SheetPlan:
             under = (None if unit is None else Cell(unit, "unit right") for unit in units)
             self.put(**dict(zip(columns, under, strict=True)))
 
-    def table(self, right: str, frozen: str) -> None:
-        """The heads of its entry: they stay in sight and head every printed page.
-
-        right: the columns of numbers. frozen: the first column that scrolls.
-        """
+    def table(self, right: str, scrolling: str) -> None:
+        """The heads of its entry; `right`: the columns of numbers, `scrolling`: as of `headed`."""
         heads = self.entry["heads"]
         letters = "ABCDEFGHIJKLM"[: len(heads)]
         self.widths = {letter: width for letter, (_, width) in zip(letters, heads, strict=True)}
-        self.repeated_rows, self.frozen = (self.row, self.row), f"{frozen}{self.row + 1}"
+        self.headed = scrolling, self.row, self.row
         self.heads(letters, [words for words, _ in heads], right)
 
     def draw(self, curves: Sequence[Curve], written: str) -> None:

@@ -184,7 +184,7 @@ def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) 
     page, part = SheetPlan.begun(name), name.lower().replace("-", "_")
     page.widths = {c: width for c, (_, width) in zip("ABCDEF", tables()["lines"], strict=True)}
     page.row += 1
-    page.repeated_rows, page.frozen = (page.row, page.row), f"A{page.row + 1}"
+    page.headed = "A", page.row, page.row
     page.lines(ledger, part, tables()[part], words)
     return page
 
