@@ -142,7 +142,7 @@ class SheetPlan:
     row: where the next cells go. entry: what `sheets.toml` says of it. headed: the first column
     that scrolls, and the first and last row of heads, which do not, and head every printed page.
     page_break: the last row of page 1. filtered: a table with a filter. curves: those of its chart.
-    described: what that shows, in words, with values by key as written: "{high.depth_um:.4g}".
+    written: what that shows, in words, with values by key as written: "{high.depth_um:.4g}".
     """
 
     name: str
@@ -153,7 +153,7 @@ class SheetPlan:
     headed: tuple[str, int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
     curves: Sequence[Curve] = ()
-    described: str = ""
+    written: str = ""
     print_area: str = ""
     page_break: int | None = None
     filtered: str = ""
@@ -239,17 +239,6 @@ class SheetPlan:
         self.widths = {letter: width for letter, (_, width) in zip(letters, heads, strict=True)}
         self.headed = scrolling, self.row, self.row
         self.heads(letters, [words for words, _ in heads], right)
-
-    def draw(self, curves: Sequence[Curve], written: str) -> None:
-        """The chart of its entry; `written` stands in the description."""
-        self.curves = curves
-        self.described = self.entry["chart"]["description"].format(written=written)
-
-    def description(self, values: Mapping[str, Value]) -> str:
-        """What its chart shows, in words, with these values."""
-        return re.sub(
-            "{(.+?):(.+?)}", lambda match: format(values[match[1]], match[2]), self.described
-        )
 
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""

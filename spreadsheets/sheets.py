@@ -318,7 +318,7 @@ def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
         curves.append(Curve((case.name, "I1"), x, y))
         reached = f"{{{case.slug}.depth_um:.4g}} µm after {{{key}.time[{case.rows}]:.3g}} ns"
         written.append(f"{case.label} reaches {reached}")
-    page.draw(curves, ", ".join(written))
+    page.curves, page.written = curves, ", ".join(written)
     return page
 
 
@@ -339,7 +339,7 @@ def _figure_5(case: CaseSheet) -> SheetPlan:
         for k in (0, POINTS - 1)
     )
     curves = [Curve((case.name, "I1"), f"Q{first}:Q{last}", f"T{first}:T{last}")]
-    page.draw(curves, f"{case.label}, from {low} to {high}")
+    page.curves, page.written = curves, f"{case.label}, from {low} to {high}"
     return page
 
 
@@ -386,7 +386,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
         curves.append(Curve(("Convergence", label), f"B{first}:B{last}", size))
     page.row = last + 4
     _same_inputs(page, run_inputs(cases))
-    page.draw(curves, ", ".join(written))
+    page.curves, page.written = curves, ", ".join(written)
     return page
 
 
