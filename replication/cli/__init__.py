@@ -204,11 +204,8 @@ def _whole(least: int, most: int) -> Callable[[str], int]:
     """A reader of whole numbers within bounds."""
 
     def read(text: str) -> int:
-        digits = text.strip()
-        if digits.isascii() and digits.isdigit() and len(digits) <= 20:
-            number = int(digits)
-            if least <= number <= most:
-                return number
+        if re.fullmatch(r"\s*[0-9]{1,20}\s*", text) and least <= int(text) <= most:
+            return int(text)
         raise argparse.ArgumentTypeError(
             f"give a whole number from {least:,} to {most:,}, not {quoted(text)}"
         )

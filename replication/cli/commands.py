@@ -144,9 +144,8 @@ def run_workbook(options: argparse.Namespace) -> int:
         "warnings": book.warnings,
     }
     verified = ["", *_verified(checks, book.rounding)] if checks else []
-    _tell(options, record, "\n".join([f"Written: {one_line(str(options.output))}", *verified]))
-    if not options.json:
-        _warn(options, book.warnings)
+    text = "\n".join([f"Written: {one_line(str(options.output))}", *verified])
+    _put(options, record, lambda: text, warnings=book.warnings, quietly=True)
     return 0 if passed else 1
 
 
@@ -297,7 +296,7 @@ def run_sweep(options: argparse.Namespace) -> int:
         write(plan, output, done=bar.update)
     record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
     text = f"Written: {one_line(str(output))} ({plan.count} cases)"
-    return _tell(options, record | provenance(plan), text)
+    return _put(options, record | provenance(plan), lambda: text, quietly=True)
 
 
 def run_bench(options: argparse.Namespace) -> int:
@@ -383,7 +382,7 @@ def _put_found(
         write_bytes(options.html, show.html(record, differences, calculation).encode())
     if options.junit is not None:
         write_bytes(options.junit, show.junit(record, kinds).encode())
-    _tell(options, record, show.text(record))
+    _put(options, record, lambda: show.text(record), quietly=True)
     return 0 if record["clean"] else 1
 
 
@@ -428,34 +427,23 @@ def _put(
     text: Callable[[], str],
     rows: Sequence[Mapping[str, Any]] = (),
     warnings: Iterable[object] = (),
+    quietly: bool = False,
 ) -> int:
     """Print what a command found as JSON, as rows of CSV or as text, whichever is asked for.
 
-    Warnings go to standard error; with JSON they stand in the record instead. The status is 0.
+    Warnings go to standard error, unless quiet; with JSON they stand in the record instead.
+    quietly: the text only tells what was done, so that `--quiet` silences it. The status is 0.
     """
     if options.json:
         sys.stdout.write(json_text(record))
         return 0
     if "csv" in options and options.csv:
         sys.stdout.write(rows_csv(rows))
-    else:
+    elif not (quietly and options.quiet):
         print(text())
-    _warn(options, warnings)
+    for warning in () if options.quiet else warnings:
+        print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
     return 0
-
-
-def _tell(options: argparse.Namespace, record: Any, text: str) -> int:
-    """Print what a command has done as JSON, or as text unless quiet; the status is 0."""
-    if options.json or not options.quiet:
-        sys.stdout.write(json_text(record) if options.json else f"{text}\n")
-    return 0
-
-
-def _warn(options: argparse.Namespace, warnings: Iterable[object]) -> None:
-    """Warnings on standard error, unless quiet."""
-    if not options.quiet:
-        for warning in warnings:
-            print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
 
 
 def _width(piped: int = 80) -> int:

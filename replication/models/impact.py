@@ -73,11 +73,10 @@ class Impact:
     @property
     def target_resistance(self) -> float:
         """R_t = beta Y_t (Eq. 7) [Pa], or the resistance as given."""
-        if self.resistance is not None:
-            return self.resistance
-        assert self.beta is not None
-        assert self.flow_stress is not None
-        return self.beta * self.flow_stress
+        if self.beta is not None and self.flow_stress is not None:
+            return self.beta * self.flow_stress
+        assert self.resistance is not None
+        return self.resistance
 
     @property
     def motion(self) -> dict[str, float]:
