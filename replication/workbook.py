@@ -452,23 +452,18 @@ def live_verdicts(
 ) -> dict[str, Value]:
     """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells."""
     audit: Tree = {}
+    table: Tree = {}
     for claim in sheets.computed_claims(ledger):
         value = values[plan.cell(place_of(str(claim.workbook))).key]
         audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
-    table: Tree = {}
-    for claim in ledger.claims.values():
         if claim.place.cell and claim.printed:
-            value = values[plan.cell(("Table A-1", claim.place.cell)).key]
-            table[claim.place.cell] = {
-                "computed": value,
-                "difference": _difference(value, claim.printed, exact=claim.is_exact),
-                "verdict": audit[claim.id]["verdict"],
-            }
+            difference = _difference(value, claim.printed, exact=claim.is_exact)
+            table[claim.place.cell] = audit[claim.id] | {"difference": difference}
     verdicts = [judged["verdict"] for judged in audit.values()]
     counts = {key: verdicts.count(verdict) for verdict, key in sheets.KINDS}
     overview = {f"audit_{key}": count for key, count in counts.items()}
     for name in (*findings.failing, *findings.differing):
-        if ledger.claims[name].workbook:
+        if name in audit:
             overview[name] = audit[name]["computed"]
     tree = {"audit": audit | counts, "overview": overview, "table_check": table}
     return dict(_keyed(tree))
