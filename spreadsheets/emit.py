@@ -144,7 +144,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         if sheet.curves:
-            _draw(book, page, sheet, values)
+            _draw(book, page, sheet, sheet.description(values))
     book.close()
     parts = _parts(file.getvalue())
     for start, pattern, words in _CORRECTIONS:
@@ -222,10 +222,9 @@ _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
-def _draw(book: Any, page: Any, sheet: SheetPlan, values: Mapping[str, Value]) -> None:
-    """Draw the chart of a sheet on its page, described in words."""
+def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
+    """Draw the chart of a sheet on its page."""
     chart = sheet.entry["chart"]
-    written = re.sub("{(.+?):(.+?)}", lambda at: format(values[at[1]], at[2]), sheet.written)
     logarithmic = chart.get("logarithmic", False)
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for curve, look in zip(sheet.curves, tables()["curves"], strict=False):
@@ -248,5 +247,4 @@ def _draw(book: Any, page: Any, sheet: SheetPlan, values: Mapping[str, Value]) -
     drawn.set_y_axis({"name": chart["y_title"], **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart["size"], strict=True)))
-    described = chart["description"].format(written=written)
-    page.insert_chart(chart["at"], drawn, {"description": described})
+    page.insert_chart(chart["at"], drawn, {"description": description})

@@ -240,6 +240,11 @@ class SheetPlan:
         self.headed = scrolling, self.row, self.row
         self.heads(letters, [words for words, _ in heads], right)
 
+    def description(self, values: Mapping[str, Value]) -> str:
+        """What its chart shows, in words, with these values."""
+        written = re.sub("{(.+?):(.+?)}", lambda at: format(values[at[1]], at[2]), self.written)
+        return str(self.entry["chart"]["description"]).format(written=written)
+
     def color(self, cells: str, styles: Mapping[str, str]) -> None:
         """The style that each text has in these cells of one column."""
         first = cells.partition(":")[0]
