@@ -66,9 +66,9 @@ class Engine(ABC):
     def version(self) -> str:
         """The version of the program that would be used; not asked for when it is missing."""
 
-    @abstractmethod
     def _cells(self, path: Path) -> Iterator[Cell]:
         """The cells of a workbook, recalculated; blank ones included or not."""
+        raise NotImplementedError  # of an engine that has the other one
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
         """The cells of each of several workbooks."""
@@ -205,10 +205,6 @@ class LibreOffice(Engine):
 
     def version(self) -> str:
         return _version_in(self._run([str(office()), "--version"]), r"LibreOffice\S* (\S+)")
-
-    def _cells(self, path: Path) -> Iterator[Cell]:
-        (cells,) = self._cells_of_each([path])
-        return cells
 
     def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
         soffice, script = str(office()), str(Path(__file__).with_name("uno_script.py"))
