@@ -279,11 +279,9 @@ def _spaced(table: Table, unit: str) -> Floats:
 
 
 def _drawn(table: Table, unit: str) -> Source:
-    """A distribution, by the inverse of its cumulative probability.
+    """A distribution of the quantity or (log) of its logarithm, by the inverse of its probability.
 
-    Uniform between lower and upper, or normal: of the quantity itself or (log) of its logarithm.
-    A normal one is truncated: a value outside lower and upper counts as drawn again, so that
-    between them the density keeps its shape.
+    A normal one is truncated: a value outside lower and upper counts as drawn again.
     """
     from scipy.special import ndtri
 

@@ -453,8 +453,10 @@ def live_verdicts(
     """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells."""
     audit: Tree = {}
     table: Tree = {}
-    for claim in sheets.computed_claims(ledger):
-        value = values[plan.cell(place_of(str(claim.workbook))).key]
+    for claim in ledger.claims.values():
+        if not claim.workbook:
+            continue
+        value = values[plan.cell(place_of(claim.workbook)).key]
         audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)

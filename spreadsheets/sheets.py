@@ -84,8 +84,8 @@ def workbook_plan(
     properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
     overview = _overview(ledger, cases, sheets, properties["title"], findings)
     plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
-    for claim in computed_claims(ledger) if report else ():
-        if not plan.cell(place_of(str(claim.workbook))).formula:
+    for claim in ledger.claims.values() if report else ():
+        if claim.workbook and not plan.cell(place_of(claim.workbook)).formula:
             raise ValueError(
                 f"claim {claim.id!r}: the workbook computes nothing in {claim.workbook}"
             )
@@ -197,11 +197,6 @@ DIGITS = 4
 """Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
 
 _COLORS = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
-
-
-def computed_claims(ledger: Ledger) -> list[Claim]:
-    """The claims that a cell of the workbook computes."""
-    return [claim for claim in ledger.claims.values() if claim.workbook]
 
 
 def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
