@@ -168,8 +168,7 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
         except ValueError as error:
             those = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
             raise ValueError(f"arrays of these shapes do not broadcast: {those}") from error
-    if not all(_in_range(name, number) for name, number in numbers.items()):
-        _refuse(numbers)
+    _check(numbers)
     results = compute(*numbers.values())
     first = results[0] if isinstance(results, tuple) else results
     finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
@@ -197,12 +196,15 @@ def _real(name: str, value: Any) -> Any:
     raise TypeError(f"{name} must hold real numbers, in SI units, not {what}")
 
 
-def _in_range(name: str, value: Any) -> bool:
-    """Whether an input needs no other check."""
-    least, low, high = 0.0 if name in MAY_BE_ZERO else LEAST, value, value
-    if type(value) is not float:
-        low, high = value.min(initial=1.0), value.max(initial=1.0)
-    return bool(least <= low <= high <= GREATEST)
+def _check(numbers: Mapping[str, Any]) -> None:
+    """Raise InputError for the first element that no model takes, if there is one."""
+    for name, value in numbers.items():
+        low, high = value, value
+        if type(value) is not float:
+            low, high = value.min(initial=1.0), value.max(initial=1.0)
+        if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
+            _refuse(numbers)
+            return
 
 
 def _refuse(numbers: Mapping[str, Any], result: Any = 0.0, explain: Model | None = None) -> None:
