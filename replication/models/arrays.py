@@ -15,6 +15,7 @@ from replication.models import crater, depth, impact, motion, sheet
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
 Model = Callable[..., Any]
+
 LEAST, GREATEST = 1e-40, 1e40
 """Of inputs between these `check_range` refuses nothing: its products have at most six factors."""
 
@@ -24,8 +25,9 @@ millisecond, ten times what handing it out takes, and its data fit into a core's
 
 _DOC = """
 
-Inputs: velocity V [m/s] at impact, radius R [m], particle_density rho_p and target_density rho_t
-[kg/m^3], resistance R_t [Pa]; at_velocity v and stop_velocity [m/s]; at_depth x [m].
+Inputs, where it takes them: velocity V [m/s] at impact, radius R [m], particle_density rho_p and
+target_density rho_t [kg/m^3], resistance R_t [Pa]; at_velocity v and stop_velocity [m/s]; at_depth
+x [m].
 
 Each is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and the
 result is of their kind. Raises ValueError, naming the first element that is out of range, where the
@@ -241,9 +243,9 @@ def _refuse(numbers: Mapping[str, Any], result: Any = 0.0, explain: Model | None
 def _each(function: Any, *values: Any) -> Any:
     """The results of a ufunc for values that broadcast; histories have an axis of times besides.
 
-    Python's threads share out many cases to all cores: Numba's own may not be started from two
-    threads at once, and do not survive a fork. Only the main thread starts any: a caller with
-    threads, such as dask, has shared out its work already.
+    Python's threads share out many cases to all cores, as compiled code releases Python's lock.
+    Numba's own may not be started from two threads at once, and do not survive a fork. Only the
+    main thread starts any: a caller with threads, such as dask, has shared out its work already.
     """
     import threading
 
