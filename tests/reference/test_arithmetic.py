@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from kept import calls
 
-from reference.arithmetic import DiscontinuityError, Duals, Floats, Rationals, Ratios, Reals
+from reference.arithmetic import Duals, Floats, Rationals, Ratios, Reals
 from reference.intervals import Intervals
 
 OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {
@@ -137,22 +137,6 @@ def test_a_root_that_is_off_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
         monkeypatch.setattr(intervals, "_cap_root", lambda c, off=off: root(c) * off)
         with pytest.raises(ArithmeticError, match="could not be verified"):
             ar.cap_root(ar.number(F(1, 3)))
-
-
-def test_duals_of_spans_hold_every_slope_and_no_jump() -> None:
-    ar = Intervals(20)
-    duals = Duals(ar)
-    x = duals.variable(ar.interval(F(-1), F(2)), "x")
-    zero = duals.number(0)
-    with ar.working():
-        kinked = duals.greatest(x, zero) * 2
-        assert ar.ends(kinked.slopes["x"]) == (0, 2)
-        assert duals.least(x, duals.number(-3)).slopes == {}
-        assert ar.ends(duals.least(x, duals.number(3)).slopes["x"]) == (1, 1)
-        with pytest.raises(DiscontinuityError):
-            duals.below(x, zero)
-        assert duals.below(x, duals.number(3))
-        assert not duals.below(x, duals.number(-1))
 
 
 # Single calls

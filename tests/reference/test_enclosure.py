@@ -1,6 +1,5 @@
 """What is called proven of a function over a box is true of every point that is tried."""
 
-import math
 from collections.abc import Callable
 from fractions import Fraction as F
 from itertools import product
@@ -9,11 +8,11 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kept import calls, kept
+from kept import calls
 
 from reference import enclosure
 from reference.arithmetic import Rationals
-from reference.enclosure import Box, Constraint, bounds, enclose, satisfying, solve
+from reference.enclosure import Box, Constraint, enclose, satisfying, solve
 from reference.printed import Interval
 
 EXACT = Rationals()
@@ -144,36 +143,11 @@ def test_solutions_are_inside_and_nothing_else_is(
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
-A, B, C = (2 * math.cos(math.radians(angle)) for angle in (80, 40, 20))
-"""Where x^3 - 3x is 1 or -1, as 2 cos(3 t) = (2 cos t)^3 - 3 (2 cos t)."""
-
-
-@kept("reference/kept.txt", "Solutions that are known")
-def test_known_solutions(question: str, answer: str) -> None:
-    name, target = eval(question, {"F": F, "Interval": Interval})
-    known = eval(answer, {"A": A, "B": B, "C": C})
-    result = solve(FUNCTIONS[name], "x", (F(-3), F(3)), target, 500)
-    for part in (result.inner, result.outer):
-        assert len(part) == len(known)
-        for ends, expected in zip(part, known, strict=True):
-            assert ends == pytest.approx(expected, abs=1e-9 if name != "stairs" else 0.05)
-
-
 # Several inputs
 
 
 def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
     return [(function, Interval(F(low), F(high))) for function, low, high in pairs]
-
-
-@kept("reference/kept.txt", "Constraints on x in [1/8, 9] and y in [1, 2], and how far x can range")
-def test_how_far_one_input_can_range(question: str, answer: str) -> None:
-    given_, box = constraints(*eval(question)), {"x": (F(1, 8), F(9)), "y": (F(1), F(2))}
-    low, high = bounds(given_, "x", box)
-    assert (low, high) == pytest.approx(eval(answer), abs=1e-9)
-    for x, y in product(samples(F(1, 8), F(9), 142), samples(F(1), F(2), 8)):
-        if all(target.contains(f(EXACT, x, y)) for f, target in given_):
-            assert low <= x <= high
 
 
 def found(*given_: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:

@@ -122,22 +122,6 @@ def test_many_are_what_each_is_alone(name: str) -> None:
         assert [result[k] for result in whole] == list(alone)
 
 
-def test_histories_broadcast_in_any_order() -> None:
-    velocities, times = np.geomspace(1, 5000, 150), np.linspace(0, 3e-8, 300)
-    rows = history(times, velocities[:, None], *CASE[1:])
-    columns = history(times[:, None], velocities, *CASE[1:])
-    pairs = history(times[:150], velocities, *CASE[1:])
-    for row, column, pair in zip(rows, columns, pairs, strict=True):
-        assert row.shape == (150, 300)
-        np.testing.assert_array_equal(row, column.T)
-        np.testing.assert_array_equal(pair, np.diag(row))
-    alone = history(times.reshape(3, 100), velocities[64], *CASE[1:])
-    np.testing.assert_array_equal(alone[0].ravel(), rows[0][64])
-    order = np.random.default_rng(1).permutation(300)
-    mixed = history(times[order], velocities[64], *CASE[1:])
-    np.testing.assert_array_equal(mixed, [row[64][order] for row in rows])
-
-
 @pytest.mark.parametrize("kind", [np.float64, np.float32, np.longdouble, int, object, ">f8"])
 def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
     # A line of doubles goes the short way; the same times as rows, as a list and of other kinds do

@@ -11,14 +11,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from importlib.util import find_spec
-from itertools import pairwise, product
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from running import coldspray
 
 from replication import BETA_5, bench, history
@@ -34,35 +32,6 @@ def point(error: float, seconds: float, method: str = "closed form", **more: Any
 
 UNKNOWN = dict.fromkeys(("error", "best", "median", "repeats", "calls"))
 GAP = point(1.0, 1.0, "RK45") | UNKNOWN | {"gap": "takes 7 s, more than 5 s"}
-
-ERRORS = st.floats(0, 1) | st.floats(0, 1e-15)
-METHODS = st.sampled_from(["closed form", "RK45"])
-POINTS = st.lists(st.builds(point, ERRORS, st.floats(1e-9, 1e3), METHODS) | st.builds(GAP.copy))
-
-
-def counted(point: Point) -> float:
-    """Luck below half an ulp earns nothing."""
-    return max(point["error"], 2.0**-53)
-
-
-@given(POINTS)
-def test_nothing_measured_beats_the_front(points: list[Point]) -> None:
-    bench.mark_front(points)
-    assert not any(point["front"] for point in points if point["gap"])
-    known = [(p["best"], counted(p)) for p in points if not p["gap"]]
-    front = sorted((p["best"], counted(p)) for p in points if p["front"])
-    for best, error in known:
-        assert any(f <= best and e <= error for f, e in front)
-    assert all(a < b and e > f for (a, e), (b, f) in pairwise(front))
-
-
-@given(points=POINTS, digits=st.sampled_from(DIGITS))
-def test_a_choice_is_the_fastest_that_is_good_enough(points: list[Point], digits: int) -> None:
-    choice = bench.fastest(points, False, "depth", digits)
-    able = [p for p in points if not p["gap"] and counted(p) <= bench.error_for(digits)]
-    assert choice["best"] == min((p["best"] for p in able), default=None)
-    named = [f"{p['method']}, setting" for p in able if p["best"] == choice["best"]]
-    assert choice["method"] in (named or [None])
 
 
 @pytest.fixture(scope="module")
@@ -224,12 +193,13 @@ def test_the_table_says_it_all() -> None:
         point(7e-4, 1e-4, "sheet, published"),
         point(7e-4, 1.2e-4, "sheet, published", **history),
         point(1e-16, 1.23456e-5, compile=0.25),
+        point(1e-17, 5e-5, "Taylor series"),  # as good as the closed form: less is luck
         point(1e-15, 2e-4, "Taylor series", **history),
         point(1e-16, 1e-7, "closed form, many", cases=10),
         point(2e-9, 4e-3, "DOP853", setting="rtol 1e-08"),
         point(2e-7, 3e-3, "DOP853", **coarse),
         GAP | {"method": "DOP853"} | coarse | history,
-        point(2e-6, 4e-5, "RK4", **history),
+        point(8e-6, 4e-5, "RK4", **history),
     ]
     bench.mark_front(points)
     rows = [

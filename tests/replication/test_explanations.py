@@ -3,117 +3,30 @@
 import random
 import re
 from fractions import Fraction as F
-from functools import cache
-from itertools import takewhile
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from kept import kept
 
-from reference.enclosure import Solutions
 from reference.equations import EquationError
 from reference.ledger import Ledger, load
 from replication.audit.audit import Audit, audit
 from replication.audit.explain import (
     EQUATION_EDITS,
-    NUMBER_EDITS,
     Explainer,
     Screen,
     edits,
     equation_edits,
 )
-from replication.audit.replica import replica
 from replication.audit.verdict import Judge, Verdict, assess_equation, follows
 from replication.power import Plant, measured, plants, power, trial
 
 # What would explain a failing number: back-solved inputs, misprints, slips, a common culprit
 
 LEDGER = load()
-EXPLAINER = Explainer(Judge(LEDGER))
-DERIVED = "derived from Eqs. 14 and 15"
 PAIR = ("frank-zook-rha", "frank-zook-stainless")
 
 
-@cache
-def solved(claim: str) -> dict[tuple[str, str], Solutions]:
-    own = LEDGER.claims[claim]
-    return {
-        (b.reading, b.entry): EXPLAINER.solutions(own, b.reading, b.entry)
-        for b in EXPLAINER.back_solved(own)
-    }
-
-
-def value(claim: str, reading: str, entry: str, x: F) -> F:
-    """The replica's answer with one entry changed."""
-    own = LEDGER.claims[claim]
-    inputs = {
-        key: float(x if name == entry else EXPLAINER.judge.value(name))
-        for key, (name,) in own.inputs.items()
-    }
-    return F(replica(own.computations[reading].name, inputs))
-
-
-# Back-solving
-
-
-@pytest.mark.parametrize("claim", PAIR)
-def test_solutions_give_the_number_and_what_is_excluded_does_not(claim: str) -> None:
-    target = LEDGER.claims[claim].target()
-    assert set(solved(claim)) == {
-        (reading, entry) for reading in ("", DERIVED) for entry in LEDGER.claims[claim].entries
-    }
-    for (reading, entry), result in solved(claim).items():
-        for low, high in result.inner:
-            for share in (F(1, 100), F(1, 2), F(99, 100)):
-                x = low + share * (high - low)
-                assert target.contains(value(claim, reading, entry, x)), entry
-        low, high = result.search
-        for k in range(21):
-            x = low * F(float(high / low) ** (k / 20))
-            if not any(a <= x <= b for a, b in result.outer):
-                assert not target.contains(value(claim, reading, entry, x)), entry
-        assert bool(result.inner) == bool(result.outer), "nothing is undecided"
-
-
 # Edits
-
-NUMBERS = st.one_of(
-    st.decimals(0, 9999, places=3, allow_nan=False).map(str),
-    st.integers(1, 9999).map(str),
-    st.tuples(st.integers(100, 999), st.integers(-20, 20)).map(
-        lambda pair: f"{pair[0] / 100:.2f}E{pair[1]:+03d}"
-    ),
-)
-
-
-def common(a: str, b: str) -> int:
-    """How many characters two texts begin with in common."""
-    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
-
-
-def are_one_slip_apart(a: str, b: str) -> bool:
-    """Whether, but for their beginning and end in common, a character or a swap is left."""
-    a, b = a[common(a, b) :], b[common(a, b) :]
-    end = common(a[::-1], b[::-1])
-    a, b = a[: len(a) - end], b[: len(b) - end]
-    return max(len(a), len(b)) <= 1 or (len(a) == 2 and a == b[::-1])
-
-
-@given(NUMBERS)
-def test_every_edit_of_a_number_is_one_slip_away_and_stands_once(text: str) -> None:
-    result = list(edits(text))
-    assert len({edited for edited, _ in result} | {text}) == len(result) + 1
-    for edited, kind in result:
-        mantissa, _, power = text.partition("E")
-        another, _, shifted = edited.partition("E")
-        if kind == "exponent changed":
-            assert another == mantissa
-            assert int(shifted) in (int(power) - 1, int(power) + 1, -int(power))
-        else:
-            assert shifted == power
-            assert are_one_slip_apart(mantissa.replace(".", ""), another.replace(".", ""))
-            assert kind in NUMBER_EDITS
 
 
 @kept("replication/kept.txt", "Edits of a number's text, one slip each")
