@@ -150,7 +150,9 @@ def read_number(text: str, unit: str) -> float:
         )
     given_unit = match["unit"]
     if given_unit[:1] == ",":
-        raise ValueError(f"{text!r}: write the decimal comma as a point")
+        raise ValueError(
+            f"{text!r}: write a decimal comma as a point, and thousands without a comma"
+        )
     if given_unit and not same_dimension(given_unit, unit):
         wrong = f"{given_unit} does not measure what {unit} does"
         raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else wrong}")

@@ -138,8 +138,7 @@ def rounding_bound(sheet: Sheet) -> float:
 
 def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under the workbook's scheme."""
-    from replication.audit.record import in_words
-    from replication.audit.verdict import Verdict
+    from replication.audit.record import Verdict, in_words
 
     usual = in_words(Convention(centered=scheme == "centered"))
     verdicts, explanations = {}, {}
@@ -153,10 +152,10 @@ def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
     counts = Counter(verdicts.values())
     return Findings(
         headline=record.headline,
-        counts={verdict: counts[verdict] for verdict in record.summary},
+        counts={verdict.value: counts[verdict] for verdict in Verdict},
         verdicts=verdicts,
         explanations=explanations,
-        failing=[name for name, verdict in verdicts.items() if Verdict(verdict).is_failure],
+        failing=[name for name, verdict in verdicts.items() if verdict.is_failure],
         differing=[name for name, verdict in verdicts.items() if verdict == Verdict.DIFFERS],
     )
 

@@ -22,7 +22,8 @@ from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
 from replication.audit.findings import Evidence, Known, case
-from replication.audit.verdict import Judgement, Reading, Verdict
+from replication.audit.record import Verdict
+from replication.audit.verdict import Judgement, Reading
 from replication.models import sheet
 from replication.text import number, powers_of_ten, quantity
 
@@ -42,7 +43,7 @@ class Audit(Known):
         findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
         headline = next(finding for finding in findings if finding.kind == "headline")
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
-        failing = [name for name, verdict in verdicts.items() if Verdict(verdict).is_failure]
+        failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
         inferred = product(self.ledger.inferred, (False, True))
         return r.Record(

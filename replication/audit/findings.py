@@ -26,7 +26,8 @@ from replication.audit import record as r
 from replication.audit import wording
 from replication.audit.explain import Explainer
 from replication.audit.inference import Admission
-from replication.audit.verdict import Assessment, Judge, Reading, Verdict, assess_equation
+from replication.audit.record import Verdict
+from replication.audit.verdict import Assessment, Judge, Reading, assess_equation
 from replication.models import depth, estimates, sheet
 from replication.models.impact import Impact
 

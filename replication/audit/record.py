@@ -22,7 +22,37 @@ ExactEnds = tuple[str | None, str | None]
 """The same as exact fractions, such as "1533/200"."""
 
 
-class _Part(msgspec.Struct, kw_only=True, frozen=True):
+class Verdict(StrEnum):
+    """What the audit can say of a claim."""
+
+    REPRODUCED = "reproduced"
+    WITHIN_ROUNDING = "reproduced within input rounding"
+    NOT_REPRODUCED = "not reproduced"
+    UNDECIDED = "undecided"
+    CONSISTENT = "consistent"
+    INCONSISTENT = "inconsistent"
+    AGREES = "agrees with public sources"
+    DIFFERS = "differs from public sources"
+    REMARK = "remark, quantified"
+    NOT_CHECKABLE = "not checkable"
+
+    @property
+    def is_failure(self) -> bool:
+        """Whether the number contradicts what the report prints; the exit code tells of these."""
+        return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it fails or does not plainly come out as printed; explanations are tried."""
+        return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether it is open or differs from the sources; `power` takes these as noticed."""
+        return self.is_open or self is Verdict.DIFFERS
+
+
+class _Part(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_fields=True):
     """A part of the record."""
 
 
@@ -38,7 +68,7 @@ class Judged(_Part, frozen=True):
     choices: str
     header: str
     scheme: str
-    verdict: str
+    verdict: Verdict
     enclosure: Ends
     enclosure_exact: ExactEnds
 
@@ -58,7 +88,7 @@ class ReadingRecord(_Part, frozen=True):
 
     name: str
     summary: str
-    verdict: str
+    verdict: Verdict
     computed: float
     reference: str
     enclosure: Ends
@@ -143,7 +173,10 @@ class Shown(_Part, frozen=True):
 
 
 class ClaimRecord(_Part, frozen=True):
-    """One printed number with its verdict and proof; numbers in the claim's unit."""
+    """One printed number with its verdict and proof; numbers in the claim's unit.
+
+    `computed` is a double, whose last digits may lie outside the proven `enclosure`.
+    """
 
     id: str
     title: str
@@ -159,7 +192,7 @@ class ClaimRecord(_Part, frozen=True):
     interval: Ends | None
     interval_exact: ExactEnds | None
     interval_text: str | None
-    verdict: str
+    verdict: Verdict
     restates: str | None
     computed_by: str | None
     computed: float | None
@@ -190,7 +223,7 @@ class ConstantRecord(_Part, frozen=True):
     """A constant of an equation: the verdict, and the values that would pass every check."""
 
     claim: str
-    verdict: str
+    verdict: Verdict
     needed: list[str]
 
 
@@ -205,7 +238,7 @@ class EquationRecord(_Part, frozen=True):
     mathml: str
     kind: str
     follows_from: str
-    verdict: str
+    verdict: Verdict
     factor: str | None
     constants: list[ConstantRecord]
     explanation: str
@@ -397,4 +430,5 @@ def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
 
 def schema() -> dict[str, Any]:
     """The JSON Schema of `audit.json`."""
-    return msgspec.json.schema(Record)
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return dialect | msgspec.json.schema(Record)

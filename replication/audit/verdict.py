@@ -1,7 +1,6 @@
 """The verdicts: whether a printed number or equation follows from what the report prints."""
 
 from collections.abc import Iterator, Mapping
-from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice, product
@@ -19,40 +18,10 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger, in_header
 from reference.printed import Interval, Rounding
 from reference.units import Dimension, DimensionError
 from replication.audit.inference import Inference
-from replication.audit.record import ConstantRecord
+from replication.audit.record import ConstantRecord, Verdict
 from replication.audit.replica import replica
 
 _REALS, _RATIONALS = Reals(50), Rationals()
-
-
-class Verdict(StrEnum):
-    """What the audit can say of a claim."""
-
-    REPRODUCED = "reproduced"
-    WITHIN_ROUNDING = "reproduced within input rounding"
-    NOT_REPRODUCED = "not reproduced"
-    UNDECIDED = "undecided"
-    CONSISTENT = "consistent"
-    INCONSISTENT = "inconsistent"
-    AGREES = "agrees with public sources"
-    DIFFERS = "differs from public sources"
-    REMARK = "remark, quantified"
-    NOT_CHECKABLE = "not checkable"
-
-    @property
-    def is_failure(self) -> bool:
-        """Whether the number contradicts what the report prints; the exit code tells of these."""
-        return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it fails or does not plainly come out as printed; explanations are tried."""
-        return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
-
-    @property
-    def is_doubtful(self) -> bool:
-        """Whether it is open or differs from the sources; `power` takes these as noticed."""
-        return self.is_open or self is Verdict.DIFFERS
 
 
 class Judgement(msgspec.Struct, frozen=True):

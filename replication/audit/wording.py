@@ -6,8 +6,8 @@ from fractions import Fraction
 from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si
-from replication.audit.record import ConstantRecord, Shown, SourceRecord
-from replication.audit.verdict import Assessment, EquationAssessment, Judge, Reading, Verdict
+from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
+from replication.audit.verdict import Assessment, EquationAssessment, Judge, Reading
 from replication.text import between, number, quantity
 
 REMARK = "A remark, no number: the figures below are what it can be judged by."

@@ -688,7 +688,10 @@ def _as_rounded(f: Examination) -> None:
     printed = Case(**{each.name: report[each.name] for each in fields(Case) if each.name in report})
     if not any(_misprints(f, march(printed, steps=f.table.steps))):
         f.intended, f.rows = printed, replace(f.rows, case=printed)
-        f.inputs = {role: each for role, each in f.inputs.items() if near(each.si, report[role])}
+        f.inputs, f.derived = (
+            {role: each for role, each in entries.items() if near(each.si, report[role])}
+            for entries in (f.inputs, f.derived)
+        )
     runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
     # Some rules need another brake to go with them: by themselves they give no rows.
     tried = [

@@ -191,7 +191,7 @@ _HALVINGS = 3
 
 
 def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
-    """The largest step, to 1 %, that gives so many correct digits, as its halvings do.
+    """A step that gives so many correct digits, as its halvings do, and one 1 % longer that fails.
 
     Correct means: within half a unit of that digit of the exact depth at rest. Where the last row
     falls is an accident, so single steps in between may do better or worse. Gives `digits`, `step`,
@@ -286,8 +286,9 @@ def text(result: dict[str, Any]) -> str:
     if met := result["digits"]:
         digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"
         lines.append(
-            f"{digits}: largest step {number(met['step'] * 1e9, 5)} ns "
-            f"({met['steps']} steps, error {_um(met['error'], 3)} um); "
-            f"{number(met['fails'] * 1e9, 5)} ns fails."
+            f"{digits}: {number(met['step'] * 1e9, 5)} ns ({met['steps']} steps, "
+            f"error {_um(met['error'], 3)} um) and its halvings; "
+            f"{number(met['fails'] * 1e9, 5)} ns fails.\n"
+            "Steps between them may do better or worse: where the last row falls is an accident."
         )
     return "\n".join(lines)

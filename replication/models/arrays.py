@@ -368,6 +368,9 @@ def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
 
     if names := _of("pandas", inputs):
         raise TypeError(f"{names[0]} is a pandas object: beside an xarray array give its values")
+    for name, value in inputs.items():
+        if isinstance(value, xarray.Dataset):
+            raise TypeError(f"{name} is a Dataset: give its variables, each a DataArray")
     # The result has neither the units nor the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)

@@ -63,6 +63,8 @@ class Impact:
             if value is None and field.default is None:
                 continue
             try:
+                if isinstance(value, str | bytes | bool):
+                    raise TypeError(f"not {value!r}")
                 inputs[name] = float(value)
             except (TypeError, ValueError, OverflowError) as error:
                 raise InputError(name, f"must be one number, in SI units: {error}") from error

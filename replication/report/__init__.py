@@ -18,8 +18,7 @@ import msgspec
 
 from reference import findings as asserted
 from reference.ledger import INFERRED, Ledger, in_header
-from replication.audit.record import ClaimRecord, Record
-from replication.audit.verdict import Verdict
+from replication.audit.record import ClaimRecord, Record, Verdict
 from replication.power import measured
 from replication.report import words as told
 from replication.report.figures import draw

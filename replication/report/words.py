@@ -15,7 +15,7 @@ from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
 from replication.audit.comparison import SHARES
-from replication.audit.verdict import Verdict
+from replication.audit.record import Verdict
 from replication.cases import INPUTS
 from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded

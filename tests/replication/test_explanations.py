@@ -17,7 +17,8 @@ from replication.audit.explain import (
     edits,
     equation_edits,
 )
-from replication.audit.verdict import Judge, Verdict, assess_equation, follows
+from replication.audit.record import Verdict
+from replication.audit.verdict import Judge, assess_equation, follows
 from replication.power import Plant, measured, plants, power, trial
 
 # What would explain a failing number: back-solved inputs, misprints, slips, a common culprit

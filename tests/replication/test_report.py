@@ -35,8 +35,7 @@ from replication import report
 from replication import text as texts
 from replication.audit import comparison
 from replication.audit.audit import audit
-from replication.audit.record import Figure, Record, filled, schema
-from replication.audit.verdict import Verdict
+from replication.audit.record import Figure, Record, Verdict, filled, schema
 from replication.cases import BETA_5
 from replication.models import depth
 from replication.models.impact import Impact
@@ -63,6 +62,9 @@ def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> 
         assert not validator.is_valid({**small, "claims": [spoiled]}), key
         wrong = {**spoiled, key: True}  # no key is a truth value
         assert not validator.is_valid({**small, "claims": [wrong]}), key
+    for more in ({"unknown": 1}, {"verdict": "maybe"}):
+        claim = {**document["claims"][0], **more}
+        assert not validator.is_valid({**small, "claims": [claim]}), more
 
 
 # What is checked by hand

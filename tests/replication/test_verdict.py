@@ -13,9 +13,9 @@ from reference.ledger import Convention, load
 from replication.audit import verdict, wording
 from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
-from replication.audit.record import Record, SlipRecord
+from replication.audit.record import Record, SlipRecord, Verdict
 from replication.audit.replica import replica
-from replication.audit.verdict import Assessment, Judge, Judgement, Verdict
+from replication.audit.verdict import Assessment, Judge, Judgement
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
