@@ -497,8 +497,9 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     """How far a run can be trusted (2; 1: all but its last velocity; 0: not), and what to say."""
     kinds = doubts_about(sheet).keys()
     trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
-    message = ("doubtful", "reversed", "early" if "short" in kinds else "complete")[trust]
-    return trust, MESSAGES[message if sheet.steps else "no_steps"]
+    doubtful = "no_steps" if sheet.steps == 0 else "one_step" if sheet.steps == 1 else "doubtful"
+    message = (doubtful, "reversed", "early" if "short" in kinds else "complete")[trust]
+    return trust, MESSAGES[message]
 
 
 def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
