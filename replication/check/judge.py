@@ -689,7 +689,11 @@ def _as_rounded(f: Examination) -> None:
     if not any(_misprints(f, march(printed, steps=f.table.steps))):
         f.intended, f.rows = printed, replace(f.rows, case=printed)
         f.inputs, f.derived = (
-            {role: each for role, each in entries.items() if near(each.si, report[role])}
+            {
+                role: each
+                for role, each in entries.items()
+                if near(each.si, report[role]) or near(each.si, getattr(printed, role, 0.0))
+            }
             for entries in (f.inputs, f.derived)
         )
     runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
