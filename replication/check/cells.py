@@ -85,6 +85,8 @@ def wrong_beside(f: Examination) -> Wrong | None:
         units = [needed[k][0] / number for k, number in numbers.items()]
         if len(units) < LEAST or power_of_ten(units[0]) is None:
             continue
+        if all(power_of_ten(needed[k][1] / number) is not None for k, number in numbers.items()):
+            continue  # it is right, in whatever unit
         wrong = {k for k in numbers if not near(*needed[k])}
         if wrong and all(near(unit, units[0]) for unit in units):
             return Wrong(line, wrong, f"this {what}")

@@ -109,14 +109,17 @@ def find(
     return replace(examination, read=frozenset(read), derived=derived, unread=single)
 
 
+_OF_MATERIALS = frozenset({"particle_density", "target_density", "flow_stress"})
+
+
 def _own(
     cells: Sequence[Input], f: Examination, read: Collection[Position], elsewhere: Set[Position]
 ) -> Input | None:
     """Of cells for one input that a table does not read the one that it should; None if not clear.
 
     What another table reads is this one's only if it stands among this one's inputs with the value
-    that the rows take, or is a flow stress, which tables share. Of several, it is the nearest to
-    cells that the table reads.
+    that the rows take, or is a property of the materials, which tables share. Of several, it is the
+    nearest to cells that the table reads.
     """
     used = f.inputs.get(cells[0].role)
     sheets = {f.table.sheet, *(place[0] for place in read)}
@@ -131,7 +134,7 @@ def _own(
         cell: rank(cell)
         for cell in cells
         if not elsewhere or (cell.place and cell.place[0] in sheets)
-        if cell.place not in elsewhere or cell.role == "flow_stress" or not rank(cell)[0]
+        if cell.place not in elsewhere or cell.role in _OF_MATERIALS or not rank(cell)[0]
     }
     nearest = [cell for cell in ranks if ranks[cell] == min(ranks.values())]
     return nearest[0] if len(nearest) == 1 else None

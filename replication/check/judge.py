@@ -465,8 +465,7 @@ def _taken_otherwise(f: Examination) -> None:
     """Inputs whose cells the rows do not read, and for which they take another value."""
     for entry in f.unread:
         used = f.inputs.get(entry.role)
-        diameter = f.inputs.get("diameter") if entry.role == "radius" else None
-        if used is None or used.place or (used.how == "follows" and diameter is None):
+        if used is None or used.place or used.how == "follows":
             continue  # its cell, or those that it follows from, are known
         if entry.place is None or min(used.si, entry.si) <= 0:
             continue
@@ -475,9 +474,7 @@ def _taken_otherwise(f: Examination) -> None:
         if math.isclose(used.si, entry.si, rel_tol=1e-6):
             continue
         cells = _typing(f, used.si) or [entry.place]
-        if diameter and diameter.place:
-            cells = [diameter.place]
-        elif entry.role == "velocity":
+        if entry.role == "velocity":
             cells = f.cells(f.table.speed, min(f.rows.columns[f.table.speed]))[:1]
         where = address(entry.place, entry.place[0] != cells[0][0])
         here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
@@ -544,7 +541,11 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
         values = {wanted for wanted in (entry.si, value) if not _plain(wanted)}
         if entry.role == "step":  # the first row takes half of it, be it 1e-10 s, which is no unit
             halves = (entry.si / 2, value / 2)
-            values |= {h for h in halves if not _plain(h) or (k == 1 and power_of_ten(h) in _ODD)}
+            values |= {
+                h
+                for h in halves
+                if not _plain(h) or ((role, k) == ("depth", 1) and power_of_ten(h) in _ODD)
+            }
         typed = any(near(*pair) for pair in product(values, formula.literals))
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != entry.place for cell in read)

@@ -67,8 +67,8 @@ def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str,
     (f,) = read
     if stops_elsewhere(f) or result.place in f.calculation.unknown:
         return False
-    meant = [g for g in tables if all(_has(g, *each) for each in named.items())]
-    unlike = next((role for role in named if not _has(f, role, named[role])), None)
+    meant = [g for g in tables if all(has_input(g, *each) for each in named.items())]
+    unlike = next((role for role in named if not has_input(f, role, named[role])), None)
     return _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f)
 
 
@@ -176,7 +176,7 @@ def _said_beside(
     beside = {result.place: _numbers_beside(values, result) for result in group}
     for name in sorted({name for numbers in beside.values() for name in numbers}):
         named = {place: numbers[name] for place, numbers in beside.items() if name in numbers}
-        if all(any(_has(f, name, number) for f in tables) for number in named.values()):
+        if all(any(has_input(f, name, number) for f in tables) for number in named.values()):
             for place, number in named.items():
                 said.setdefault(place, {})[name] = number
     listed = [tuple(said[place].items()) for place in beside if place in said]
@@ -204,7 +204,7 @@ def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[st
     return {role: values.pop() for role, values in numbers.items() if len(values) == 1}
 
 
-def _has(f: Examination, role: str, number: float) -> bool:
+def has_input(f: Examination, role: str, number: float) -> bool:
     """Whether a number is an input of a table, in any unit."""
     value = _number(f, role)
     return value > 0 and power_of_ten(number / value) is not None

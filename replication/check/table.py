@@ -7,7 +7,7 @@ constant, and the velocity falls by the deceleration times that constant, whatev
 
 import math
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -275,13 +275,19 @@ def _left_out(
     line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
 ) -> tuple[int, ...]:
     """Rows (or columns) without numbers in the midst of formulas that step over them."""
-    gaps = {here: before for before, here in pairwise(used) if here - before > 1}
+    numbers = defaultdict[int, list[int]](list)
+    for number, at in places:
+        numbers[at].append(number)
     stepped: set[int] = set()
-    for number, here in places:
-        if (before := gaps.get(here)) is not None:
-            stepping = replace(line, number=number)
-            if stepping.reads_cell(here, before) and stepping.reads_cell(before, before - 1):
-                stepped.update(range(before + 1, here))
+    for before, here in pairwise(used):
+        along = (replace(line, number=number) for number in numbers[before])
+        going = [
+            each for each in along if here - before > 1 and each.reads_cell(before, before - 1)
+        ]
+        # Below, a table goes on in all of them, and does not only show its last row again.
+        goes_on = any(each.reads_cell(here + 1, here) for each in going)
+        if goes_on and all(each.reads_cell(here, before) for each in going):
+            stepped.update(range(before + 1, here))
     return tuple(sorted(stepped))
 
 
@@ -549,15 +555,13 @@ def _score(depth: Line, speed: Line) -> float:
     rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
     if len(rows) < LEAST:
         return 0.0
-    grows, named = depth.reads(depth, 1), ("depth" in depth.roles) + speed.is_speed
-    # Where both are named, their numbers may be rounded to three digits.
-    close = 10 * _CLOSE if named == 2 else _CLOSE
-    pairs = ((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
-    fit = _constant(pairs, close)
+    fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
+    grows = depth.reads(depth, 1)
     given = (depth.given is not None) + (speed.given is not None)
     # A velocity that ends higher than it began is the axis of a curve.
     if not grows and not given and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
         return 0.0
+    named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
     reads = depth.reads(speed, 0) or depth.reads(speed, 1)
     return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given

@@ -19,7 +19,7 @@ from replication.check.inputs import (
     report_inputs,
 )
 from replication.check.judge import judge
-from replication.check.results import misread
+from replication.check.results import has_input, misread
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
 from replication.check.twins import meant
 from replication.check.words import (
@@ -29,6 +29,7 @@ from replication.check.words import (
     count,
     input_roles,
     is_unit,
+    number_in,
 )
 from replication.reading import place as named
 from replication.reading import quoted
@@ -262,7 +263,7 @@ def _without_numbers(calculation: Calculation) -> Iterator[Difference]:
             if len(cells) > LEAST and {*map(calculation.number, cells)} == {None}:
                 error = calculation.error(cells[0])
                 kind, says = "not calculated", f"below {quoted(text)} no formula gives a number"
-                if error:
+                if error == "#VALUE!":  # a text stands where a number should
                     kind, says = "odd formula", f"below {quoted(text)} formulas give {error}"
                 says += ": no table is found there"
                 difference = Difference(kind, (cells[0],), None, error, says, (8,))
@@ -309,7 +310,9 @@ def _held(f: Examination, sheets: Sequence[str]) -> Iterator[HeldNumber]:
             if name in load().claims and k in column:
                 yield _judged(name, f.table.place(role, k), Fraction(column[k]))
     lone, here = len(sheets) == 1, f.table.sheet if sheets.count(f.table.sheet) == 1 else None
-    results = [each for each in f.table.results if lone or each.place[0] == here]
+    results = [
+        each for each in f.table.results if lone or (each.place[0] == here and _is_own(f, each))
+    ]
     yield from _results(f, case, results)
 
 
@@ -330,6 +333,13 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
+
+
+def _is_own(f: Examination, result: Result) -> bool:
+    """Whether a result on a table's sheet is not said to be of another, nor computed from it."""
+    role, number = number_in(str(f.calculation.values[result.label]))
+    of_table = result.place not in f.calculation.formulas or f.table.gives_depth(result.place)
+    return of_table and (role is None or has_input(f, role, number))
 
 
 def _is_another_ratio(f: Examination, place: Position) -> bool:
