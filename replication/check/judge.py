@@ -326,10 +326,10 @@ def _typing(f: Examination, value: float) -> list[Position]:
 
 def _lost(f: Examination, role: str, cells: Sequence[Position], source: Position) -> None:
     """That an input's value is typed into cells, and a change of the cell that has it is lost."""
-    line = next(line for line in f.table.every_line if line.covers(cells[0]))
-    columns = {line: title(name) for name, line in f.table.lines.items()}
+    role_there, _ = f.table.places.get(cells[0], ("", 0))
+    helper = next((line for line in f.table.helpers if line.covers(cells[0])), None)
     where = address(source, with_sheet=source[0] != cells[0][0])
-    into = columns.get(line, f"the column of {address(line.cells[0])}")
+    into = f"the column of {address(helper.cells[0])}" if helper else title(role_there)
     text = f"{title(role)} is typed into {into}: a change of {where} is lost"
     f.add("typed constant", cells, where, text, f.calculation.book[cells[0]].formula)
 
@@ -527,6 +527,8 @@ def _texts(f: Examination) -> None:
 def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, and does not read the input's cell."""
     formula, value = f.calculation.formulas.get(place), f.calculation.number(entry.place)
+    if role and k == 0 and 0 not in f.rows.columns[role]:
+        return False  # a head above the first row
     if formula is None:
         # The impact velocity typed into the first row, while its own cell is read by nothing.
         first = entry.role == "velocity" and role.startswith("velocity") and k <= 1
