@@ -98,12 +98,12 @@ def wrong_beside(f: Examination) -> Wrong | None:
 
 def each_cell(f: Examination) -> None:
     """Every cell that is not what those before it give, and every cell unlike its column."""
-    odd = _unlike(f)
+    beside = wrong_beside(f)
+    odd = _unlike(f, beside)
     areas = (area for place in f.table.places for area in f.calculation.areas(place))
     read = {area.corner for area in areas if area.cells == 1}
     spoilt, accused = _spoilt(f, odd.keys() - f.table.places.keys()), f.accused
     wrong: dict[Position, tuple[str, str, float | None]] = {}
-    beside = wrong_beside(f)
     for place, (role, k) in f.table.places.items():
         expected = f.rows.wanted(role, k)
         if place in odd:
@@ -229,7 +229,7 @@ def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
     return text
 
 
-def _unlike(f: Examination) -> dict[Position, tuple[str, str]]:
+def _unlike(f: Examination, beside: Wrong | None) -> dict[Position, tuple[str, str]]:
     """Cells unlike their column, with kind and explanation; but not right ones among wrong ones."""
     odd = {p: why for line in f.table.every_line for p, why in irregular(line, f.table)}
     for role in {f.table.places[place][0] for place in odd.keys() & f.table.places.keys()}:
@@ -237,7 +237,7 @@ def _unlike(f: Examination) -> dict[Position, tuple[str, str]]:
         fails = {place: _fails_at(f, place) for place in cells}
         if any(fails[place] for place in cells if place not in odd):
             odd = {place: why for place, why in odd.items() if fails.get(place) is not False}
-    if beside := wrong_beside(f):
+    if beside:
         wrong, cells = set(beside.cells(f)), beside.line.cells
         odd = {place: why for place, why in odd.items() if place in wrong or place not in cells}
     return odd

@@ -209,6 +209,11 @@ class Examination:
         """The column that shows a part of the scheme."""
         return self.table.lines[self.rows.shows(part, 1)[0]]
 
+    @property
+    def start(self) -> Position:
+        """The cell of the first velocity."""
+        return self.table.place(self.table.speed, min(self.rows.columns[self.table.speed]))
+
     def cells(self, role: str, first: int) -> list[Position]:
         """The cells of a column from a row on."""
         return [self.table.place(role, k) for k in range(first, max(first, self.table.steps) + 1)]

@@ -67,16 +67,17 @@ def find(
     table: Table,
     candidates: Sequence[Input],
     mapped: Mapping[str, Position],
-    elsewhere: Set[Position] = frozenset(),
+    read: Mapping[Position, int],
+    elsewhere: Set[Position],
 ) -> Examination:
     """What is known of a table before it is judged.
 
     `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named,
-    `elsewhere` the cells that other tables read. Raises ValueError, saying what to give, when two
-    cells could be the same input and the rows do not decide.
+    `read` the cells that it reads, as `read_beside` gives them, `elsewhere` those that other tables
+    read. Raises ValueError, saying what to give, when two cells could be the same input and the
+    rows do not decide.
     """
     calculation = table.calculation
-    read = read_beside(table)
     reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
     reads = _told_by_mass(_not_made_of(reads, calculation), calculation)
     nearest = {

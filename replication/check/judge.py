@@ -339,7 +339,7 @@ def _repeated(f: Examination, role: str, value: float, told: str) -> None:
     part, taken = "advance" if role == "step" else "brake", getattr(f.case, role)
     cells = f.cells(*f.rows.shows(part, 1))
     if role == "velocity":
-        cells = f.cells(f.table.speed, min(f.rows.columns[f.table.speed]))[:1]
+        cells = [f.start]
     text = f"the rows take {quantity(taken, role)} for {title(role)}, "
     text += f"and so repeat another table; {told}"
     f.intended = f.intended.with_input(role, value)
@@ -428,6 +428,7 @@ def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[floa
 def _other_inputs(f: Examination) -> None:
     """Other inputs than the report's; a single one that is a power of ten off has a wrong unit."""
     report, density = report_inputs(), f.inputs["particle_density"]
+    told = {entry.role for entry in f.unread}  # by `_taken_otherwise`, if in no cell that is read
     lone_mass = density.how == "follows" and not near(density.si, report["particle_density"][0])
     off = {
         role: entry
@@ -435,8 +436,7 @@ def _other_inputs(f: Examination) -> None:
         if role in report and entry.how not in ("report", "assumed", "follows")
         if getattr(f.intended, role, entry.si) == entry.si
         if role != "mass" or lone_mass
-        if entry.place
-        or role not in {stated.role for stated in f.unread}  # told by `_taken_otherwise`
+        if entry.place or role not in told
         if not any(math.isclose(entry.si, value, rel_tol=1e-12) for value in report[role])
     }
     for role, entry in off.items():
@@ -475,13 +475,12 @@ def _taken_otherwise(f: Examination) -> None:
             continue
         cells = _typing(f, used.si) or [entry.place]
         if entry.role == "velocity":
-            cells = f.cells(f.table.speed, min(f.rows.columns[f.table.speed]))[:1]
+            cells = [f.start]
         where = address(entry.place, entry.place[0] != cells[0][0])
         here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
         text = f"{title(entry.role)} is {here} in {where}, but the rows take {there}"
-        change, formula = _changed(entry.role, used.si, used.si / entry.si), None
-        if cells[0] != entry.place:
-            formula = f.calculation.book[cells[0]].formula
+        change = _changed(entry.role, used.si, used.si / entry.si)
+        formula = f.calculation.book[cells[0]].formula
         f.add("typed constant", cells, None, text, formula, change)
         f.intended = f.intended.with_input(entry.role, entry.si, entry.si / used.si)
 
@@ -541,20 +540,19 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
         typed = any(sign in ("<", "<=", ">", ">=") and to == f"{value:g}" for sign, to in pairs)
     else:
         values = {wanted for wanted in (entry.si, value) if not _plain(wanted)}
-        if entry.role == "step":  # the first row takes half of it, be it 1e-10 s, which is no unit
-            halves = (entry.si / 2, value / 2)
-            values |= {
-                h
-                for h in halves
-                if not _plain(h) or ((role, k) == ("depth", 1) and power_of_ten(h) in _ODD)
-            }
+        if entry.role == "step":
+            halves, is_first = {entry.si / 2, value / 2}, (role, k) == ("depth", 1)
+            # The first row takes half of it, be it 1e-10 s, which lies between no units of time.
+            values |= {h for h in halves if not _plain(h) or (is_first and _is_between_none(h))}
         typed = any(near(*pair) for pair in product(values, formula.literals))
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != entry.place for cell in read)
 
 
-_ODD = frozenset({-11, -10, -8, -7, -5, -4, -1})
-"""Powers of ten by which nobody converts times to seconds."""
+def _is_between_none(factor: float) -> bool:
+    """Whether a factor is a power of ten by which nobody converts times to seconds."""
+    power = power_of_ten(factor)
+    return power is not None and not between_units(power, "step", surely=True)
 
 
 def _plain(value: float) -> bool:

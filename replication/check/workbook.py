@@ -101,9 +101,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         if not read_tables:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
-        reads = [set(read_beside(table)) for table in read_tables]
+        reads = [read_beside(table) for table in read_tables]
         examinations = [
-            find(table, beside, cells, set().union(*reads[:n], *reads[n + 1 :]))
+            find(table, beside, cells, reads[n], set().union(*reads[:n], *reads[n + 1 :]))
             for n, table in enumerate(read_tables)
         ]
     repeating = meant(examinations, beside)
