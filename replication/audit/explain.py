@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from string import digits
 
@@ -74,6 +74,7 @@ class Explainer:
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
+        self._repairs_by = cache(self._edited)  # a culprit is looked for among the same edits
 
     def _screens(self, ledger: Ledger) -> list[Screen]:
         """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
@@ -160,21 +161,31 @@ class Explainer:
 
     def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
         """The edits of these entries that make a claim or an equation agree, best first."""
-        kinds, repairs = (*NUMBER_EDITS, *EQUATION_EDITS), []
-        for entry in entries:
-            title, printed = self.ledger.title(entry), self.ledger.printed_text(entry)
-            for text, kind in edits_of(self.ledger, entry):
-                changed = self.ledger.misprint(entry, text)
-                if (reading := self._agreeing(name, entry, changed)) is not None:
-                    failing = sorted(self._failing(entry, changed))
-                    repairs.append(
-                        RepairRecord(entry=entry, title=title, reading=reading, printed=printed,
-                                     text=text, kind=kind, failing=failing)
-                    )  # fmt: skip
+        kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
+        repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
         repairs.sort(key=lambda r: (
             r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
         ))  # fmt: skip
         return repairs[:_SHOWN]
+
+    def _edited(self, name: str, entry: str) -> list[RepairRecord]:
+        """The edits of an entry that make a claim or an equation agree."""
+        repairs, title = [], self.ledger.title(entry)
+        for text, kind in edits_of(self.ledger, entry):
+            changed = self.ledger.misprint(entry, text)
+            if (reading := self._agreeing(name, entry, changed)) is not None:
+                repairs.append(
+                    RepairRecord(
+                        entry=entry,
+                        title=title,
+                        reading=reading,
+                        printed=self.ledger.printed_text(entry),
+                        text=text,
+                        kind=kind,
+                        failing=sorted(self._failing(entry, changed)),
+                    )
+                )
+        return repairs
 
     def _suspects(self, name: str) -> set[str]:
         """Where a misprint may be: in it, in its entries, in its equations and their constants."""
