@@ -534,7 +534,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
 
 def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Depths with their velocities, the surest first."""
-    able = [line for line in known if len(line.numbers) >= LEAST]
+    # Errors may end a column with a head in its third row, by a reference that no $ fixes.
+    able = [line for line in known if len(line.numbers) >= LEAST - bool(line.roles)]
     longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
     depths = [x for x in longest if "depth" in x.roles or (x.rises and not x.roles)]
     speeds = [v for v in longest if v.is_speed or (v.falls and not v.roles)]
