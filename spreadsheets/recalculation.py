@@ -378,7 +378,10 @@ def calculate(book: Book) -> Calculation:
             reasons[place] = f"the engine gives {value}"
         else:
             values[place] = value
-    return Calculation(book, formulas, values, reasons, texts)
+    calculation = Calculation(book, formulas, values, reasons, texts)
+    for place in calculation.unknown:
+        values.pop(place, None)  # computed with a blank where a number is not known
+    return calculation
 
 
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")

@@ -139,11 +139,12 @@ def each_cell(f: Examination) -> None:
 def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:
     """Cells whose readers are not to blame, and those beside the table that read them.
 
-    They are `wrong` cells beside the table and those of the table that hold no number, or a text.
+    They are `wrong` cells beside the table, those of the table that hold no number, or a text, and
+    all that are not computed.
     """
     order, values = f.calculation.order, f.calculation.values
     spoilt = wrong | {p for p in f.table.places if isinstance(values.get(p), str | bool)}
-    spoilt |= f.calculation.texts.keys()
+    spoilt |= f.calculation.texts.keys() | f.calculation.unknown
     cells = {place for line in f.table.helpers for place in line.cells}
     for place in sorted(cells & order.keys(), key=order.__getitem__):
         if any(area.corner in spoilt for area in f.calculation.areas(place)):

@@ -247,7 +247,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             if _sums_up(calculation, place, across):
                 continue
             wrong = calculation.error(place) or is_spoiling(place, calculation)
-            if usable is not None or wrong:
+            if usable is not None or wrong or place in calculation.unknown:
                 at -= sum(before < at for before in blank)
                 by_line.setdefault(number, {})[at] = usable
         filled = Counter(at for numbers in by_line.values() for at in numbers)

@@ -214,7 +214,8 @@ def _nothing(calculation: Calculation) -> str:
     instead = sorted(_labelled_texts(calculation) | (spoiling & calculation.spoiling))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
-    for place in sorted(calculation.unknown & calculation.uncomputed.keys())[:1]:
+    uncomputed = sorted(calculation.unknown & calculation.uncomputed.keys())[:1]
+    for place in uncomputed:
         nothing += f"; {address(place, True)} is not computed: {calculation.uncomputed[place]}"
     if first:
         give = "gives an error" if len(wrong) == 1 else "give errors"
@@ -222,6 +223,8 @@ def _nothing(calculation: Calculation) -> str:
         return f"{nothing}; {errors}: {calculation.error(first)}"
     if instead:
         return f"{nothing}: type a number there"
+    if uncomputed:
+        return f"{nothing}: mend it, or save the workbook with a program that computes it"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
     return f"{nothing}: say where they are, such as {such}"
 
@@ -405,7 +408,9 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
         if calculation.book[place].value is None and calculation.values.get(place) != "":
             reasons.setdefault("no value is stored; they are computed here", []).append(place)
     for place, why in calculation.uncomputed.items():
-        reason = f"not computed here, their stored values are taken: {why}"
+        stored = calculation.book[place].value is not None
+        taken = "their stored values are taken" if stored else "nor is a value stored"
+        reason = f"not computed here, {taken}: {why}"
         reasons.setdefault(reason, []).append(place)
     for reason, places in reasons.items():
         formula = calculation.book[places[0]].formula
