@@ -8,7 +8,7 @@ can be matched in several ways, the one that leaves the fewest differences is to
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import groupby, product
@@ -22,7 +22,7 @@ from replication.check.matching import Cell, Shifts, pairings, same_sheets, touc
 from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
-from spreadsheets.recalculation import Calculation, Formula, Piece, calculate, parse
+from spreadsheets.recalculation import Area, Calculation, Formula, Piece, calculate, parse
 
 KINDS = ("added", "removed", "moved", "name", "formula", "value")
 """What `diff` calls the differences that it finds."""
@@ -30,6 +30,8 @@ KINDS = ("added", "removed", "moved", "name", "formula", "value")
 LAST = "only the last digits of the values differ"
 _LAST_DIGITS = 1e-14
 """Relative distance within which that is said: files may keep 15 of them."""
+FOLLOWS = "the values differ, as do "
+"""How it begins where a value follows from another difference."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ def diff(
 
 
 class Comparison:
-    """What `coldspray diff` has found, in order of calculation, and where.
+    """What `coldspray diff` has found, and where: causes in order of calculation, then the rest.
 
     `where` is where each cell of the first workbook is in the second. Places of differences are
     those of the second workbook, if it has them.
@@ -97,8 +99,8 @@ class Comparison:
         rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
         if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
             rank = (1, self.after.order.get(place, -1), kind == "value")
-        if text.startswith(LAST):
-            rank = (2, *rank)
+        if text.startswith((FOLLOWS, LAST)):
+            rank = (3 if text.startswith(LAST) else 2, *rank)
         self.differences.append(Difference(kind, tuple(cells), was, now, text, rank))
 
     # ---- where each cell has gone
@@ -143,18 +145,22 @@ class Comparison:
 
     def size(self) -> int:
         """How many cells differ, but for numbers; a text for another is one gone and one new."""
-        self.contents(values_only=False)
-        return sum(
-            1 if d.kind == "moved" else len(d.cells) * (2 if d.kind == "value" else 1)
-            for d in self.differences
-            if d.kind != "value" or not isinstance(d.found, float)
+        texts = [now for _, now, _ in self.differing(self.values).values()]
+        return (
+            sum(1 if d.kind == "moved" else len(d.cells) for d in self.differences)
+            + len(self.differing(self.formulas))
+            + 2 * sum(not isinstance(now, float) for now in texts)
         )
 
     def left_over(self, kind: str, sheet: str, cells: Iterable[Cell]) -> None:
         """Cells that only one of two sheets has, block by block."""
         what = "new" if kind == "added" else "gone"
         for block in touching(cells):
-            was, now = (None, span(block)) if kind == "added" else (span(block), None)
+            shown: Value | None = span(block)
+            if len(block) == 1:
+                cell = (self.after if kind == "added" else self.before).book[sheet, *block[0]]
+                shown = cell.formula or cell.value
+            was, now = (None, shown) if kind == "added" else (shown, None)
             are = "is" if len(block) == 1 else "are"
             text = f"{count(len(block), 'cell')} {are} {what}"
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
@@ -187,14 +193,39 @@ class Comparison:
     def lines(
         self, name: str, sheet: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
     ) -> None:
-        """Rows or columns that stand so much further down or right, each run of them once."""
-        for by, pairs in groupby(sorted(lines.items()), key=lambda pair: pair[1]):
-            if by:
-                run = [old for old, _ in pairs]
-                was, now = (f"{show(run[0] + d)} to {show(run[-1] + d)}" for d in (0, by))
-                at = run[0] + by
-                place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
-                self.add("moved", [place], was, now, f"{what} {was} of {name!r} are now {now}")
+        """Rows or columns that stand so much further down or right, each run of them once.
+
+        Where all took each other's places, two runs are told as one, and more as another order.
+        """
+        grouped = groupby(sorted(lines.items()), key=lambda pair: pair[1])
+        moved = [(by, [old for old, _ in pairs]) for by, pairs in grouped if by]
+        came = {old + by: old for by, run in moved for old in run}
+        are_same = came.keys() == set(came.values())
+
+        def between(run: Sequence[int], by: int = 0) -> str:
+            first, last = (show(end + by) for end in (run[0], run[-1]))
+            return f"{what[:-1]} {first}" if len(run) == 1 else f"{what} {first} to {last}"
+
+        def tell(at: int, was: str, now: str, text: str) -> None:
+            place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
+            self.add("moved", [place], was, now, text)
+
+        if are_same and len(moved) > 2:
+            every = range(min(came), max(came) + 1)
+            order = ", ".join(show(came.get(at, at)) for at in every)
+            text = f"{between(every)} of {name!r} are in another order"
+            tell(every[0], between(every), f"{what} {order}", text)
+        elif are_same and moved and len(moved[0][1]) == len(moved[1][1]):
+            here, there = (between(run) for _, run in moved)
+            text = f"{here} and {there} of {name!r} have changed places"
+            tell(min(came), here, there, text)
+        else:  # of two that changed places, the longer only gives way
+            for by, run in (
+                [min(moved, key=lambda each: len(each[1]))] if are_same and moved else moved
+            ):
+                was, now = between(run), between(run, by)
+                are = "is" if len(run) == 1 else "are"
+                tell(run[0] + by, was, now, f"{was} of {name!r} {are} now {now}")
 
     def blocks(self, name: str, sheet: str, cells: Sequence[Cell], distance: Cell) -> None:
         """Cells that moved together: one block, if nothing else stood among them."""
@@ -234,35 +265,61 @@ class Comparison:
 
     def contents(self, values_only: bool) -> None:
         """Formulas and values that differ, of cells that both workbooks have."""
-        order = sorted(self.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
-        if not values_only:
-            self.group(order, self.formulas, "formula")
-        self.group(order, self.values, "value")
+        formulas = {} if values_only else self.differing(self.formulas)
+        self.group(formulas, "formula")
+        self.group(self.traced(self.differing(self.values), formulas), "value")
 
-    def group(
-        self,
-        pairs: Sequence[tuple[Position, Position]],
-        compare: Callable[[Position, Position], tuple[Value | None, Value | None, str] | None],
-        kind: str,
-    ) -> None:
-        """Differences of one kind, those of neighbouring cells in a column as one."""
-        differing = {new: differs for old, new in pairs if (differs := compare(old, new))}
-        for run in runs({place: text for place, (*_, text) in differing.items()}):
+    def differing(self, compare: "_Compare") -> "_Differing":
+        """Cells that differ, by their places in the second workbook, column by column."""
+        order = sorted(self.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
+        return {new: differs for old, new in order if (differs := compare(old, new))}
+
+    def traced(self, values: "_Differing", formulas: "_Differing") -> "_Differing":
+        """Values that differ; where they follow from other differences, that is said."""
+        gone = {cell for d in self.differences if d.kind == "removed" for cell in d.cells}
+        changed = {cell for d in self.differences if d.kind == "added" for cell in d.cells}
+        pairs = self.where.items()  # within a tolerance, too
+        changed |= {b for a, b in pairs if _value(self.before, a) != _value(self.after, b)}
+        olds, traced = {new: old for old, new in pairs}, dict(values)
+        for new, (was, now, text) in values.items():
+            areas = [(area, changed) for area in self.after.areas(new)]
+            areas += [(area, gone) for area in self.before.areas(olds[new])]
+            if text == LAST:
+                continue
+            if new in formulas:
+                text = f"{FOLLOWS}the formulas"
+            elif any(_reads(*pair) for pair in areas):
+                text = f"{FOLLOWS}the cells that they read"
+            traced[new] = was, now, text
+        return traced
+
+    def group(self, differing: "_Differing", kind: str) -> None:
+        """Differences of one kind, those of neighbouring cells in a column as one.
+
+        Those in last digits are one.
+        """
+        labels = {place: text for place, (*_, text) in differing.items()}
+        last = [place for place, text in labels.items() if text == LAST]
+        told = runs({place: text for place, text in labels.items() if text != LAST})
+        for run in filter(None, (*told, last)):
             was, now, text = differing[run[0]]
-            after = count(len(run) - 1, "cell")
-            more = f", also in {after} after it" if len(run) > 1 else ""
+            where = "more" if text == LAST else "after it"
+            more = f", also in {count(len(run) - 1, 'cell')} {where}" if len(run) > 1 else ""
             self.add(kind, run, was, now, text + more)
 
-    def formulas(
-        self, old: Position, new: Position
-    ) -> tuple[Value | None, Value | None, str] | None:
+    def formulas(self, old: Position, new: Position) -> "_Differs | None":
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
             if self.alike(a, b):
-                text = "the formulas read the same cells, but $ fixes others of their references"
+                but = (
+                    "$ fixes others of their references"
+                    if "$" in "".join(map(str, texts))
+                    else ("one of them by a name")
+                )
+                text = f"the formulas read the same cells, but {but}"
                 return None if _fixed(a) == _fixed(b) else (*texts, text)
-            text = "the text is the same, but means something else"
+            text = "the text is the same, but what it read is elsewhere now"
             return (*texts, text if texts[0] == texts[1] else "the formulas differ")
         if b:
             return self.before.values.get(old), texts[1], "a formula stands in place of a value"
@@ -291,8 +348,10 @@ class Comparison:
             for old, new in zip(p.area.ends, q.area.ends, strict=True)
         )
 
-    def values(self, old: Position, new: Position) -> tuple[Value | None, Value | None, str] | None:
+    def values(self, old: Position, new: Position) -> "_Differs | None":
         a, b = _value(self.before, old), _value(self.after, new)
+        if old in self.before.unknown or new in self.after.unknown:
+            return None  # not computed: nothing to compare, as the notes say
         if isinstance(a, float) and isinstance(b, float):
             resolution = max(self.before.book.resolution, self.after.book.resolution)
             if self.tolerance.equal(a, b) or abs(a - b) <= resolution:
@@ -301,9 +360,27 @@ class Comparison:
             return a, b, LAST if small else "the values differ"
         if isinstance(a, str) and isinstance(b, str) and a != b:
             return a, b, _unlike(a, b)
-        if type(a) is not type(b) and str(a).upper() == str(b).upper():  # TRUE, and a text of it
-            a, b = (f"'{value}'" if isinstance(value, str) else value for value in (a, b))
-        return None if a == b and type(a) is type(b) else (a, b, "the contents differ")
+        if type(a) is type(b):
+            return None if a == b else (a, b, "the contents differ")
+        # A text that spells a truth value is none.
+        a, b = (
+            f"'{x}'" if str(x).upper() in ("TRUE", "FALSE") and isinstance(x, str) else x
+            for x in (a, b)
+        )
+        return a, b, "the contents differ"
+
+
+_Differs = tuple[Value | None, Value | None, str]
+"""What a cell was, what it is, and how the two differ."""
+_Differing = Mapping[Position, _Differs]
+_Compare = Callable[[Position, Position], _Differs | None]
+
+
+def _reads(area: Area, cells: Collection[Position]) -> bool:
+    """Whether an area covers one of some cells."""
+    if area.cells < len(cells):
+        return any(place in cells for place in area.places())
+    return any(area.covers(place) for place in cells)
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 from functools import cached_property
-from itertools import groupby, takewhile
+from itertools import chain, groupby, takewhile
 from operator import itemgetter
 from typing import TypeVar
 
@@ -22,6 +22,7 @@ _MAX_LINES, _MAX_SHEETS = 4_000, 100
 
 Cell = tuple[int, int]
 T = TypeVar("T")
+K = TypeVar("K", Cell, int)
 
 
 def same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
@@ -93,11 +94,30 @@ def _ways(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> Iterator[dict[Cel
                 {c: a[c] for c in before[line]}, {c: b[c] for c in after[line]}, 0
             ).items()
         }
+    rows = _sorted(old, new)
+    yield {(r, c): (rows[r], c) for r, c in old if r in rows}
 
 
-def _by(cells: Iterable[Cell], key: Callable[[Cell], T]) -> dict[T, list[Cell]]:
-    """Cells in their order, by what they have in common."""
-    by: dict[T, list[Cell]] = {}
+def _sorted(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> dict[int, int]:
+    """Where each row is now that holds the same, all of it, in whatever order they stand.
+
+    What is in none of the other sheet's rows stays where it is.
+    """
+    held = (
+        {row: tuple((cell[1], cells[cell]) for cell in line) for row, line in by_row.items()}
+        for cells in (old, new)
+        for by_row in [_by(cells, itemgetter(0))]
+    )
+    before, after = (_by(lines, lines.__getitem__) for lines in held)
+    pairs = (zip(before[line], after[line], strict=False) for line in before if line in after)
+    rows = dict(chain.from_iterable(pairs))
+    taken = set(rows.values())
+    return {**{row: row for row, _ in old if row not in taken}, **rows}
+
+
+def _by(cells: Iterable[K], key: Callable[[K], T]) -> dict[T, list[K]]:
+    """Cells, or lines, in their order, by what they have in common."""
+    by: dict[T, list[K]] = {}
     for cell in sorted(cells):
         by.setdefault(key(cell), []).append(cell)
     return by

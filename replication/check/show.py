@@ -1,5 +1,6 @@
 """What `check` and `diff` found: one JSON document, and text, page and JUnit file that show it."""
 
+import re
 from base64 import b64encode
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,7 +13,7 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
-from replication.check.diff import LAST, Comparison
+from replication.check.diff import FOLLOWS, LAST, Comparison
 from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
 from replication.check.words import INPUTS, count, unit_text
@@ -53,13 +54,29 @@ def check_record(check: Check) -> dict[str, Any]:
 def diff_record(comparison: Comparison) -> dict[str, Any]:
     """The document of `coldspray diff --json`; `expected` is the first workbook's."""
     differences, calculations = comparison.differences, (comparison.before, comparison.after)
-    cells = sum(len(d.cells) for d in differences if d.kind in ("formula", "value"))
+    cells = {cell for d in differences if d.kind in ("formula", "value") for cell in d.cells}
+    last = {cell for d in differences if d.explanation.startswith(LAST) for cell in d.cells}
     verdict = count(len(differences), "difference")
-    verdict += f", in the contents of {count(cells, 'cell')}" if cells else ""
-    if last := sum(d.explanation.startswith(LAST) for d in differences):
-        verdict += f"; {last:,} of them, listed last, in the last digits only (1e-14 of the number)"
-    verdict = f"{verdict}." if differences else "Equal: every cell holds the same."
-    return _record(calculations, verdict, differences, next(iter(differences), None))
+    if follow := sum(d.explanation.startswith(FOLLOWS) for d in differences):
+        verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from others"
+    verdict += f", in the contents of {count(len(cells), 'cell')}" if cells else ""
+    if last:
+        here = "" if last == cells else f" in {len(last):,} of them"
+        verdict += f"; only the last digits differ{here}: --relative 1e-14 takes these as equal"
+    equal = "Equal: every cell holds the same"
+    if any(c.unknown for c in calculations):
+        equal += ", but for formulas that are not computed"
+    verdict = f"{verdict if differences else equal}."
+    record = _record(calculations, verdict, differences, next(iter(differences), None))
+    for c in calculations:
+        unstored = {place for place in c.formulas if c.book[place].value is None} - c.unknown
+        computed = {place for place in unstored if c.values[place] != ""}
+        for cells, what in ((computed, "are computed here"), (c.unknown, "are not compared")):
+            if cells:
+                some = f"{len(cells):,} of {count(len(c.formulas), 'formula')}"
+                note = f"{c.book.path}: for {some} no value is stored: they {what}"
+                record["notes"].append(note)
+    return record
 
 
 def _record(
@@ -171,6 +188,10 @@ def safe(text: object, limit: int = 90) -> str:
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 
+_PLAIN = re.compile("#|'|TRUE$|FALSE$")
+"""How errors, truth values, and texts that have quotes begin."""
+
+
 def contents(difference: Record) -> str:
     """What a cell holds and what it should hold; of `diff`, what it was and what it is.
 
@@ -183,7 +204,7 @@ def contents(difference: Record) -> str:
     expected, found = ("blank" if value is None else safe(value, 120) for value in values)
     if {type(value) for value in values} == {float, str} and difference["kind"] == "value":
         expected, found = (
-            f"'{shown}'" if isinstance(value, str) and value[:1] != "#" else shown
+            f"'{shown}'" if isinstance(value, str) and not _PLAIN.match(value) else shown
             for value, shown in zip(values, (expected, found), strict=True)
         )
     if difference["kind"] not in KINDS:

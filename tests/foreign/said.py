@@ -192,7 +192,8 @@ def compared(title: str, edits: Edits) -> Iterator[str]:
 def _told(title: str, record: Mapping[str, Any]) -> Iterator[str]:
     yield f"* {title} -> {int(not record['clean'])}"
     lines = show.text(record).split("\n")[1:]
-    yield from (f"  {_shown(line)}".rstrip() for line in lines if line)
+    lines = [line for line in lines if line and "no value is stored" not in line]
+    yield from (f"  {_shown(line)}".rstrip() for line in lines)
 
 
 MOST = 7
