@@ -62,6 +62,8 @@ _BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
     "m": (Fraction(1), _LENGTH, "n u m c k"),
     "in": (_INCH, _LENGTH, ""),
     "inch": (_INCH, _LENGTH, ""),
+    "mil": (_INCH / 1000, _LENGTH, ""),
+    "thou": (_INCH / 1000, _LENGTH, ""),
     "ft": (12 * _INCH, _LENGTH, ""),
     "cc": (Fraction(1, 10**6), (0, 3, 0), ""),
     "s": (Fraction(1), _TIME, "p n u m"),

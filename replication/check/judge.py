@@ -437,7 +437,7 @@ def _other_inputs(f: Examination) -> None:
         if getattr(f.intended, role, entry.si) == entry.si
         if role != "mass" or lone_mass
         if entry.place or role not in told
-        if not any(math.isclose(entry.si, value, rel_tol=1e-12) for value in report[role])
+        if not any(near(entry.si, value) for value in report[role])
     }
     for role, entry in off.items():
         alike = [value for value in report[role] if power_of_ten(entry.si / value) is not None]
@@ -450,7 +450,9 @@ def _other_inputs(f: Examination) -> None:
             if INPUTS[name] == INPUTS[role] and any(near(entry.si, x) for x in values):
                 text += f"; {value} is {title(name)} there"
         kind, change = "other input", None
-        power = power_of_ten(entry.si / nearest) if len(off) == 1 else None
+        power = power_of_ten(entry.si / nearest) or 0
+        if len(off) > 1 and abs(power) < 6:
+            power = 0  # a step of 0.2 ps may be chosen
         if power and between_units(power, role, surely=True):
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, entry.si, entry.si / nearest)

@@ -51,6 +51,7 @@ def is_unit(text: str) -> str | None:
     text = text.lower() if re.fullmatch("[CM]M|KG|[A-Z]+/[A-Z]+[23]?", text) else text
     text = re.sub("[μµ]", "u", text).replace("·", "*").replace("pa", "Pa")
     text = re.sub(r"\bsec\b", "s", text)
+    text = re.sub(r"\bmils\b", "mil", text)
     try:
         to_si(text := "1" if text in ("-", "–", "—") else text)
     except UnitError:
