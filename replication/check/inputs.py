@@ -539,6 +539,9 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     report, speed = report_inputs(), table.speed
     # What the step would be, and what a column would be, if all cells were in SI units.
     step, move = _usual(table, "time"), _usual(table, "depth", speed)
+    depth = table.lines["depth"]
+    if depth.formula(depth.last) and not depth.reads(depth, 1):
+        move = 0.0  # its rows do not add to those before
     brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
     named = {role: unit_power(line.unit) for role, line in table.lines.items()}
     start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
@@ -546,8 +549,13 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed] or 0, _round(impact / start)}
     steps = [inputs["step"].si] if "step" in inputs else []
+    advance = depth.formula(depth.last)
+    place = inputs["step"].place if steps else None
+    is_direct = place is None or advance is None or advance.reads(place)
     if step or move:
         steps.append((step or move) * 10.0 ** _thousands(report["step"][0] / (step or move)))
+    if step and (power := named.get("time")) is not None:
+        steps.append(step * 10.0**power)
     steps = [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]
     options = []
     for power, dt in product(speeds, steps):
@@ -561,10 +569,11 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
             role: _whole(wanted[role], named[role]) if role in wanted else power
             for role in table.lines
         }
-        against = sum(named[role] not in (None, power) for role, power in powers.items())
+        against: float = sum(named[role] not in (None, power) for role, power in powers.items())
         untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
         if step and named.get("time") is not None and "step" in inputs and inputs["step"].si > 0:
-            against += _round(dt / inputs["step"].si) != 0  # the head says so, the cell does not
+            # The head says so, the cell does not, or what converts it for the table.
+            against += (_round(dt / inputs["step"].si) != 0) * (1 if is_direct else 0.5)
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
         options.append(((against, untied, slower + faster), powers))
     return min(options, key=lambda option: option[0])[1]
@@ -668,9 +677,8 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
         if role in unknown:  # a number that some formula has, or the shortest decimal
             near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
             solved[role] = next(near, _shortest(value, 1e-8))
-    brakes = (BRAKES[:2], BRAKES)
-    tries = product(((), *_fed(examination, feeding)), brakes, ["report"], of_report)
-    for fed, rules, how, tried in (*tries, ((), BRAKES[:2], "rows", solved)):
+    tries = product((BRAKES[:2], BRAKES), ((), *_fed(examination, feeding)), ["report"], of_report)
+    for rules, fed, how, tried in (*tries, (BRAKES[:2], (), "rows", solved)):
         case, intended = examination.case, examination.intended
         for role, value in tried.items():
             if value == getattr(case, role):

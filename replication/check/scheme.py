@@ -280,6 +280,14 @@ def _advance(name: str, speed: Callable[[Rows, int], float], says: str = "") -> 
     return Rule(name, lambda r, k: r["depth", k - 1] + speed(r, k) * r.case.step, says)
 
 
+def _by_time(start: float) -> Rule:
+    """A rule for the depth from the velocity and the time, counted in steps from a start."""
+    return Rule(
+        "velocity times time", lambda r, k: r["velocity_initial", k] * (k - start) * r.case.step,
+        "the depth is the velocity times the time; no row adds to the one before",
+    )  # fmt: skip
+
+
 def _mean(rows: Rows, k: int) -> float:
     return (rows["velocity_initial", k] + rows["velocity_final", k]) / 2
 
@@ -296,8 +304,7 @@ ADVANCES = (
              "the depth moves on by the mean of the row's two velocities"),
     _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
              "the depth moves on by the mean of the velocities of the row before"),
-    Rule("velocity times time", lambda r, k: r["velocity_initial", k] * r["time", k],
-         "the depth is the velocity times the time; no row adds to the one before"),
+    _by_time(0.0), _by_time(0.5), _by_time(1.0),
     Rule("half a step alone", lambda r, k: r["velocity_initial", k] * (r.case.step / 2),
          "each depth is that of half a step; no row adds to the one before"),
     _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,

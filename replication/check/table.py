@@ -16,7 +16,15 @@ from statistics import median
 from typing import Literal, NamedTuple
 
 from reference.units import same_dimension
-from replication.check.words import COLUMNS, column_roles, digits_of, is_unit, result_of, unit_in
+from replication.check.words import (
+    COLUMNS,
+    column_roles,
+    digits_of,
+    is_end,
+    is_unit,
+    result_of,
+    unit_in,
+)
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Area, Calculation, Formula
 
@@ -182,7 +190,10 @@ class Line:
             elif text.strip() and not named_unit:
                 if unit is None and (unit := unit_in(text)):
                     place = self.place(at)
-                return replace(self, head=text.strip(), unit=unit, unit_place=place)
+                head, above = text.strip(), self.calculation.values.get(self.place(at - 1))
+                if isinstance(above, str) and is_end(head):  # "Velocity", and "initial" below it
+                    head = f"{above.strip()} {head}"
+                return replace(self, head=head, unit=unit, unit_place=place)
         return replace(self, unit=unit, unit_place=place)
 
 
@@ -559,12 +570,13 @@ def _score(depth: Line, speed: Line) -> float:
     fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
     grows = depth.reads(depth, 1)
     given = (depth.given is not None) + (speed.given is not None)
-    # A velocity that ends higher than it began is the axis of a curve.
-    if not grows and not given and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
-        return 0.0
     named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
     reads = depth.reads(speed, 0) or depth.reads(speed, 1)
+    # A velocity that ends higher than it began is the axis of a curve.
+    sure = grows or given or (named == 2 and reads)
+    if not sure and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
+        return 0.0
     return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given
 
 

@@ -131,6 +131,15 @@ def column_roles(head: str) -> frozenset[str]:
     )
 
 
+def is_end(head: str) -> bool:
+    """Whether a head only says which end of a step it is of.
+
+    >>> is_end("initial"), is_end("v initial")
+    (True, False)
+    """
+    return bool(_words("velocities", _symbol(head))) and not column_roles(head)
+
+
 @cache
 def input_roles(label: str, unit: str | None) -> frozenset[str]:
     """The inputs that a label may name, given the unit beside it, if any.
