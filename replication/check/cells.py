@@ -164,7 +164,8 @@ def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, s
     places = [line.place(at) for at in rows if line.follows(at)]
     calculation = line.calculation
     formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
-    if len(formulas) < max(3, 0.5 * len(places)):
+    begins = formulas.keys() >= set(places[:3])  # and goes on in numbers
+    if len(formulas) < max(3, 0.5 * len(places) * (not begins)):
         return
     # Some people type the number of the row into each formula: then the shapes without numbers.
     for masked in (False, True):

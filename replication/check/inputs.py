@@ -88,9 +88,11 @@ def find(
     choices = _typed_first(nearest, reads, calculation) | _as_mapped(mapped, candidates, table)
     seen = {*read, *calculation.formulas}
     unread = _by_role([c for c in candidates if read and c.label and c.place not in seen], True)
-    # Whoever ends the rows by hand reads the stop velocity with his eyes; and a wrong formula for
-    # the mass need not read the density.
-    for role in ("stop_velocity", "particle_density"):
+    # Whoever ends the rows by hand reads the stop velocity with his eyes; a wrong formula for the
+    # mass need not read the density; and where decelerations are typed, nothing reads an input.
+    brake = table.lines.get("deceleration")
+    is_typed = brake is not None and not any(map(brake.formula, range(brake.first, brake.last + 1)))
+    for role in tuple(unread) if is_typed else ("stop_velocity", "particle_density"):
         idle = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
         if role not in choices and len(idle) == 1:
             choices[role] = idle

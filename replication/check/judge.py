@@ -327,9 +327,9 @@ def _typing(f: Examination, value: float) -> list[Position]:
 def _lost(f: Examination, role: str, cells: Sequence[Position], source: Position) -> None:
     """That an input's value is typed into cells, and a change of the cell that has it is lost."""
     role_there, _ = f.table.places.get(cells[0], ("", 0))
-    helper = next((line for line in f.table.helpers if line.covers(cells[0])), None)
     where = address(source, with_sheet=source[0] != cells[0][0])
-    into = f"the column of {address(helper.cells[0])}" if helper else title(role_there)
+    column = f"{'the column of ' * (len(cells) > 1)}{address(cells[0])}"
+    into = title(role_there) if role_there else column
     text = f"{title(role)} is typed into {into}: a change of {where} is lost"
     f.add("typed constant", cells, where, text, f.calculation.book[cells[0]].formula)
 
@@ -492,6 +492,7 @@ def _typed_inputs(f: Examination) -> None:
     accused, told = f.accused, set[tuple[str, Position]]()
     columns = [(role, f.cells(role, 0)) for role in f.table.lines]
     columns += [("", line.cells) for line in f.table.helpers]
+    columns += [("", [r.place]) for r in f.table.results if f.table.gives_depth(r.place)]
     for entry, (role, places) in product((*f.inputs.values(), *f.unread), columns):
         if entry.place is None:
             continue
