@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from replication.check.examination import NEAR, Examination, near
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
-from replication.check.table import LEAST, Line, Table, address, is_spoiling, runs
+from replication.check.table import FEW, LEAST, Line, Table, address, is_spoiling, runs
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
@@ -121,6 +121,7 @@ def each_cell(f: Examination) -> None:
             if beside and role == "deceleration" and k in beside.rows:
                 place, expected = beside.line.place(f.table.zero + k), None
                 text = beside.says
+            place, text = _converting(f, place, text)
         else:
             continue
         value = f.rows.columns[role].get(k)
@@ -134,6 +135,24 @@ def each_cell(f: Examination) -> None:
     for run in runs(causes, f.table.across):
         kind, text, shown = wrong[run[0]]
         f.add(kind, run, shown, text)
+
+
+def _converting(f: Examination, place: Position, text: str) -> tuple[Position, str]:
+    """The formula beside the table that computes what a first velocity only shows, and what of it.
+
+    Of other cells, themselves, and the text that says what is wrong with them.
+    """
+    role, k = f.table.places.get(place, ("", 0))
+    is_first = role.startswith("velocity") and k <= 1
+    cell, areas = place, f.calculation.areas(place) if is_first else ()
+    for _ in range(FEW):
+        if len(areas) != 1 or areas[0].corner not in f.calculation.formulas:
+            break
+        cell = areas[0].corner
+        areas = f.calculation.areas(cell)
+    if cell in f.table.places or not areas:
+        return place, text
+    return cell, f"{title('velocity')} does not follow from {address(areas[0].corner)}"
 
 
 def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:

@@ -107,6 +107,12 @@ def find(
     left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
     settled = {role: entry for role, entry in examination.inputs.items() if entry.place}
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
+    # Mass and diameter are computed for nothing where their values are typed into the rows.
+    unused = calculation.formulas.keys() - read.keys() - elsewhere if read else ()
+    computed = [c for c in candidates if c.roles & {"mass", "diameter"} and c.place in unused]
+    unread |= {
+        role: them for role, them in _by_role(computed, False).items() if role not in derived
+    }
     own = [_own(cells, examination, read, elsewhere) for cells in unread.values()]
     single = tuple(cell for cell in own if cell)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)

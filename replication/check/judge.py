@@ -39,6 +39,7 @@ from replication.check.words import (
     INPUTS,
     between_units,
     digits_of,
+    input_roles,
     power_of_ten,
     quantity,
     scaled,
@@ -63,6 +64,7 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
     """
     _units(f)
     if f.table.digits is None:
+        _blanks(f)
         drifting(f)
         _calibrate(f)
         _calibrate_step(f)
@@ -77,6 +79,7 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
         _taken_otherwise(f)
         _typed_inputs(f)
         _typed_columns(f)
+        _typed_start(f)
         _texts(f)
         order(f)
     else:
@@ -517,6 +520,35 @@ def _typed_columns(f: Examination) -> None:
             f.add("typed number", cells[role], None, text)
 
 
+def _typed_start(f: Examination) -> None:
+    """A first depth that is typed, where velocity and step have cells and the rest calculates."""
+    place, entries = f.table.place("depth", 1), (f.inputs["velocity"], f.inputs["step"])
+    formulas, cells = f.calculation.formulas, [entry.place for entry in entries if entry.place]
+    is_typed = place not in formulas and f.table.place("depth", 2) in formulas
+    if len(cells) == 2 and is_typed and place not in f.accused and f.calculation.number(place):
+        lost = " or ".join(address(cell, cell[0] != place[0]) for cell in cells)
+        text = f"the first depth is typed as a number: a change of {lost} is lost there"
+        f.add("typed number", [place], None, text)
+
+
+def _blanks(f: Examination) -> None:
+    """Cells that formulas read and that a label calls an input, but which are blank."""
+    values = f.calculation.values
+    for place in sorted(f.read - values.keys()):
+        sheet, row, column = place
+        label = values.get((sheet, row, column - 1))
+        roles = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
+        for role in roles if len(roles) == 1 else ():
+            known = f.inputs.get(role)
+            if known is None or known.place is None:
+                text = f"{title(role)} is blank, which the formulas take for 0"
+                f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))
+                taken = f.following(f.case.with_input(role, 0.0, 0.0))
+                f.rows = max(f, taken, key=Examination.agreement).rows
+                if known:
+                    f.inputs = {**f.inputs, role: replace(known, how="assumed")}
+
+
 def _texts(f: Examination) -> None:
     """Numbers that stand as texts in cells that the rows read."""
     cells = f.calculation.texts.keys() & (f.read | f.table.places.keys())
@@ -652,20 +684,22 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
                 return "unit", f"{text} converted rightly", column
         text = "these cells follow no scheme that this program knows"
         return "other scheme", beside.says if beside else text, column
-    what, base, constant = "step", f.case.step, "the time step"
+    what, slips, constants = "step", dict[str, float](), {"the time step": f.case.step}
     if part == "brake":
-        what, base, constant = "force", math.pi, "pi"
+        what, constants = "force", {"pi": math.pi, "the mass": f.case.mass}
+        slips = {"pi is missing in the force": 1 / math.pi,
+                 "the force is not divided by the mass": f.case.mass}  # fmt: skip
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", column
-    if near(ratio, -1.0):
-        return "other scheme", f"every {what} has the other sign", column
-    if part == "brake" and near(ratio * math.pi, 1.0):
-        return "other scheme", "pi is missing in the force", column
-    for line in (column, *f.table.helpers):
-        formulas = [f.calculation.formulas.get(place) for place in line.cells]
-        numbers = {abs(number) for formula in formulas if formula for number in formula.literals}
-        if any(near(number / base, ratio) for number in numbers):
-            return "typed constant", f"{constant} is typed as {ratio * base:.10g}", line
+    slips[f"every {what} has the other sign"] = -1.0
+    if slip_named := next((says for says, value in slips.items() if near(ratio, value)), None):
+        return "other scheme", slip_named, column
+    for line, (constant, value) in product((column, *f.table.helpers), constants.items()):
+        formulas = filter(None, map(line.calculation.formulas.get, line.cells))
+        for number in sorted({abs(n) for formula in formulas for n in formula.literals} - {0.0}):
+            # What is divided by makes the force larger the smaller it is.
+            if near(value / number if constant == "the mass" else number / value, ratio):
+                return "typed constant", f"{constant} is typed as {number:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
     return "other scheme", f"every {what} is {named} times that of the report's scheme", column
