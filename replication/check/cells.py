@@ -150,9 +150,10 @@ def _converting(f: Examination, place: Position, text: str) -> tuple[Position, s
             break
         cell = areas[0].corner
         areas = f.calculation.areas(cell)
-    if cell in f.table.places or not areas:
+    sources = [area.corner for area in areas]
+    if cell in f.table.places or f.inputs["velocity"].place not in sources:
         return place, text
-    return cell, f"{title('velocity')} does not follow from {address(areas[0].corner)}"
+    return cell, f"{title('velocity')} does not follow from {address(sources[0])}"
 
 
 def _spoilt(f: Examination, wrong: set[Position]) -> set[Position]:

@@ -4,6 +4,7 @@ import math
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from statistics import median
 
 from reference.units import to_si
 from replication.check.examination import Examination, near
@@ -44,6 +45,8 @@ def misread(tables: Sequence[Examination]) -> None:
     One that reads two tables is a difference, and a list whose cells are not said to be of one
     table each may be of all rows.
     """
+    for f in tables:
+        _shown_again(f)
     calculation, wrong = tables[0].calculation, set[Position]()
     results = {result.place: result for f in tables for result in f.table.labelled}
     said = _said(tables, results.values()) if len(tables) > 1 else {}
@@ -54,6 +57,35 @@ def misread(tables: Sequence[Examination]) -> None:
             wrong.add(place)  # it follows from what is accused
         elif place in results and _is_wrong(tables, results[place], said.get(place, {})):
             wrong.add(place)
+
+
+def _shown_again(f: Examination) -> None:
+    """Columns that show the depth in another unit, or over the radius, but not as their heads say.
+
+    Rounded ones are left alone.
+    """
+    for line in f.table.helpers:
+        ratio = result_of(line.head or "") == "ratio"
+        in_unit = unit_power(line.unit) if "depth" in line.roles else None
+        if not ratio and in_unit is None:
+            continue
+        over = f.case.radius if ratio else 1.0
+        pairs = (
+            (line.at(f.table.zero + k), f.rows("depth", k)) for k in range(1, f.table.steps + 1)
+        )
+        factors = [value * over / x for value, x in pairs if value and x]
+        factor = median(factors) if factors else 0.0
+        if sum(near(each, factor) for each in factors) < 0.5 * max(len(factors), 1):
+            continue
+        power, place = power_of_ten(factor), [p for p in line.cells if p in f.calculation.formulas]
+        if ratio and near(factor, 0.5):
+            text = "the column is the depth over the diameter, not over the radius"
+            f.add("odd formula", place, None, text)
+        elif power is not None and power != -(in_unit or 0):
+            size = times_too(power + (in_unit or 0))
+            f.add(
+                "unit", place, None, f"the column is {size} for its head: a unit is not converted"
+            )
 
 
 def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:
@@ -68,6 +100,9 @@ def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str,
     if stops_elsewhere(f) or result.place in f.calculation.unknown:
         return False
     meant = [g for g in tables if all(has_input(g, *each) for each in named.items())]
+    of_label = [each.place for each in f.table.labelled if each.label == result.label]
+    if result.where == "beyond" and sum(map(f.table.gives_depth, of_label)) == 1:
+        result = result._replace(where="first")  # the only one of its table in the row
     unlike = next((role for role in named if not has_input(f, role, named[role])), None)
     return _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f)
 

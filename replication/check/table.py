@@ -531,6 +531,7 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
                 "what --map names belongs to no table of depth and velocity: name both, with as "
                 "many rows"
             )
+    chosen = [table for table in chosen if not _viewed(table, chosen)]
     taken = {line for table in chosen for line in table.lines.values()}
     chosen = [
         replace(
@@ -538,9 +539,8 @@ def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
         )
         for t in chosen
     ]
-    independent = [table for table in chosen if not _viewed(table, chosen)]
     sheets = list(calculation.book.sheets)
-    return sorted(independent, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
+    return sorted(chosen, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
 
 
 def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
@@ -596,10 +596,14 @@ def _nearest(line: Line, chosen: Sequence[Table]) -> Table:
 
 
 def _viewed(table: Table, others: Sequence[Table]) -> bool:
-    """Whether a table only shows what another one holds."""
+    """Whether a table only shows what another one holds, but for some typed cells."""
     shown = {place for another in others if another is not table for place in another.places}
-    depths = (table.place("depth", k) for k in range(1, table.steps + 1))
-    return all(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
+    depths, depth = (
+        [table.place("depth", k) for k in range(1, table.steps + 1)],
+        table.lines["depth"],
+    )
+    views = sum(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
+    return views > 0.9 * len(depths) and not depth.reads(depth, 1)
 
 
 def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
