@@ -697,6 +697,7 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
         agreed = replace(examination.following(case), intended=intended)
         if agreed.agreement(rules) >= 0.5:
             hidden = {role for cell in fed for role in (cell.role, RESTS_ON[cell.role][-1])}
+            hidden.add(max(rules, key=lambda rule: agreed.share("brake", rule)).lacks)
             inputs = dict(examination.inputs)
             for role, value in tried.items():
                 known = "assumed" if role in hidden else "formulas" if value in typed else how

@@ -395,6 +395,8 @@ def _fault_of_derived(
         whole = len(sources) == len(RESTS_ON[role])  # from one factor nothing follows
         if not f.read or not whole or (right and not any(s in f.unread for s in sources)):
             return None
+        if power := power_of_ten(in_si / wanted):
+            return "unit", f"is {times_too(power)} for {rests}"
         lost = "a change there changes nothing"
         return "typed constant", f"is typed as a number, though it rests on {rests}: {lost}"
     if power := power_of_ten(in_si / wanted):
@@ -521,14 +523,18 @@ def _typed_columns(f: Examination) -> None:
 
 
 def _typed_start(f: Examination) -> None:
-    """A first depth that is typed, where velocity and step have cells and the rest calculates."""
-    place, entries = f.table.place("depth", 1), (f.inputs["velocity"], f.inputs["step"])
-    formulas, cells = f.calculation.formulas, [entry.place for entry in entries if entry.place]
-    is_typed = place not in formulas and f.table.place("depth", 2) in formulas
-    if len(cells) == 2 and is_typed and place not in f.accused and f.calculation.number(place):
-        lost = " or ".join(address(cell, cell[0] != place[0]) for cell in cells)
-        text = f"the first depth is typed as a number: a change of {lost} is lost there"
-        f.add("typed number", [place], None, text)
+    """A first velocity or depth that is typed: its inputs have cells, and the rest is computed."""
+    formulas, sources = f.calculation.formulas, ("velocity", "step")
+    for role, of in (("velocity_initial", sources[:1]), ("depth", sources)):
+        if role not in f.table.lines:
+            continue
+        place, cells = f.table.place(role, 1), [f.inputs[name].place for name in of]
+        known = [cell for cell in cells if cell and cell not in f.table.places]
+        is_typed = place not in formulas and f.table.place(role, 2) in formulas
+        if known == cells and is_typed and place not in f.accused and f.calculation.number(place):
+            lost = " or ".join(address(cell, cell[0] != place[0]) for cell in known)
+            text = f"it is typed as a number: a change of {lost} is lost here"
+            f.add("typed number", [place], None, text)
 
 
 def _blanks(f: Examination) -> None:
@@ -537,16 +543,13 @@ def _blanks(f: Examination) -> None:
     for place in sorted(f.read - values.keys()):
         sheet, row, column = place
         label = values.get((sheet, row, column - 1))
-        roles = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
+        named = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
+        roles = [role for role in named if role not in f.inputs or f.inputs[role].place is None]
         for role in roles if len(roles) == 1 else ():
-            known = f.inputs.get(role)
-            if known is None or known.place is None:
-                text = f"{title(role)} is blank, which the formulas take for 0"
-                f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))
-                taken = f.following(f.case.with_input(role, 0.0, 0.0))
-                f.rows = max(f, taken, key=Examination.agreement).rows
-                if known:
-                    f.inputs = {**f.inputs, role: replace(known, how="assumed")}
+            text = f"{title(role)} is blank, which the formulas take for 0"
+            f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))
+            taken = f.following(f.case.with_input(role, 0.0, 0.0))
+            f.rows = max(f, taken, key=Examination.agreement).rows
 
 
 def _texts(f: Examination) -> None:

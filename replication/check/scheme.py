@@ -156,11 +156,12 @@ class Rows:
 
 @dataclass(frozen=True)
 class Rule:
-    """One way to fill a column. `says` completes "here"; the report's own says nothing."""
+    """One way to fill a column, what it says of it (the report's own: nothing), what it `lacks`."""
 
     name: str
     formula: Callable[[Rows, int], float]
     says: str = ""
+    lacks: str = ""
 
 
 def deceleration(
@@ -202,9 +203,15 @@ def orders(case: Case, x: float, v: float) -> set[float]:
     }
 
 
-def _brake(name: str, formula: Callable[[Case, float, float], float], says: str = "") -> Rule:
+def _brake(
+    name: str, formula: Callable[[Case, float, float], float], says: str = "", lacks: str = ""
+) -> Rule:
     """A rule for the deceleration from the row's own depth and initial velocity."""
-    return Rule(name, lambda r, k: formula(r.case, r["depth", k], r["velocity_initial", k]), says)
+
+    def by_row(rows: Rows, k: int) -> float:
+        return formula(rows.case, rows["depth", k], rows["velocity_initial", k])
+
+    return Rule(name, by_row, says, lacks)
 
 
 def _centered(case: Case, x: float, v: float) -> float:
@@ -236,15 +243,15 @@ BRAKES = (
          lambda r, k: deceleration(r.case, r["depth", k - 1], r["velocity_initial", k]),
          "the force is taken at the depth of the row before"),
     _brake("no drag", lambda c, x, v: deceleration(c, x, v, factor=0.0),
-           "the force lacks the term with the target's density"),
+           "the force lacks the term with the target's density", "target_density"),
     _brake("no resistance", lambda c, x, v: deceleration(replace(c, resistance=0.0), x, v),
-           "the force lacks the target's resistance"),
+           "the force lacks the target's resistance", "resistance"),
     _brake("drag without 1/2", lambda c, x, v: deceleration(c, x, v, factor=1.0),
            "the factor 1/2 before the target's density is missing"),
     _brake("drag with the particle's density",
            lambda c, x, v: deceleration(replace(c, target_density=c.particle_density,
                                                 own_mass=c.mass), x, v),
-           "the drag has the particle's density, where the target's belongs"),
+           "the drag has the particle's density, where the target's belongs", "target_density"),
     _brake("drag with v for v²",
            lambda c, x, v: deceleration(c, x, v, factor=0.5 / v if v else 0.0),
            "the drag has the velocity where its square belongs"),
