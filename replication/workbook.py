@@ -10,14 +10,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
-from itertools import chain, pairwise, starmap
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
 from reference.units import to_si
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS, OFF_STOP
+from replication.error import COARSE, DIGITS, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
@@ -196,7 +196,7 @@ def _typed_inputs(
 
 def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     """What the plan must know of a case's sheet, apart from its length."""
-    beta, name, label = impact.beta, "Sheet", "R_t as given"
+    beta, name, label = impact.beta, "Sheet", MESSAGES["as_given"]
     if beta is not None:
         # As spreadsheet programs round, the decimal that is shown, and join a number to a text.
         rounded = Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP)
@@ -241,12 +241,12 @@ def _values(
         "overview": {
             "inputs_changed": inputs["changed"],
             "inputs_unusable": 0,
-            **{page.part: {key: pages[page.part][key] for key in results} for page, _ in runs},
+            **{part: {key: page[key] for key in results} for part, page in pages.items()},
         },
         "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
         "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
         "figure_5": _figure_5(last.impact, si),
-        "convergence": _convergence(runs, si),
+        "convergence": _convergence(runs, inputs),
         "frank_zook": _frank_zook(last.impact, si),
         "crater": _crater(first, si, float(ledger.value("observed-third"))),
         "resistance": _resistance(runs, si),
@@ -283,7 +283,8 @@ def _inputs(
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
     for page, sheet in runs:
         values[f"R_t{page.of}"] = sheet.impact.target_resistance
-    return values
+    followed = "D_p", "M_p", "half_step", "mean_radius", *(f"R_t{page.of}" for page, _ in runs)
+    return {f"{name}.check": "" for name in followed} | values
 
 
 def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
@@ -291,12 +292,13 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     trust, message = _state(sheet)
     v, at_rest = impact.velocity, _without_steps(impact)
     at_stop = _without_steps(impact, to_stop=True)
-    label = {} if page.resistance_given else {"label": page.label, "renamed": ""}
+    travel = impact.step * v / impact.radius
     return {
         **impact.motion,
         **_of(impact, "mass", "diameter", "step", "stop_velocity"),
         **_of(sheet, "steps", "final_depth", "normalized_depth"),
-        **label,
+        "label": page.label,
+        "renamed": None if page.resistance_given else "",
         "row": _columns(sheet, page.rows),
         "message": message,
         "trust": trust,
@@ -307,7 +309,8 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         "excess": sheet.normalized_depth / si["observed_ratio"],
         **{name: at_rest[name] for name in ("pressure", "c")},
         **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
-        "travel": impact.step * v / impact.radius,
+        "travel": travel,
+        "too_long": too_long(travel),
         "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
         **{f"stop_{name}": at_stop[name] for name in ("pressure", "c", "normalized_depth")},
         "stop_share": at_stop["normalized_depth"] / at_rest["normalized_depth"],
@@ -335,15 +338,12 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
     return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
 
 
-def _convergence(runs: Runs, si: Mapping[str, float]) -> Tree:
+def _convergence(runs: Runs, inputs: Tree) -> Tree:
     """Final depths at a ladder of time steps, and the inputs that they were computed with."""
-    of_runs = {name: si[name] for name in sheets.run_inputs([page for page, _ in runs])}
-    time_steps = ladder(si["dt_s"], sheets.LEVELS)
+    of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
     return {
         "message": MESSAGES["current"],
-        "step": time_steps,
-        "step_ns": [step * 1e9 for step in time_steps],
-        **{page.slug: _levels(sheet, time_steps) for page, sheet in runs},
+        **{page.slug: _levels(sheet) for page, sheet in runs},
         "run": of_runs,
         "in_use": of_runs,
         "same": dict.fromkeys(of_runs, 1),
@@ -517,21 +517,26 @@ def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
     return {name: [*column, *blank] for name, column in columns.items()}
 
 
-def _levels(written: Sheet, time_steps: Sequence[float]) -> dict[str, Any]:
+def _levels(written: Sheet) -> dict[str, Any]:
     """Final depths at steps, each half of the one before, against the depth at rest, in um."""
     impact = written.impact
+    time_steps = ladder(impact.step, sheets.LEVELS)
     rest = depth.final_depth(*impact.motion.values()) * 1e6
     finer = [run(replace(impact, step=step), written.scheme) for step in time_steps]
     depths = [sheet.final_depth * 1e6 for sheet in finer]
     errors = [reached - rest for reached in depths]
-    orders = starmap(error_order, pairwise(errors))
+    steps = [sheet.steps for sheet in finer]
+    orders = map(error_order, errors, errors[1:], steps)
     return {
         "rest_um": rest,
-        "steps": [sheet.steps for sheet in finer],
+        "step": time_steps,
+        "step_ns": [step * 1e9 for step in time_steps],
+        "steps": steps,
         "depth_um": depths,
         "error": errors,
         "size": list(map(abs, errors)),
         "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
+        "state": [_state(sheet)[1] for sheet in finer],
     }
 
 

@@ -19,6 +19,7 @@ from spreadsheets.plan import (
     Cell,
     Rule,
     SheetPlan,
+    filled,
     filled_in,
     formula,
     printed,
@@ -118,8 +119,8 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
         )
     if wanted is None:
         return min(-(-max(2 * steps, steps + 100) // 100) * 100, MAX_ROWS)
-    if not max(steps, 1) <= wanted <= MAX_ROWS:
-        raise ValueError(f"{wanted:,} rows will not do: give {steps:,} to {MAX_ROWS:,}")
+    if not (least := max(steps, 1)) <= wanted <= MAX_ROWS:
+        raise ValueError(f"{wanted:,} rows will not do: give {least:,} to {MAX_ROWS:,}")
     return wanted
 
 
@@ -176,13 +177,16 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         for entry in entries:
             page.put(**_input(ledger, entry, page.row))
         page.row += 1
-    checks = f"E{first}:E{page.row}"
-    page.single_cells(checks=checks)
     page.put(A=Cell("What follows from them", "block"))
     derived, words = dict(tables()["derived"]), [case.words for case in cases]
     if cases[0].resistance_given:
         del derived["target"]
+    after = page.row
     page.lines(ledger, "inputs", derived, words, "ABFGIJ", headed=False)
+    for row in range(after, page.row):
+        page.cells[f"E{row}"] = _check(page.cells[f"F{row}"], row, '""')
+    checks = f"E{first}:E{page.row}"
+    page.single_cells(checks=checks)
     page.row += 1
     page.put(A=Cell("Constants", "block"))
     for name, entry in tables()["constants"].items():
@@ -190,13 +194,24 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         named = Cell(name, "unit")
         page.put(B=Cell(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
-    bad = ",".join(f'$E{first}="{word}"' for word in ("too small", "too large", "no number"))
+    bad = ",".join(f'$E{first}="{word}"' for word in _WRONG)
     page.rules = [
         Rule(checks, f"=OR({bad})", "warning"),
         Rule(checks, f'=$E{first}="yours"', "changed"),
         Rule("A7", "=inputs_unusable>0", "warning"),
     ]
     return page
+
+
+_WRONG = "too small", "too large", "no number", "typed over"
+"""What a check says of a number in use that is not to be used as it is."""
+
+
+def _check(in_use: Cell, row: int, words: str) -> Cell:
+    """What column E says of a cell in use: a formula's `words`, while it holds its own formula."""
+    check = f'=IF(F{row}={in_use.formula[1:]},{words},"typed over")'
+    name = in_use.name and f"{in_use.name}_check"
+    return formula(f"{in_use.key}.check", check, "text", name=name)
 
 
 def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
@@ -210,13 +225,14 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     words = {"row": row, "factor": entry.factor, "same": same}
     texts = filled_in(tables()["input"], words)
     shown = "0.0####E+00" if entry.factor else "General"
+    in_use = formula(key, texts["in_use"], name=entry.name, unit=unit, shown=shown)
     return {
         "A": Cell(entry.symbol, "text"),
         "B": Cell(entry.meaning or ledger.title(entry.source)),
         "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
-        "E": formula(f"{key}.check", texts["check"], "text"),
-        "F": formula(key, texts["in_use"], name=entry.name, unit=unit, shown=shown),
+        "E": _check(in_use, row, texts["check"]),
+        "F": in_use,
         "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
         "I": prints,
@@ -245,7 +261,8 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.widths = {**page.widths, "H": 13.0 if centered else page.widths["H"]}
     page.single_cells(**case.words)
     if case.resistance_given:
-        page.cells["I1"] = Cell(case.label, "title")
+        label = filled('=IF(inputs_from="report","{as_reports}","{as_given}")', {})
+        page.cells["I1"] = formula(f"{case.part}.label", label, "title")
         del page.cells["I2"]
     page.row = top
     words = case.words | {"drag": "H" if centered else "C"}

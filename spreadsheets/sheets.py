@@ -82,7 +82,7 @@ def workbook_plan(
     sheets += [_audit(ledger, findings)] if findings else []
     about = {name: getattr(ledger.report, name) for name in ("title", "author", "year")}
     properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
-    overview = _overview(ledger, cases, sheets, properties["title"], findings)
+    overview = _overview(ledger, pages, sheets, properties["title"], findings)
     plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
     for claim in ledger.claims.values() if report else ():
         if claim.workbook and not plan.cell(place_of(claim.workbook)).formula:
@@ -101,13 +101,13 @@ def _block(page: SheetPlan, table: str, right: str = "") -> None:
 
 def _overview(
     ledger: Ledger,
-    cases: Sequence[CaseSheet],
+    pages: Sequence[CaseSheet],
     sheets: Sequence[SheetPlan],
     title: str,
     findings: Findings | None,
 ) -> SheetPlan:
     """The first sheet; `sheets` are the others."""
-    report, scheme = ledger.report, cases[0].scheme
+    report, scheme = ledger.report, pages[0].scheme
     page = SheetPlan.begun(HOME)
     page.put(A=Cell(title, "title"))
     page.say(
@@ -117,7 +117,7 @@ def _overview(
     )
     if findings is not None:
         page.say(findings.headline, style="headline", width=140)
-    _results(page, ledger, cases)
+    _results(page, ledger, pages)
     if findings is not None:
         _what_fails(page, ledger, findings)
         page.page_break = page.row
@@ -135,7 +135,7 @@ def _overview(
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
     _block(page, "results", right="BCDE")
     for case in cases:
-        key, sheet, fixed = f"overview.{case.slug}", f"'{case.name}'!", {"shown": "0.0000"}
+        key, sheet, fixed = f"overview.{case.part}", f"'{case.name}'!", {"shown": "0.0000"}
         # Beside the name of a sheet for another beta: the beta in use.
         beta = "" if case.resistance_given else f'IF({sheet}I2="","",{sheet}I1&": ")&'
         end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
@@ -145,8 +145,8 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
             B=formula(f"{key}.depth_um", f"=depth_um{end}", "result", **like, **fixed),
             D=formula(f"{key}.normalized_depth", f"=normalized_depth{end}", "result", **fixed),
             F=formula(f"{key}.message", f"={beta}message{end}", "state"),
-            C=printed(ledger, case.claim("depth"), "um") if case.is_reports else None,
-            E=printed(ledger, case.claim("ratio")) if case.is_reports else None,
+            C=printed(ledger, depth, "um") if (depth := case.words["depth_claim"]) else None,
+            E=printed(ledger, ratio) if (ratio := case.words["ratio_claim"]) else None,
         )
     for name, words in page.entry["counts"].items():
         page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
@@ -343,11 +343,10 @@ LEVELS = 8
 
 
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
-    """The names of the inputs that the ladder's runs are made with."""
-    target = ["R_t"]
-    if not cases[0].resistance_given:
-        target = ["Y_t", *(f"beta{case.of}" for case in cases)]
-    return ["V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop", *target]
+    """The names of the numbers that the ladder's runs are made with: inputs, what follows, π."""
+    names = [] if cases[0].resistance_given else ["Y_t", *(f"beta{case.of}" for case in cases)]
+    names = ["V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop", *names, "D_p", "M_p", "pi_"]
+    return names + [f"R_t{case.of}" for case in cases]
 
 
 NO_ORDER = "–"
@@ -355,48 +354,43 @@ NO_ORDER = "–"
 
 def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     """The final depth at a ladder of time steps against the depth at rest."""
-    first, curves, written = 11, [], []
-    last = first + LEVELS - 1
+    curves, written = [], []
     page = SheetPlan.begun("Convergence", scheme=cases[0].scheme)
     page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
-    page.row = first - 2
-    page.grid(page.entry["columns"], "convergence", {}, LEVELS)
-    page.put(A=Cell("At rest, without steps"))
-    ladder = page.entry["ladder"]
-    for columns, case in zip(("CDEFG", "HIJKL"), cases, strict=False):
-        key, label = f"convergence.{case.slug}", f"{columns[0]}{first - 3}"
-        words = {"error": columns[2], "no_order": NO_ORDER}
-        page.row = first - 2
-        page.grid(dict(zip(columns, ladder.values(), strict=True)), key, words, LEVELS)
+    page.row = 8
+    _same_inputs(page, run_inputs(cases))
+    page.row = 36
+    for case in cases:
+        key, label = f"convergence.{case.slug}", f"A{page.row}"
         # Called as it was when it was computed.
-        page.cells[label] = Cell(f"{case.name}, {case.label}", "block")
-        at_rest = recorded(f"{key}.rest_um", shown=ladder["depth_um"]["shown"])
-        page.cells[f"{columns[1]}{last + 1}"] = at_rest
+        page.put(A=Cell(f"{case.name}, {case.label}", "block"))
+        page.grid(page.entry["columns"], key, {"no_order": NO_ORDER}, LEVELS)
+        x, y = (f"{column}{page.row - LEVELS}:{column}{page.row - 1}" for column in "BF")
+        curves.append(Curve(("Convergence", label), x, y))
+        at_rest = recorded(f"{key}.rest_um", shown=page.entry["columns"]["D"]["shown"])
+        page.put(A=Cell("At rest, without steps"), D=at_rest)
+        page.row += 1
         ends = (
-            f"{{{key}.size[{k}]:.2g}} µm at {{convergence.step_ns[{k}]:.3g}} ns"
-            for k in (0, LEVELS - 1)
+            f"{{{key}.size[{k}]:.2g}} µm at {{{key}.step_ns[{k}]:.3g}} ns" for k in (0, LEVELS - 1)
         )
         written.append(f"{case.label} from {' to '.join(ends)}")
-        size = f"{columns[3]}{first}:{columns[3]}{last}"
-        curves.append(Curve(("Convergence", label), f"B{first}:B{last}", size))
-    page.row = last + 4
-    _same_inputs(page, run_inputs(cases))
+    page.print_area = f"A1:K{page.row - 2}"
     page.curves, page.written = curves, ", ".join(written)
     return page
 
 
 def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
     """The inputs of the runs beside those in use, and whether they are the same."""
-    page.heads("IJKL", ("Input", "Of these runs", "In use", ""), "JK")
+    page.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
     first, shown = page.row, "0.0####E+00"
     for name in names:
         # To twelve digits: programs round a conversion of units in their own way.
-        same = f"=IF(ABS(J{page.row}-K{page.row})*1000000000000<=ABS(J{page.row}),1,0)"
+        same = f"=IF(ABS(I{page.row}-J{page.row})*1000000000000<=ABS(I{page.row}),1,0)"
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
         page.put(
-            I=Cell(name, "text"),
-            J=recorded(f"convergence.run.{name}", shown=shown),
-            K=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
-            L=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
+            H=Cell(name, "text"),
+            I=recorded(f"convergence.run.{name}", shown=shown),
+            J=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
+            K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
         )
-    page.single_cells(same=f"L{first}:L{page.row - 1}")
+    page.single_cells(same=f"K{first}:K{page.row - 1}")

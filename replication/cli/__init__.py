@@ -156,7 +156,7 @@ def _declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:
             settings["action"] = "store_true"
             names.append(last)
         else:
-            settings |= {"type": _whole(*within) if within else _READERS.get(last, str)}
+            settings |= {"type": _whole(*within) if last == "N" else _READERS.get(last, str)}
             settings.setdefault("metavar", last)
         if either not in groups:
             groups[either] = command.add_mutually_exclusive_group()
@@ -200,15 +200,14 @@ def _share(text: str) -> float:
     return number
 
 
-def _whole(least: int, most: int) -> Callable[[str], int]:
-    """A reader of whole numbers within bounds."""
+def _whole(least: int = 0, most: int = 0) -> Callable[[str], int]:
+    """A reader of whole numbers within bounds; without them the command looks for itself."""
+    which = f"from {least:,} to {most:,}" if most else "of at most 20 digits"
 
     def read(text: str) -> int:
-        if re.fullmatch(r"\s*[0-9]{1,20}\s*", text) and least <= int(text) <= most:
+        if re.fullmatch(r"\s*[0-9]{1,20}\s*", text) and least <= int(text) <= (most or 10**20):
             return int(text)
-        raise argparse.ArgumentTypeError(
-            f"give a whole number from {least:,} to {most:,}, not {quoted(text)}"
-        )
+        raise argparse.ArgumentTypeError(f"give a whole number {which}, not {quoted(text)}")
 
     return read
 

@@ -18,6 +18,11 @@ DIGITS = 5e-4
 report prints three digits, and half a unit of the third is at least that much."""
 
 
+def too_long(travel: float) -> bool:
+    """Whether dt V / R is more than `COARSE`; a tenth in decimals need not be one in doubles."""
+    return travel - COARSE > COARSE * 1e-12
+
+
 def warnings(sheet: Sheet) -> dict[str, str]:
     """The warnings about a sheet: what is wrong, and a sentence with figures.
 
@@ -43,7 +48,7 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
         said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
-    if travel - COARSE > COARSE * 1e-12:  # a tenth in decimals need not be one in doubles
+    if too_long(travel):
         text = f"a step at the impact velocity covers {travel:.3g} of the radius"
         said["coarse"] = f"{text}: keep it to {COARSE} at most"
     rest = final_depth(**impact.motion)
@@ -53,10 +58,11 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
     shallow = last.depth < at_stop
     if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in said:
-        by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
         which = "falls short of" if shallow else "exceeds"
-        text = f"the depth {which} the exact one at the stop velocity, {at_stop:.6g} m{by}"
-        said["shallow" if shallow else "overrun"] = f"{text}: take a shorter step"
+        text = f"the depth {which} the exact one at the stop velocity, {at_stop:.6g} m"
+        by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
+        cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
+        said["shallow" if shallow else "overrun"] = f"{text}{by}: {cure}"
     short = 1 - at_stop / rest
     if short > DIGITS:
         text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"

@@ -79,7 +79,8 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     """Run the sheet at each step, coarsest first: the JSON of `coldspray converge`.
 
     Lengths in m. Of a level, `error` and `budget` are those of `split`, `order` is that of the
-    error against the level before (None where the error vanishes or changes sign),
+    error against the level before (None where the error vanishes or changes sign, or that level
+    has less than two steps),
     `time_step_order` the same for the time-step part alone, and `regime` what governs the error.
     `limit`, which estimates the depth at the stop velocity, `observed_order` and `gci` come from
     the finest three depths without knowledge of the exact one; None where undefined, for the reason
@@ -119,9 +120,9 @@ def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
     step, (error, budget) = sheet.impact.step, split(sheet)
     order = time_step_order = None
     for coarse in before:
-        ratio = coarse["step"] / step
-        order = error_order(coarse["error"], error, ratio)
-        time_step_order = error_order(coarse["budget"]["time_step"], budget["time_step"], ratio)
+        of_both = coarse["steps"], coarse["step"] / step
+        order = error_order(coarse["error"], error, *of_both)
+        time_step_order = error_order(coarse["budget"]["time_step"], budget["time_step"], *of_both)
     return {
         "step": step,
         "steps": sheet.steps,
@@ -135,13 +136,17 @@ def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
     }
 
 
-def error_order(coarse: float | None, fine: float | None, ratio: float = 2.0) -> float | None:
+def error_order(
+    coarse: float | None, fine: float | None, steps: int, ratio: float = 2.0
+) -> float | None:
     """The order by which an error falls with the step; None where it vanishes or changes sign.
 
-    >>> error_order(0.04, 0.01)
+    And where the coarse run takes less than two steps: a single step is no sum that could converge.
+
+    >>> error_order(0.04, 0.01, 9)
     2.0
     """
-    if coarse is None or fine is None or coarse * fine <= 0:
+    if coarse is None or fine is None or coarse * fine <= 0 or steps < 2:
         return None
     return math.log(coarse / fine) / math.log(ratio)
 

@@ -115,7 +115,8 @@ def typed_inputs(build: Callable[..., Workbook], seed: int) -> tuple[dict[str, V
             build(replace(case, step=step), rows=400, ledger=ledger) for step in (case.step, 5e-10)
         )
         for key, value in coarse.values.items():
-            values |= {f"{slug}_coarse{key[4:]}": value} if key.startswith("case.") else {}
+            own = re.match(r"(overview\.)?case\.", key)
+            values |= {key.replace("case", f"{slug}_coarse"): value} if own else {}
         for key, value in fine.values.items():
             key = re.sub(r"(?<![^.])case(?=\.)", slug, key)
             values[re.sub(r"^(.*\.)?(beta|R_t)(?=$|\.)", rf"\1\2_{slug}", key)] = value
@@ -222,11 +223,13 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
 # What the workbook says once somebody works with it
 
 KEPT = Path(__file__).with_name("says.txt").read_text("utf-8").split("\n$ ")[1:]
-TYPED = {case.partition("\n")[0]: case.partition("\n")[2].strip() for case in KEPT}
-"""What is typed, by the name of the input and in its unit -> what then stands where."""
+TYPED = {case.partition("\n")[0]: case.partition("\n")[2].strip("\n") for case in KEPT}
+"""What is typed, by the name of the input and in its unit, or over the cell in use -> what then
+stands where."""
 FOR_ALL = (
     "nothing", "V_impact = nothing", "R_p = eleven", "HB_ratio = nothing",
     "dt_s = 0.05, dt_coarse = 0.05", "dt_s = 40.0", "V_impact = 0.5", "beta_high = 4.0",
+    "over R_p = eleven", "from = report, over R_t_high = 2e9, over M_p = 5e-11",
     "from = report, V_impact = 600.0, rho_t = 0.0, beta_high = 4.0",
 )  # fmt: skip
 """What every program is given; the fastest is given all."""
@@ -291,9 +294,9 @@ def pages(
     names = list(TYPED) if request.param == "formualizer" else FOR_ALL
     paths = []
     for number, name in enumerate(names):
-        typed = dict(re.findall(r"(\w+) = ?([^,]*)", name))
-        keys = {n: f"inputs.{n}" if n == "from" else f"inputs.{n}.typed" for n in typed}
-        values = {keys[n]: number_or_text(text) for n, text in typed.items()}
+        typed = re.findall(r"(over )?(\w+) = ?([^,]*)", name)
+        keys = (f"inputs.{n}" if over or n == "from" else f"inputs.{n}.typed" for over, n, _ in typed)
+        values = {key: number_or_text(text) for key, (*_, text) in zip(keys, typed, strict=True)}
         paths.append(emitted.typed(values, folder / f"{number}.xlsx"))
     result = usable(request.param).recalculate_many(paths)
     return {name: Page(emitted, values) for name, values in zip(names, result, strict=True)}
