@@ -294,9 +294,10 @@ def pages(
     names = list(TYPED) if request.param == "formualizer" else FOR_ALL
     paths = []
     for number, name in enumerate(names):
-        typed = re.findall(r"(over )?(\w+) = ?([^,]*)", name)
-        keys = (f"inputs.{n}" if over or n == "from" else f"inputs.{n}.typed" for over, n, _ in typed)
-        values = {key: number_or_text(text) for key, (*_, text) in zip(keys, typed, strict=True)}
+        values = {
+            f"inputs.{n}" + ("" if over or n == "from" else ".typed"): number_or_text(text)
+            for over, n, text in re.findall(r"(over )?(\w+) = ?([^,]*)", name)
+        }
         paths.append(emitted.typed(values, folder / f"{number}.xlsx"))
     result = usable(request.param).recalculate_many(paths)
     return {name: Page(emitted, values) for name, values in zip(names, result, strict=True)}
@@ -319,6 +320,20 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
     of_switch = {"inputs.from", "inputs.taken", "inputs.message"}
     for key in report.emitted.book.values.keys() - another - of_switch:
         assert switched[key] == report[key], key
+
+
+def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
+    engine: Engine, files: dict[str, Any], tmp_path: Path
+) -> None:
+    given, legends = (
+        files["resistance given"],
+        {"yours": "R_t as given", "report": "R_t as in the report"},
+    )
+    paths = [given.typed({"inputs.from": word}, tmp_path / f"{word}.xlsx") for word in legends]
+    for legend, result in zip(legends.values(), engine.recalculate_many(paths), strict=True):
+        page = Page(given, result)
+        assert page["case.label"] == legend
+        assert page["figure_3.case.message"] == f"{legend}: {page['case.message']}"
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
