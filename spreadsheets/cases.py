@@ -194,17 +194,14 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         named = Cell(name, "unit")
         page.put(B=Cell(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
-    bad = ",".join(f'$E{first}="{word}"' for word in _WRONG)
+    wrong = "too small", "too large", "no number", "typed over"
+    bad = ",".join(f'$E{first}="{word}"' for word in wrong)
     page.rules = [
         Rule(checks, f"=OR({bad})", "warning"),
         Rule(checks, f'=$E{first}="yours"', "changed"),
         Rule("A7", "=inputs_unusable>0", "warning"),
     ]
     return page
-
-
-_WRONG = "too small", "too large", "no number", "typed over"
-"""What a check says of a number in use that is not to be used as it is."""
 
 
 def _check(in_use: Cell, row: int, words: str) -> Cell:
@@ -261,7 +258,7 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     page.widths = {**page.widths, "H": 13.0 if centered else page.widths["H"]}
     page.single_cells(**case.words)
     if case.resistance_given:
-        label = filled('=IF(inputs_from="report","{as_reports}","{as_given}")', {})
+        label = filled(page.entry["label_given"], {})
         page.cells["I1"] = formula(f"{case.part}.label", label, "title")
         del page.cells["I2"]
     page.row = top

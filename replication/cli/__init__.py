@@ -201,7 +201,7 @@ def _share(text: str) -> float:
 
 
 def _whole(least: int = 0, most: int = 0) -> Callable[[str], int]:
-    """A reader of whole numbers within bounds; without them the command looks for itself."""
+    """A reader of whole numbers within bounds, if the command itself does not bound them."""
     which = f"from {least:,} to {most:,}" if most else "of at most 20 digits"
 
     def read(text: str) -> int:

@@ -120,9 +120,9 @@ def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
     step, (error, budget) = sheet.impact.step, split(sheet)
     order = time_step_order = None
     for coarse in before:
-        of_both = coarse["steps"], coarse["step"] / step
-        order = error_order(coarse["error"], error, *of_both)
-        time_step_order = error_order(coarse["budget"]["time_step"], budget["time_step"], *of_both)
+        pair = coarse["steps"], coarse["step"] / step
+        order = error_order(coarse["error"], error, *pair)
+        time_step_order = error_order(coarse["budget"]["time_step"], budget["time_step"], *pair)
     return {
         "step": step,
         "steps": sheet.steps,
@@ -141,7 +141,7 @@ def error_order(
 ) -> float | None:
     """The order by which an error falls with the step; None where it vanishes or changes sign.
 
-    And where the coarse run takes less than two steps: a single step is no sum that could converge.
+    Or the coarse run has less than two `steps`: one goes to V dt/2, whatever the target is.
 
     >>> error_order(0.04, 0.01, 9)
     2.0

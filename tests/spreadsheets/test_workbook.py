@@ -325,15 +325,17 @@ def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
 def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
     engine: Engine, files: dict[str, Any], tmp_path: Path
 ) -> None:
-    given, legends = (
-        files["resistance given"],
-        {"yours": "R_t as given", "report": "R_t as in the report"},
-    )
-    paths = [given.typed({"inputs.from": word}, tmp_path / f"{word}.xlsx") for word in legends]
-    for legend, result in zip(legends.values(), engine.recalculate_many(paths), strict=True):
+    given, switched = files["resistance given"], {"inputs.from": "report"}
+    typed = {
+        "yours": ("R_t as given", {}),
+        "report": ("R_t as in the report", switched),
+        "over": ("R_t as given", switched | {"inputs.R_t": 2e9}),
+    }
+    paths = [given.typed(cells, tmp_path / f"{k}.xlsx") for k, (_, cells) in typed.items()]
+    for (words, _), result in zip(typed.values(), engine.recalculate_many(paths), strict=True):
         page = Page(given, result)
-        assert page["case.label"] == legend
-        assert page["figure_3.case.message"] == f"{legend}: {page['case.message']}"
+        assert page["case.label"] == words
+        assert page["figure_3.case.message"] == f"{words}: {page['case.message']}"
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
