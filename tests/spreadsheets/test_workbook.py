@@ -152,6 +152,7 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
         cells = emit.cell_values(plan, values)
         allowed = tolerances(plan, cells, bound if engine.long_doubles else 0.0)
         assert compare(cells, result, allowed) == []
+        assert "typed over" not in result["Inputs"].values()
 
 
 # Slow impacts
