@@ -573,11 +573,22 @@ def _score(depth: Line, speed: Line) -> float:
     named = ("depth" in depth.roles) + speed.is_speed
     final = speed.roles == {"velocity_final"}
     reads = depth.reads(speed, 0) or depth.reads(speed, 1)
-    # A velocity that ends higher than it began is the axis of a curve.
-    sure = grows or given or (named == 2 and reads)
+    # A velocity that ends higher than it began is the axis of a curve, and so is one that does not
+    # rest on the depths.
+    sure = grows or given or (named == 2 and reads and _rests_on(speed, depth))
     if not sure and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
         return 0.0
     return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given
+
+
+def _rests_on(line: Line, source: Line) -> bool:
+    """Whether the last cell of a line reads another line, through no more cells than a row has."""
+    cells = {line.place(line.last)}
+    for _ in COLUMNS:
+        cells = {area.corner for cell in cells for area in line.calculation.areas(cell)}
+        if any(map(source.covers, cells)):
+            return True
+    return False
 
 
 def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float = _CLOSE) -> float:
