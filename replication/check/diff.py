@@ -200,7 +200,10 @@ class Comparison:
         grouped = groupby(sorted(lines.items()), key=lambda pair: pair[1])
         moved = [(by, [old for old, _ in pairs]) for by, pairs in grouped if by]
         came = {old + by: old for by, run in moved for old in run}
-        are_same = came.keys() == set(came.values())
+        in_turn = bool(moved) and came.keys() == set(came.values())
+        if in_turn and len(moved) == 2 and len(moved[0][1]) != len(moved[1][1]):
+            # The longer only gives way.
+            moved, in_turn = [min(moved, key=lambda each: len(each[1]))], False
 
         def between(run: Sequence[int], by: int = 0) -> str:
             first, last = (show(end + by) for end in (run[0], run[-1]))
@@ -210,22 +213,19 @@ class Comparison:
             place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
             self.add("moved", [place], was, now, text)
 
-        if are_same and len(moved) > 2:
+        if in_turn and len(moved) > 2:
             every = range(min(came), max(came) + 1)
             order = ", ".join(show(came.get(at, at)) for at in every)
             text = f"{between(every)} of {name!r} are in another order"
             tell(every[0], between(every), f"{what} {order}", text)
-        elif are_same and moved and len(moved[0][1]) == len(moved[1][1]):
+        elif in_turn:
             here, there = (between(run) for _, run in moved)
             text = f"{here} and {there} of {name!r} have changed places"
             tell(min(came), here, there, text)
-        else:  # of two that changed places, the longer only gives way
-            for by, run in (
-                [min(moved, key=lambda each: len(each[1]))] if are_same and moved else moved
-            ):
-                was, now = between(run), between(run, by)
-                are = "is" if len(run) == 1 else "are"
-                tell(run[0] + by, was, now, f"{was} of {name!r} {are} now {now}")
+        for by, run in () if in_turn else moved:
+            was, now = between(run), between(run, by)
+            are = "is" if len(run) == 1 else "are"
+            tell(run[0] + by, was, now, f"{was} of {name!r} {are} now {now}")
 
     def blocks(self, name: str, sheet: str, cells: Sequence[Cell], distance: Cell) -> None:
         """Cells that moved together: one block, if nothing else stood among them."""
