@@ -544,7 +544,8 @@ def _blanks(f: Examination) -> None:
         sheet, row, column = place
         label = values.get((sheet, row, column - 1))
         named = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
-        roles = [role for role in named if role not in f.inputs or f.inputs[role].place is None]
+        known = (f.inputs[role] for role in named & f.inputs.keys())
+        roles = [entry.role for entry in known if entry.place is None and entry.how != "follows"]
         for role in roles if len(roles) == 1 else ():
             text = f"{title(role)} is blank, which the formulas take for 0"
             f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))

@@ -65,10 +65,11 @@ def _shown_again(f: Examination) -> None:
     Rounded ones are left alone.
     """
     for line in f.table.helpers:
-        ratio = result_of(line.head or "") == "ratio"
-        in_unit = unit_power(line.unit) if "depth" in line.roles else None
-        if not ratio and in_unit is None:
-            continue
+        head = line.head or ""
+        ratio, in_unit = result_of(head) == "ratio", unit_power(line.unit)
+        shows_depth = "depth" in line.roles and in_unit is not None
+        if any(map(str.isdigit, head)) or not (ratio or shows_depth):
+            continue  # "x * 10^6"
         over = f.case.radius if ratio else 1.0
         pairs = (
             (line.at(f.table.zero + k), f.rows("depth", k)) for k in range(1, f.table.steps + 1)

@@ -191,8 +191,8 @@ class Line:
                 if unit is None and (unit := unit_in(text)):
                     place = self.place(at)
                 head, above = text.strip(), self.calculation.values.get(self.place(at - 1))
-                if isinstance(above, str) and is_end(head):  # "Velocity", and "initial" below it
-                    head = f"{above.strip()} {head}"
+                if isinstance(above, str) and is_end(head) and replace(self, head=above).is_speed:
+                    head = f"{above.strip()} {head}"  # "Velocity", and "initial" below it
                 return replace(self, head=head, unit=unit, unit_place=place)
         return replace(self, unit=unit, unit_place=place)
 
