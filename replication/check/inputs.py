@@ -110,9 +110,8 @@ def find(
     # Mass and diameter are computed for nothing where their values are typed into the rows.
     unused = calculation.formulas.keys() - read.keys() - elsewhere if read else ()
     computed = [c for c in candidates if c.roles & {"mass", "diameter"} and c.place in unused]
-    unread |= {
-        role: them for role, them in _by_role(computed, False).items() if role not in derived
-    }
+    by_role = _by_role(computed, False)
+    unread |= {role: cells for role, cells in by_role.items() if role not in derived}
     own = [_own(cells, examination, read, elsewhere) for cells in unread.values()]
     single = tuple(cell for cell in own if cell)
     return replace(examination, read=frozenset(read), derived=derived, unread=single)

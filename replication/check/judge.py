@@ -696,8 +696,8 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     if power := power_of_ten(ratio):
         return "unit", f"every {what} is {times_too(power)}: a unit is not converted", column
     slips[f"every {what} has the other sign"] = -1.0
-    if slip_named := next((says for says, value in slips.items() if near(ratio, value)), None):
-        return "other scheme", slip_named, column
+    if named := next((says for says, value in slips.items() if near(ratio, value)), ""):
+        return "other scheme", named, column
     for line, (constant, value) in product((column, *f.table.helpers), constants.items()):
         formulas = filter(None, map(line.calculation.formulas.get, line.cells))
         for number in sorted({abs(n) for formula in formulas for n in formula.literals} - {0.0}):

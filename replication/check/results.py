@@ -70,23 +70,21 @@ def _shown_again(f: Examination) -> None:
         shows_depth = "depth" in line.roles and in_unit is not None
         if any(map(str.isdigit, head)) or not (ratio or shows_depth):
             continue  # "x * 10^6"
-        over = f.case.radius if ratio else 1.0
-        pairs = (
-            (line.at(f.table.zero + k), f.rows("depth", k)) for k in range(1, f.table.steps + 1)
-        )
-        factors = [value * over / x for value, x in pairs if value and x]
+        rows = range(1, f.table.steps + 1)
+        shown = {k: number for k in rows if (number := line.at(f.table.zero + k))}
+        depths = {k: x for k in shown if (x := f.rows("depth", k))}
+        factors = [shown[k] / x * (f.case.radius if ratio else 1.0) for k, x in depths.items()]
         factor = median(factors) if factors else 0.0
-        if sum(near(each, factor) for each in factors) < 0.5 * max(len(factors), 1):
+        if sum(near(each, factor) for each in factors) <= 0.5 * len(factors):
             continue
-        power, place = power_of_ten(factor), [p for p in line.cells if p in f.calculation.formulas]
+        power, cells = power_of_ten(factor), [line.place(f.table.zero + k) for k in depths]
         if ratio and near(factor, 0.5):
             text = "the column is the depth over the diameter, not over the radius"
-            f.add("odd formula", place, None, text)
+            f.add("odd formula", cells, None, text)
         elif power is not None and power != -(in_unit or 0):
             size = times_too(power + (in_unit or 0))
-            f.add(
-                "unit", place, None, f"the column is {size} for its head: a unit is not converted"
-            )
+            text = f"the column is {size} for its head: a unit is not converted"
+            f.add("unit", cells, None, text)
 
 
 def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:

@@ -70,7 +70,7 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     record = _record(calculations, verdict, differences, next(iter(differences), None))
     for c in calculations:
         unstored = {place for place in c.formulas if c.book[place].value is None} - c.unknown
-        computed = {place for place in unstored if c.values[place] != ""}
+        computed = {place for place in unstored if c.values.get(place, "") != ""}
         for cells, what in ((computed, "are computed here"), (c.unknown, "are not compared")):
             if cells:
                 some = f"{len(cells):,} of {count(len(c.formulas), 'formula')}"

@@ -609,12 +609,10 @@ def _nearest(line: Line, chosen: Sequence[Table]) -> Table:
 def _viewed(table: Table, others: Sequence[Table]) -> bool:
     """Whether a table only shows what another one holds, but for some typed cells."""
     shown = {place for another in others if another is not table for place in another.places}
-    depths, depth = (
-        [table.place("depth", k) for k in range(1, table.steps + 1)],
-        table.lines["depth"],
-    )
-    views = sum(any(a.corner in shown for a in table.calculation.areas(p)) for p in depths)
-    return views > 0.9 * len(depths) and not depth.reads(depth, 1)
+    areas = [table.calculation.areas(table.place("depth", k)) for k in range(1, table.steps + 1)]
+    views = sum(any(area.corner in shown for area in each) for each in areas)
+    depth = table.lines["depth"]
+    return views > 0.9 * len(areas) and not depth.reads(depth, 1)
 
 
 def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
