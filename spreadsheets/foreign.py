@@ -56,9 +56,6 @@ _OF_ODS = 1e-20
 _SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
 """How .xls files begin, and encrypted workbooks of any kind."""
 
-_FEW = 4
-"""So many formulas that all store 0 were never calculated: XlsxWriter stores 0 by itself."""
-
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
 _TOO_MUCH = f"is refused: it unpacks to too many bytes; {_LIMITS}"
 
@@ -268,13 +265,6 @@ class _Reader:
         if not sheets:
             raise WorkbookError("has no worksheet")
         notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
-        stored = [
-            cell.value for cells in sheets.values() for cell in cells.values() if cell.formula
-        ]
-        if len(stored) >= _FEW and all(type(value) is float and value == 0 for value in stored):
-            notes.append("every formula stores 0, as some programs write it: none is calculated")
-            for held in sheets.values():
-                held |= {p: c._replace(value=None) for p, c in held.items() if c.formula}
         return Book(self.path, sheets, _names(tree, names), tuple(notes), columns=self.columns)
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:

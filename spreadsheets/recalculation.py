@@ -30,6 +30,9 @@ MAX_WORK = 20_000_000
 """Cells that all formulas together may read: some seconds of an engine's time."""
 _TOO_MUCH = "the formulas before it read too many cells already"
 
+_FEW = 3
+"""So few wrong values of formulas that all store 0 are stale; more were never calculated."""
+
 FUNCTIONS = frozenset((
     "ABS", "ACOS", "AND", "ASIN", "ATAN", "ATAN2", "AVERAGE", "CEILING", "CHOOSE", "COLUMN",
     "COLUMNS", "CONVERT", "COS", "COSH", "COUNT", "COUNTA", "COUNTBLANK", "COUNTIF", "COUNTIFS",
@@ -378,10 +381,25 @@ def calculate(book: Book) -> Calculation:
             reasons[place] = f"the engine gives {value}"
         else:
             values[place] = value
+    held = {place: book[place].value for place in formulas}
+    stale = sum(values.get(place) != value for place, value in held.items())
+    are_zero = all(type(value) is float and value == 0 for value in held.values())
+    if are_zero and stale > max(_FEW, len(formulas) / 2):
+        book = _uncalculated(book)
     calculation = Calculation(book, formulas, values, reasons, texts)
     for place in calculation.unknown:
         values.pop(place, None)  # computed with a blank where a number is not known
     return calculation
+
+
+def _uncalculated(book: Book) -> Book:
+    """A book without the values stored of formulas, which nothing has calculated."""
+    sheets = {
+        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
+        for sheet, cells in book.sheets.items()
+    }
+    note = "every formula stores 0, as some programs write it: none is calculated"
+    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
 
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")

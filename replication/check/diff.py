@@ -8,7 +8,8 @@ can be matched in several ways, the one that leaves the fewest differences is to
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import groupby, product
@@ -276,19 +277,22 @@ class Comparison:
 
     def traced(self, values: "_Differing", formulas: "_Differing") -> "_Differing":
         """Values that differ; where they follow from other differences, that is said."""
-        gone = {cell for d in self.differences if d.kind == "removed" for cell in d.cells}
-        changed = {cell for d in self.differences if d.kind == "added" for cell in d.cells}
+        removed, added = (
+            {cell for d in self.differences if d.kind == kind for cell in d.cells}
+            for kind in ("removed", "added")
+        )
         pairs = self.where.items()  # within a tolerance, too
-        changed |= {b for a, b in pairs if _value(self.before, a) != _value(self.after, b)}
+        differ = {b for a, b in pairs if _value(self.before, a) != _value(self.after, b)}
+        changed, gone = _Cells(added | differ), _Cells(removed)
         olds, traced = {new: old for old, new in pairs}, dict(values)
         for new, (was, now, text) in values.items():
-            areas = [(area, changed) for area in self.after.areas(new)]
-            areas += [(area, gone) for area in self.before.areas(olds[new])]
             if text == LAST:
                 continue
             if new in formulas:
                 text = f"{FOLLOWS}the formulas"
-            elif any(_reads(*pair) for pair in areas):
+            elif any(map(changed.touch, self.after.areas(new))) or any(
+                map(gone.touch, self.before.areas(olds[new]))
+            ):
                 text = f"{FOLLOWS}the cells that they read"
             traced[new] = was, now, text
         return traced
@@ -376,11 +380,21 @@ _Differing = Mapping[Position, _Differs]
 _Compare = Callable[[Position, Position], _Differs | None]
 
 
-def _reads(area: Area, cells: Collection[Position]) -> bool:
-    """Whether an area covers one of some cells."""
-    if area.cells < len(cells):
-        return any(place in cells for place in area.places())
-    return any(area.covers(place) for place in cells)
+class _Cells:
+    """Some cells, column by column."""
+
+    def __init__(self, cells: Iterable[Position]) -> None:
+        self.rows: dict[tuple[str, int], list[int]] = {}
+        for sheet, row, column in sorted(cells):
+            self.rows.setdefault((sheet, column), []).append(row)
+
+    def touch(self, area: Area) -> bool:
+        """Whether one of them lies in an area."""
+        return any(
+            bisect_left(rows, area.top) < bisect_right(rows, area.bottom)
+            for (sheet, column), rows in self.rows.items()
+            if sheet == area.sheet and area.left <= column <= area.right
+        )
 
 
 def _value(calculation: Calculation, place: Position) -> Value | None:

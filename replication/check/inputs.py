@@ -92,7 +92,9 @@ def find(
     # mass need not read the density; and where decelerations are typed, nothing reads an input.
     brake = table.lines.get("deceleration")
     is_typed = brake is not None and not any(map(brake.formula, range(brake.first, brake.last + 1)))
-    for role in tuple(unread) if is_typed else ("stop_velocity", "particle_density"):
+    given = {*choices, *unread}
+    free = [role for role in unread if not given.issuperset(RESTS_ON.get(role, ("",)))]
+    for role in free if is_typed else ("stop_velocity", "particle_density"):
         idle = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
         if role not in choices and len(idle) == 1:
             choices[role] = idle

@@ -538,19 +538,22 @@ def _typed_start(f: Examination) -> None:
 
 
 def _blanks(f: Examination) -> None:
-    """Cells that formulas read and that a label calls an input, but which are blank."""
-    values = f.calculation.values
-    for place in sorted(f.read - values.keys()):
-        sheet, row, column = place
+    """Blank cells that a label calls an input, if the rows take each of them for 0."""
+    values, blanks, case = f.calculation.values, dict[Position, str](), f.case
+    for sheet, row, column in sorted(f.read - values.keys()):
         label = values.get((sheet, row, column - 1))
         named = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
         known = (f.inputs[role] for role in named & f.inputs.keys())
         roles = [entry.role for entry in known if entry.place is None and entry.how != "follows"]
-        for role in roles if len(roles) == 1 else ():
+        if len(roles) == 1:
+            blanks[sheet, row, column] = roles[0]
+            case = case.with_input(roles[0], 0.0, 0.0)
+    taken = f.following(case)
+    if taken.agreement() > f.agreement():
+        f.rows = taken.rows
+        for place, role in blanks.items():
             text = f"{title(role)} is blank, which the formulas take for 0"
             f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))
-            taken = f.following(f.case.with_input(role, 0.0, 0.0))
-            f.rows = max(f, taken, key=Examination.agreement).rows
 
 
 def _texts(f: Examination) -> None:

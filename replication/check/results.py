@@ -29,6 +29,7 @@ _ANOTHER_ROW = re.compile(
     re.IGNORECASE,
 )
 """What the label of a depth has that may be that of another row than the last."""
+_PERCENT = re.compile(r"%|percent|prozent", re.IGNORECASE)
 _RADIUS = re.compile(r"/ *r\b|radi", re.IGNORECASE)
 _DIAMETER = re.compile(r"diam|durchm|/ *\(?(?:2|d\b)|twice", re.IGNORECASE)
 
@@ -67,6 +68,7 @@ def _shown_again(f: Examination) -> None:
     for line in f.table.helpers:
         head = line.head or ""
         ratio, in_unit = result_of(head) == "ratio", unit_power(line.unit)
+        in_unit = -2 if ratio and _PERCENT.search(head) else in_unit
         shows_depth = "depth" in line.roles and in_unit is not None
         if any(map(str.isdigit, head)) or not (ratio or shows_depth):
             continue  # "x * 10^6"
@@ -78,13 +80,21 @@ def _shown_again(f: Examination) -> None:
         if sum(near(each, factor) for each in factors) <= 0.5 * len(factors):
             continue
         power, cells = power_of_ten(factor), [line.place(f.table.zero + k) for k in depths]
-        if ratio and near(factor, 0.5):
+        read = {area.corner for cell in cells for area in f.calculation.areas(cell)}
+        if read & f.accused:
+            continue  # it follows from what is accused
+        if _says_radius(head) and near(factor, 0.5):
             text = "the column is the depth over the diameter, not over the radius"
             f.add("odd formula", cells, None, text)
         elif power is not None and power != -(in_unit or 0):
             size = times_too(power + (in_unit or 0))
             text = f"the column is {size} for its head: a unit is not converted"
             f.add("unit", cells, None, text)
+
+
+def _says_radius(text: str) -> bool:
+    """Whether a label or a head says that something is over the radius, not the diameter."""
+    return bool(_RADIUS.search(text)) and not _DIAMETER.search(text)
 
 
 def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:
@@ -117,7 +127,8 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     value, formula = f.calculation.number(place) or 0.0, f.calculation.book[place].formula
     says = str(f.calculation.values[label])
     is_ratio = kind == "ratio" and where != "beyond"
-    says_radius = is_ratio and _RADIUS.search(says) and not _DIAMETER.search(says)
+    says_radius = is_ratio and _says_radius(says)
+    named = -2 if is_ratio and _PERCENT.search(says) else named
     row, power = _row_shown(f, kind, value) if f.table.gives_depth(place) else (None, 0)
     is_near = (row or 0) >= last - _NEAR_END or "MAX(" in (formula or "").upper()
     is_near = is_near or result_of(says) != "any depth"

@@ -58,7 +58,8 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     last = {cell for d in differences if d.explanation.startswith(LAST) for cell in d.cells}
     verdict = count(len(differences), "difference")
     if follow := sum(d.explanation.startswith(FOLLOWS) for d in differences):
-        verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from others"
+        others = "others" if follow < len(differences) else "what is within the tolerance"
+        verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from {others}"
     verdict += f", in the contents of {count(len(cells), 'cell')}" if cells else ""
     if last:
         here = "" if last == cells else f" in {len(last):,} of them"
