@@ -319,10 +319,11 @@ class Calculation:
     def unknown(self) -> set[Position]:
         """Formulas that are not computed and have no stored value, and those that need them."""
         unknown = {place for place in self.uncomputed if self.book[place].value is None}
-        computed = self.formulas.keys() - self.uncomputed.keys() if unknown else ()
-        for place in sorted(computed, key=self.order.__getitem__):
-            if not unknown.isdisjoint(self._precedents(place)):
-                unknown.add(place)
+        if unknown:
+            computed = self.formulas.keys() - self.uncomputed.keys()
+            for place in sorted(computed, key=self.order.__getitem__):
+                if not unknown.isdisjoint(self._precedents(place)):
+                    unknown.add(place)
         return unknown
 
     @cached_property
