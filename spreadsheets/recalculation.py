@@ -303,12 +303,17 @@ class Calculation:
 
     def source(self, place: Position) -> Position:
         """The cell at the end of a chain of formulas that read one cell each; else itself."""
+        return self.chain(place)[-1]
+
+    def chain(self, place: Position) -> list[Position]:
+        """A cell, and those behind it, each of them the one that the formula before reads."""
+        cells = [place]
         for _ in range(8):
-            areas = self.areas(place)
+            areas = self.areas(cells[-1])
             if len(areas) != 1 or areas[0].cells > 1:
                 break
-            place = areas[0].corner
-        return place
+            cells.append(areas[0].corner)
+        return cells
 
     def _precedents(self, place: Position) -> Iterator[Position]:
         """The cells that a formula reads; none if they are too many to compute."""
@@ -382,9 +387,9 @@ def calculate(book: Book) -> Calculation:
             reasons[place] = f"the engine gives {value}"
         else:
             values[place] = value
-    held = {place: book[place].value for place in formulas}
-    stale = sum(values.get(place) != value for place, value in held.items())
-    are_zero = all(type(value) is float and value == 0 for value in held.values())
+    saved = {place: book[place].value for place in formulas}
+    stale = sum(values.get(place) != value for place, value in saved.items())
+    are_zero = all(type(value) is float and value == 0 for value in saved.values())
     if are_zero and stale > max(_FEW, len(formulas) / 2):
         book = _uncalculated(book)
     calculation = Calculation(book, formulas, values, reasons, texts)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from replication.check.examination import NEAR, Examination, near
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
-from replication.check.table import FEW, LEAST, Line, Table, address, is_spoiling, runs
+from replication.check.table import LEAST, Line, Table, address, is_spoiling, runs
 from replication.check.words import power_of_ten, title
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
@@ -144,14 +144,10 @@ def _converting(f: Examination, place: Position, text: str) -> tuple[Position, s
     """
     role, k = f.table.places.get(place, ("", 0))
     is_first = role.startswith("velocity") and k <= 1
-    cell, areas = place, f.calculation.areas(place) if is_first else ()
-    for _ in range(FEW):
-        if len(areas) != 1 or areas[0].corner not in f.calculation.formulas:
-            break
-        cell = areas[0].corner
-        areas = f.calculation.areas(cell)
-    sources = [area.corner for area in areas]
-    if cell in f.table.places or f.inputs["velocity"].place not in sources:
+    chain = f.calculation.chain(place) if is_first else []
+    cell = next((each for each in reversed(chain) if each in f.calculation.formulas), place)
+    sources = [area.corner for area in f.calculation.areas(cell)]
+    if not is_first or cell in f.table.places or f.inputs["velocity"].place not in sources:
         return place, text
     return cell, f"{title('velocity')} does not follow from {address(sources[0])}"
 

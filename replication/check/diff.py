@@ -271,9 +271,9 @@ class Comparison:
         self.group(self.traced(self.differing(self.values), formulas), "value")
 
     def differing(self, compare: "_Compare") -> "_Differing":
-        """Cells that differ, by their places in the second workbook, column by column."""
-        order = sorted(self.where.items(), key=lambda pair: (pair[1][0], pair[1][2], pair[1][1]))
-        return {new: differs for old, new in order if (differs := compare(old, new))}
+        """Cells that differ, by their places in the second workbook."""
+        pairs = self.where.items()
+        return {new: differs for old, new in pairs if (differs := compare(old, new))}
 
     def traced(self, values: "_Differing", formulas: "_Differing") -> "_Differing":
         """Values that differ; where they follow from other differences, that is said."""
@@ -304,6 +304,7 @@ class Comparison:
         """
         labels = {place: text for place, (*_, text) in differing.items()}
         last = [place for place, text in labels.items() if text == LAST]
+        last.sort(key=lambda place: (place[0], place[2], place[1]))  # column by column, as runs
         told = runs({place: text for place, text in labels.items() if text != LAST})
         for run in filter(None, (*told, last)):
             was, now, text = differing[run[0]]
@@ -316,11 +317,8 @@ class Comparison:
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
             if self.alike(a, b):
-                but = (
-                    "$ fixes others of their references"
-                    if "$" in "".join(map(str, texts))
-                    else ("one of them by a name")
-                )
+                by_name = not any("$" in str(text) for text in texts)
+                but = "one of them by a name" if by_name else "$ fixes others of their references"
                 text = f"the formulas read the same cells, but {but}"
                 return None if _fixed(a) == _fixed(b) else (*texts, text)
             text = "the text is the same, but what it read is elsewhere now"

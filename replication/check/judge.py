@@ -524,8 +524,9 @@ def _typed_columns(f: Examination) -> None:
 
 def _typed_start(f: Examination) -> None:
     """A first velocity or depth that is typed: its inputs have cells, and the rest is computed."""
-    formulas, sources = f.calculation.formulas, ("velocity", "step")
-    for role, of in (("velocity_initial", sources[:1]), ("depth", sources)):
+    formulas = f.calculation.formulas
+    rests_on = {"velocity_initial": ["velocity"], "depth": ["velocity", "step"]}
+    for role, of in rests_on.items():
         if role not in f.table.lines:
             continue
         place, cells = f.table.place(role, 1), [f.inputs[name].place for name in of]

@@ -103,16 +103,16 @@ def _sorted(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> dict[int, int]:
 
     What is in none of the other sheet's rows stays where it is.
     """
-    held = (
-        {row: tuple((cell[1], cells[cell]) for cell in line) for row, line in by_row.items()}
-        for cells in (old, new)
-        for by_row in [_by(cells, itemgetter(0))]
-    )
-    before, after = (_by(lines, lines.__getitem__) for lines in held)
+    by_content = []
+    for cells in (old, new):
+        rows = _by(cells, itemgetter(0))
+        lines = {row: tuple((c, cells[r, c]) for r, c in line) for row, line in rows.items()}
+        by_content.append(_by(lines, lines.__getitem__))
+    before, after = by_content
     pairs = (zip(before[line], after[line], strict=False) for line in before if line in after)
-    rows = dict(chain.from_iterable(pairs))
-    taken = set(rows.values())
-    return {**{row: row for row, _ in old if row not in taken}, **rows}
+    where = dict(chain.from_iterable(pairs))
+    taken = set(where.values())
+    return {row: row for row, _ in old if row not in taken} | where
 
 
 def _by(cells: Iterable[K], key: Callable[[K], T]) -> dict[T, list[K]]:

@@ -67,8 +67,8 @@ def _shown_again(f: Examination) -> None:
     """
     for line in f.table.helpers:
         head = line.head or ""
-        ratio, in_unit = result_of(head) == "ratio", unit_power(line.unit)
-        in_unit = -2 if ratio and _PERCENT.search(head) else in_unit
+        ratio = result_of(head) == "ratio"
+        in_unit = _stated(head, line.unit, ratio)
         shows_depth = "depth" in line.roles and in_unit is not None
         if any(map(str.isdigit, head)) or not (ratio or shows_depth):
             continue  # "x * 10^6"
@@ -90,6 +90,11 @@ def _shown_again(f: Examination) -> None:
             size = times_too(power + (in_unit or 0))
             text = f"the column is {size} for its head: a unit is not converted"
             f.add("unit", cells, None, text)
+
+
+def _stated(text: str, unit: str | None, is_ratio: bool) -> int | None:
+    """The power of ten of the unit beside a label or a head; -2 for a ratio said to be percent."""
+    return -2 if is_ratio and _PERCENT.search(text) else unit_power(unit)
 
 
 def _says_radius(text: str) -> bool:
@@ -123,12 +128,12 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     """
     kind, place, unit, label, where = result
     what = "the final depth" if kind == "depth" else "the depth over the radius"
-    depths, last, named = f.rows.columns["depth"], f.table.steps, unit_power(unit)
+    depths, last = f.rows.columns["depth"], f.table.steps
     value, formula = f.calculation.number(place) or 0.0, f.calculation.book[place].formula
     says = str(f.calculation.values[label])
     is_ratio = kind == "ratio" and where != "beyond"
     says_radius = is_ratio and _says_radius(says)
-    named = -2 if is_ratio and _PERCENT.search(says) else named
+    named = _stated(says, unit, is_ratio)
     row, power = _row_shown(f, kind, value) if f.table.gives_depth(place) else (None, 0)
     is_near = (row or 0) >= last - _NEAR_END or "MAX(" in (formula or "").upper()
     is_near = is_near or result_of(says) != "any depth"
