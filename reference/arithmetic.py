@@ -23,9 +23,7 @@ class Arithmetic:
     y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, not certain.
     """
 
-    @property
-    def pi(self) -> Number: ...
-
+    pi: Number
     number: Callable[[Any], Number]
     log: Callable[[Any], Number]
     power: Callable[[Any, Fraction], Number]
@@ -59,10 +57,7 @@ class Reals(Arithmetic):
 
     def __init__(self, digits: int = 50) -> None:
         self.context = _context(digits)
-
-    @property
-    def pi(self) -> Number:
-        return +self.context.pi
+        self.pi = +self.context.pi
 
     def number(self, value: Fraction | int) -> Number:
         return self.context.mpf(value.numerator) / value.denominator
@@ -208,13 +203,11 @@ class Duals(Arithmetic):
     def __init__(self, arithmetic: Any) -> None:
         self.arithmetic = arithmetic
 
+    pi = property(lambda self: Dual(self.arithmetic.pi))
+
     def variable(self, value: Number, name: str) -> Dual:
         """A variable, by which derivatives are taken."""
         return Dual(value, {name: self.arithmetic.number(1)})
-
-    @property
-    def pi(self) -> Number:
-        return Dual(self.arithmetic.pi)
 
     def number(self, value: Fraction | int) -> Number:
         return Dual(self.arithmetic.number(value))

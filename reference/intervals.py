@@ -96,14 +96,11 @@ class Intervals(Arithmetic):
     def __init__(self, digits: int = 50) -> None:
         with ctx.workdps(digits):
             self._bits = ctx.prec  # set in half the time that the digits take
+            self.pi = arb.pi()
 
     def working(self) -> Any:
         """A context manager in which operators carry the digits."""
         return ctx.workprec(self._bits)
-
-    @property
-    def pi(self) -> Number:
-        return arb.pi()
 
     def number(self, value: Fraction | int) -> Number:
         if ctx.prec == self._bits:
