@@ -27,6 +27,7 @@ Box = Mapping[str, Ends]
 _INTERVALS = Intervals(30)
 """Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
 _DUALS = Duals(_INTERVALS)
+_TANGENTS = Duals(Floats())
 
 
 class Range(msgspec.Struct, frozen=True):
@@ -113,15 +114,6 @@ def _middle(box: Box) -> dict[str, Fraction]:
     return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
-def _halves(part: Box, whole: Box) -> list[Box]:
-    """A part cut in two across its widest side, relative to the size of that input."""
-    sizes = {name: max(map(abs, ends)) or 1 for name, ends in whole.items()}
-    name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
-    low, high = part[name]
-    middle = (low + high) / 2
-    return [{**part, name: (low, middle)}, {**part, name: (middle, high)}]
-
-
 class Solutions(msgspec.Struct, frozen=True):
     """The values of one input, within a search, for which a function meets its target.
 
@@ -201,7 +193,7 @@ def _crossing(
     # At the end of the part the target may be entered or left already.
     if goal is None or (least > goal if at_lower else greatest < goal):
         return part[end], part[end]
-    (low, high), width = part, (part[1] - part[0]) * _RESOLUTION
+    (low, high), width = part, (part[1] - part[0]) / 2**44  # finer than any page shows
     while high - low > width:
         # Not in the middle: a goal that is hit exactly cannot be decided.
         x = (low + (high - low) * Fraction(49, 100)).limit_denominator(10**30)
@@ -213,10 +205,6 @@ def _crossing(
         else:
             high = x
     return low, high
-
-
-_RESOLUTION = Fraction(1, 2**44)
-"""Of a part: how narrow a bracket is made, beyond what any page shows."""
 
 
 def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
@@ -268,6 +256,7 @@ def satisfying(
     ones first save time. In each box one point is tried, where the constraints' tangents aim.
     """
     queue = deque([(box, list(constraints))])
+    sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
     for _ in range(budget):
         if not queue:
             return False, None
@@ -278,7 +267,10 @@ def satisfying(
         point = _aimed(undecided, part)
         if _undecided(undecided, _points(point)) == []:
             return True, point
-        queue += [(half, undecided) for half in _halves(part, box)]
+        # Cut in two across the side that is widest relative to the size of its input.
+        name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
+        (low, high), middle = part[name], _middle(part)[name]
+        queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
     return None, None
 
 
@@ -305,18 +297,13 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
         slopes = {name: slope * float(widths[name]) for name, slope in dual.slopes.items()}
         if steepness := sum(slope * slope for slope in slopes.values()):
             planes.append((dual.value, slopes, steepness, low + margin, high - margin))
-    for _ in range(_SWEEPS):
+    for _ in range(30):  # more often moves the point too little to matter
         for value, slopes, steepness, low, high in planes:
             reached = value + sum(slope * moved[name] for name, slope in slopes.items())
             short = max(low - reached, 0.0) + min(high - reached, 0.0)
             for name, slope in slopes.items() if short else ():
                 moved[name] = min(0.49, max(-0.49, moved[name] + short * slope / steepness))
     return {name: value + widths[name] * Fraction(moved[name]) for name, value in middle.items()}
-
-
-_TANGENTS = Duals(Floats())
-_SWEEPS = 30
-"""How often all tangents are gone through: more moves the point too little to matter."""
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:
