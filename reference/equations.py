@@ -12,7 +12,7 @@ space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2
 import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from functools import cache, lru_cache, reduce
+from functools import lru_cache, reduce
 from operator import add, mul
 from typing import Any
 
@@ -48,21 +48,6 @@ NAMED_FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
 CV/PV, the share of a normal distribution below x, and x to three digits."""
 
 
-@cache
-def _token(written: tuple[str, ...]) -> re.Pattern[str]:
-    """What an expression is made of, with the symbols as they are written."""
-    longest_first = sorted(written, key=len, reverse=True)  # "k_t" before "k"
-    return re.compile(
-        r"(?P<space>(?:\s|\\quad|&)*)(?:"
-        r"(?P<number>\d+(?:\.\d+)?)"
-        rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
-        r"|(?P<fraction>\\frac(?![a-zA-Z]))"
-        r"|(?P<sign>[-+/^(){}])"
-        r"|(?P<end>\Z)"
-        rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})|(?P<other>.))"
-    )
-
-
 _OPERATORS = {
     "+": ("sum", 1), "-": ("sum", 1), "/": ("quotient", 2), " ": ("product", 2),
     "": ("product", 3), "^": ("power", 4),
@@ -76,7 +61,17 @@ class _Reader:
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
         self.text, self.symbols, self.at = text, symbols, 0
-        self.tokens = list(_token(tuple(symbols)).finditer(text))
+        longest_first = sorted(symbols, key=len, reverse=True)  # "k_t" before "k"
+        token = (
+            r"(?P<space>(?:\s|\\quad|&)*)(?:"
+            r"(?P<number>\d+(?:\.\d+)?)"
+            rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
+            r"|(?P<fraction>\\frac(?![a-zA-Z]))"
+            r"|(?P<sign>[-+/^(){}])"
+            r"|(?P<end>\Z)"
+            rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})|(?P<other>.))"
+        )
+        self.tokens = list(re.finditer(token, text))
 
     @property
     def next(self) -> tuple[str, str, bool]:
@@ -294,7 +289,6 @@ MATHML = Notation(
     stroke=(0, 0),
 )
 _TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
-_TIGHTEST = 5
 
 
 def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -> str:
@@ -306,7 +300,7 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
 
     def part(child: Node, least: int) -> str:
         inner = rendered(child, shown, notation)
-        loose = _TIGHTNESS.get(child.kind, _TIGHTEST) < least
+        loose = _TIGHTNESS.get(child.kind, 5) < least
         return notation.bracket(inner) if loose else inner
 
     def added(term: Node) -> str:

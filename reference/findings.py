@@ -118,13 +118,10 @@ def filled(entry: Finding) -> Finding:
     texts, steps = dict[str, str](), dict[str, bool]()
     for key in ("title", "statement", "by_hand", "settle"):
         text = " ".join(getattr(entry, key).split())
-        text = _PLACE.sub(lambda match: _number(match[1], match[2], entry), text)
+        text = re.sub(r"\{([\w.-]+)(?::([^{}]+))?\}", lambda m: _number(m[1], m[2], entry), text)
         steps |= {line: _holds(line) for line in re.findall("`(.*?)`", text)}
         texts[key] = text.replace("`", "")
     return msgspec.structs.replace(entry, **texts, steps=steps)
-
-
-_PLACE = re.compile(r"\{([\w.-]+)(?::([^{}]+))?\}")
 
 
 def _number(name: str, unit: str | None, entry: Finding) -> str:

@@ -115,17 +115,15 @@ def _side(
 
 def computing(
     computation: Computation, sides: Sides, names: Iterable[str]
-) -> Callable[[Any, Mapping[str, Any]], Number | Fraction]:
+) -> Callable[..., Number | Fraction]:
     """A computation, given the sides of all equations, as a function of inputs with these names."""
     if computation.formula is None:
-        function = FUNCTIONS[computation.name]
-        return lambda ar, inputs: function(ar, **inputs)
+        return FUNCTIONS[computation.name]
     premises = computation.premises
     written = {r"\pi": "pi", **{key: key for key in (*names, *premises)}}
     formula = read_expression(computation.formula, written)
 
-    def value(ar: Arithmetic, inputs: Mapping[str, Any]) -> Number | Fraction:
-        known = dict(inputs)
+    def value(ar: Arithmetic, **known: Any) -> Number | Fraction:
         for key, premise in premises.items():
             known[key] = _side(premise, sides[premise.equation], written, ar, known)
         return evaluate(formula, ar, known)

@@ -34,7 +34,6 @@ Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
     "quoted", "constant", "remark",
 ]  # fmt: skip
-Relation = Literal["<", "<=", ">", ">="]
 
 
 def shown(text: str) -> str:
@@ -164,7 +163,7 @@ class ClaimEntry(Entry, frozen=True):
     readings: Mapping[str, str] = {}
     given: str | None = None
     shown_by: Sequence[str] = ()
-    relation: Relation | None = None
+    relation: Literal["<", "<=", ">", ">="] | None = None
     against: str | None = None
     assumes: str | None = None
     exact: bool = False
@@ -378,8 +377,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
-        equations = ((equation.id, equation.place) for equation in self.equations.values())
-        around = (name for name, whole in equations if whole.start <= place.start < whole.end)
+        wholes = {name: equation.place for name, equation in self.equations.items()}
+        around = (name for name, at in wholes.items() if at.start <= place.start < at.end)
         return Claim(
             **msgspec.structs.asdict(claim),
             why=claim.given and self.reasons[claim.given],
@@ -505,7 +504,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
             known = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return compute(ar, {**known, **settings})
+            return compute(ar, **known, **settings)
 
         return of_entries
 

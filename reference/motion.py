@@ -106,7 +106,7 @@ class Trajectory:
         *,
         digits: int = 50,
     ) -> None:
-        self.reals = Reals(digits + _GUARD)
+        self.reals = Reals(digits + 20)  # guard digits
         self.context = self.reals.context
         self.velocity, self.radius = self.reals.number(velocity), self.reals.number(radius)
         self.drag = self.reals.number(3 * target_density / (8 * particle_density))
@@ -166,7 +166,3 @@ class Trajectory:
     def stop_time(self, stop_velocity: Number = 0) -> Number:
         """Time [s] until the velocity has fallen to the stop velocity [m/s], 0 for rest."""
         return self.time_to_depth(self.depth_at_velocity(stop_velocity))
-
-
-_GUARD = 20
-"""Digits carried beyond those asked for."""

@@ -77,11 +77,11 @@ _BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
     "psi": (_POUND * _GRAVITY / _INCH**2, _PRESSURE, "k"),
     "ksi": (1000 * _POUND * _GRAVITY / _INCH**2, _PRESSURE, ""),
 }
-_PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
-_UNITS = {name: (factor, powers) for name, (factor, powers, _) in _BASES.items()} | {
+_PREFIXES = {"": 0, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+_UNITS = {
     prefix + name: (factor * Fraction(10) ** _PREFIXES[prefix], powers)
     for name, (factor, powers, prefixes) in _BASES.items()
-    for prefix in prefixes.split()
+    for prefix in ["", *prefixes.split()]
 }
 _FACTOR = re.compile(
     r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1(?![\s\d]*\d))(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
@@ -139,16 +139,13 @@ def same_dimension(first: str, second: str) -> bool:
     return unit_dimension(first) == unit_dimension(second)
 
 
-_SUPERSCRIPTS = str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")
-
-
 def superscript(power: str) -> str:
     """A power as raised characters.
 
     >>> superscript("-10")
     '⁻¹⁰'
     """
-    return power.translate(_SUPERSCRIPTS)
+    return power.translate(str.maketrans("-0123456789n", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ"))
 
 
 def raised(text: str) -> str:
