@@ -13,7 +13,7 @@ from math import inf, isinf
 
 import msgspec
 
-from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats, Number
+from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats
 from reference.intervals import Intervals
 from reference.ledger import Function
 from reference.printed import Interval
@@ -63,23 +63,19 @@ def enclose(function: Function, box: Box) -> Range:
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     fixed = {name: sign > 0 for name, sign in signs.items() if sign}
     if not fixed:
-        return Range(_best(function, box, tangent.value, slopes), signs)
+        # Plain interval arithmetic, cut to what the value in the middle and the slopes allow.
+        low, high = _INTERVALS.ends(tangent.value)
+        below, above = _plain(function, _points(_middle(box)))
+        for name, slope in slopes.items():
+            reach = max(map(abs, _INTERVALS.ends(slope))) * (box[name][1] - box[name][0]) / 2
+            below, above = below - reach, above + reach
+        return Range((max(low, below), min(high, above)), signs)
     lower, upper = (
         {**box, **_points({name: box[name][rises == top] for name, rises in fixed.items()})}
         for top in (False, True)
     )
     # An input that is put at an end may free another's sign; with all at ends the bound is sharp.
     return Range((enclose(function, lower).ends[0], enclose(function, upper).ends[1]), signs, idle)
-
-
-def _best(function: Function, box: Box, value: Number, slopes: Mapping[str, Number]) -> Ends:
-    """The range by plain interval arithmetic, cut to what the middle and the slopes allow."""
-    low, high = _INTERVALS.ends(value)
-    at_middle, reach = _plain(function, _points(_middle(box))), Fraction(0)
-    for name, slope in slopes.items():
-        steepest = max(map(abs, _INTERVALS.ends(slope)))
-        reach += steepest * (box[name][1] - box[name][0]) / 2
-    return max(low, at_middle[0] - reach), min(high, at_middle[1] + reach)
 
 
 def _points(point: Mapping[str, Fraction]) -> Box:

@@ -84,11 +84,6 @@ class Computation(Entry, frozen=True, eq=False):
     by_row: bool = False
     by_scheme: bool = False
 
-    @property
-    def equations(self) -> list[str]:
-        """The printed equations that it evaluates."""
-        return [premise.equation for premise in self.premises.values()]
-
 
 def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
     """The value of an expression; a known name alone stays as it is, for exact exponents."""

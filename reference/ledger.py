@@ -251,8 +251,7 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""
         if (
-            self.is_exact
-            or self.number.quantum == 0
+            self.number.quantum == 0
             or self.bound is not None
             or (self.chosen and convention.choices_exact)
             or (in_header(self.cell) and convention.header_exact)
@@ -298,8 +297,8 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
     @cached_property
     def uses(self) -> list[str]:
         """The printed equations that it is computed with, sorted."""
-        computations = self.computations.values()
-        return sorted({name for computation in computations for name in computation.equations})
+        premises = (computation.premises for computation in self.computations.values())
+        return sorted({premise.equation for each in premises for premise in each.values()})
 
 
 class Ledger(Entry, frozen=True, dict=True, eq=False):

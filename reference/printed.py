@@ -127,7 +127,7 @@ class Printed(msgspec.Struct, frozen=True):
 
     text: str
     value: Fraction
-    quanta: tuple[Fraction, ...]
+    quanta: tuple[Fraction, ...] = (Fraction(0),)
     floating: bool = False
 
     @property
@@ -215,13 +215,12 @@ def parse(text: str) -> Printed:
     ['[9.125E+9, 9.135E+9)', '[9.95, 10.05)']
     """
     bare = text.strip().removeprefix("~").strip()
-    exact = (Fraction(0),)
     if word := _WORDS.get(bare.lower()):
-        return Printed(text, Fraction(word), exact)
+        return Printed(text, Fraction(word))
     if match := _FRACTION.fullmatch(bare):
-        return Printed(text, Fraction(*(int(part) for part in match.groups() if part)), exact)
+        return Printed(text, Fraction(*(int(part) for part in match.groups() if part)))
     if match := _POWER.fullmatch(bare):
-        return Printed(text, Fraction(10) ** int(match["power"].strip("{}")), exact)
+        return Printed(text, Fraction(10) ** int(match["power"].strip("{}")))
     match = _DECIMAL.fullmatch(bare)
     if match is None:
         raise ValueError(f"cannot read {text!r} as a printed number")
