@@ -170,7 +170,7 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
     if "=" not in text:
         raise EquationError(f"{text!r} has no equals sign")
     sides = (side.rstrip(" &,.\n") for side in text.split("="))
-    return tuple(read_expression(side, symbols) for side in sides if side.strip(" &,.\n"))
+    return tuple(read_expression(side, symbols) for side in sides if side)
 
 
 def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:

@@ -138,7 +138,7 @@ def _holds(text: str) -> bool:
     """Whether a line of arithmetic such as "2/3 * 3 = 2.0" holds, calculated again."""
     left, _, right = text.rpartition("=")
     value = evaluate(expression(left)[0], _REALS, {})
-    computed = Fraction(str(_REALS.context.nstr(value, 25)))
+    computed = Fraction(_REALS.context.nstr(value, 25))
     return parse(right.strip()).interval().contains(computed)
 
 
