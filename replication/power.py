@@ -14,7 +14,7 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.explain import Screen, dependents, edits_of
+from replication.audit.explain import dependents, disagreeing, edits_of
 from replication.text import Table
 
 
@@ -139,7 +139,7 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
         for k in range(_VALUES + 1)
     ]
     return all(
-        Screen(ledger, inferred).failing(claims) - Screen(truth.ledger, inferred).failing(claims)
+        disagreeing(ledger, claims, inferred) - disagreeing(truth.ledger, claims, inferred)
         for inferred in values
     )
 

@@ -1,7 +1,6 @@
 """The audit: every verdict, explanation and finding, computed once, as one record."""
 
 import sys
-from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property, partial
 from hashlib import sha256
@@ -79,7 +78,7 @@ class Audit(Known):
             remarks=remarks,
             reproduced=len(reproduced),
             calculations=len(calculations),
-            failing=sum(Verdict(claim.verdict).is_failure for claim in claims),
+            failing=sum(claim.verdict.is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
         )
@@ -115,7 +114,7 @@ class Audit(Known):
             **self._worked(claim, read.computed),
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
-            figures=self._figures(claim),
+            figures=self._figures() if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
             slips=self.explainer.slips(claim) if is_open and readings else [],
@@ -182,10 +181,8 @@ class Audit(Known):
         sides = (rendered(side, self._shown, MATHML) for side in self.ledger.sides[equation])
         return f'<math display="block">{"<mo>=</mo>".join(sides)}</math>'
 
-    def _figures(self, claim: Claim) -> list[r.Figure]:
+    def _figures(self) -> list[r.Figure]:
         """For a remark: the final depths at both steps, in both schemes."""
-        if claim.kind != "remark":
-            return []
         figures = []
         for beta, (name, scheme) in product(comparison.BETAS, sheet.SCHEMES.items()):
             what, depths = f"beta = {beta}, drag at the {scheme.drag_at} velocity", []
@@ -286,16 +283,14 @@ def _down(value: Fraction) -> float:
     return nextafter(double, -inf) if Fraction(double) > value else double
 
 
-_LIBRARIES = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
-
-
 def _provenance() -> dict[str, object]:
     """The programs that the audit was made with, and the hashes of the files that it read."""
     folder = resources.files("reference") / "report"
-    names: Iterable[str] = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
+    libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
+    files = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
     return {
         "command": "coldspray audit",
         "python": ".".join(map(str, sys.version_info[:3])),
-        "versions": {name: metadata.version(name) for name in _LIBRARIES},
-        "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in names},
+        "versions": {name: metadata.version(name) for name in libraries},
+        "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in files},
     }

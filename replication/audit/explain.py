@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from string import digits
 
 from reference.arithmetic import Floats
@@ -21,30 +21,30 @@ _CLOSE = Fraction(1, 10**9)
 """How near a double must come to an exact number, such as 2/3; relative."""
 
 
-class Screen:
-    """Which claims of a ledger agree, its inferred inputs at given values (SI)."""
+Values = Mapping[str, Fraction]
+"""Other values of some entries than printed, in SI."""
 
-    def __init__(self, ledger: Ledger, assumed: Mapping[str, Fraction]) -> None:
-        self.ledger, self.assumed = ledger, assumed
 
-    def agrees(self, claim: Claim, reading: str = "", changed: Mapping[str, Fraction] = {}) -> bool:
-        """Whether a claim with a computation agrees, with some entries changed (SI)."""
-        if claim.computations[reading].restates:
-            return restates(self.ledger, claim)
-        known, value_of, target = {**self.assumed, **changed}, self.ledger.value, claim.target()
-        inputs = {e: float(known[e] if e in known else value_of(e)) for e in claim.entries}
-        try:
-            value = Fraction(self.ledger.function(claim, reading=reading)(Floats(), **inputs))
-        except (ArithmeticError, ValueError, TypeError):
-            return False  # in doubles these inputs have no result, or only a complex one
-        if target.is_point and target.lower is not None:
-            return abs(value - target.lower) <= _CLOSE * abs(target.lower)
-        return target.contains(value)
+def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
+    """Whether a claim with a computation agrees, some entries changed."""
+    if claim.computations[reading].restates:
+        return restates(ledger, claim)
+    target, inputs = claim.target(), {}
+    for name in claim.entries:
+        inputs[name] = float(changed[name] if name in changed else ledger.value(name))
+    try:
+        value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
+    except (ArithmeticError, ValueError, TypeError):
+        return False  # in doubles these inputs have no result, or only a complex one
+    if target.is_point and target.lower is not None:
+        return abs(value - target.lower) <= _CLOSE * abs(target.lower)
+    return target.contains(value)
 
-    def failing(self, names: Iterable[str]) -> set[str]:
-        """Those of the claims that do not agree."""
-        claims = (self.ledger.claims[name] for name in names)
-        return {c.id for c in claims if c.computation is not None and not self.agrees(c)}
+
+def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
+    """Those of the claims that do not agree, some entries changed."""
+    claims = (ledger.claims[name] for name in names)
+    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
 
 
 def dependents(ledger: Ledger, name: str) -> set[str]:
@@ -76,46 +76,40 @@ class Explainer:
         self.judge, self.ledger = judge, judge.ledger
         self._repairs_by = cache(self._edited)  # a culprit is looked for among the same edits
 
-    def _screens(self, ledger: Ledger) -> list[Screen]:
-        """Quick looks at a ledger, inferred inputs as assumed, or as the ledger takes them."""
-        nominal = {name: self.ledger.value(name) for name in self.judge.assumed}
-        each = [nominal, self.judge.assumed] if self.judge.moved else [self.judge.assumed]
-        return [Screen(ledger, assumed) for assumed in each]
+    @cached_property
+    def _taken(self) -> list[Values]:
+        """The values of the inferred inputs: as the ledger has them, and as assumed."""
+        return [{}, self.judge.assumed] if self.judge.moved else [{}]
 
     # Single inputs
 
     def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
         """For every reading of a claim, the values of each entry alone with which it agrees."""
-        claims = self.ledger.claims
-        return [
-            self._back_solved(claim, reading, name)
-            for reading in claim.computations
-            for name in claim.entries
-            if name.startswith(INFERRED) or not claims[name].is_exact or claims[name].quantity
-        ]
-
-    def _back_solved(self, claim: Claim, reading: str, name: str) -> BackSolvedRecord:
-        solutions, unit = self.solutions(claim, reading, name), self.ledger.unit(name)
-        si, proof = to_si(unit), Proof.INSIDE
-        if not solutions.outer:
-            proof = Proof.NONE
-        elif not solutions.inner:
-            proof = Proof.UNDECIDED
-        elif solutions.reaches_an_end:
-            proof = Proof.TO_AN_END
-        spans = (solutions.search, *solutions.inner)
-        search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
-        return BackSolvedRecord(
-            reading=reading,
-            entry=name,
-            title=self.ledger.title(name),
-            unit=unit,
-            printed=float(self.judge.value(name) / si),
-            intervals=intervals,
-            search=search,
-            search_reason=self.ledger.search(name)[2],
-            proof=proof,
-        )
+        ledger, records = self.ledger, []
+        for reading, name in product(claim.computations, claim.entries):
+            entry = ledger.claims.get(name)
+            if entry is not None and entry.is_exact and not entry.quantity:
+                continue
+            solutions, unit = self.solutions(claim, reading, name), ledger.unit(name)
+            proof = Proof.TO_AN_END if solutions.reaches_an_end else Proof.INSIDE
+            if not solutions.inner:
+                proof = Proof.UNDECIDED if solutions.outer else Proof.NONE
+            si, spans = to_si(unit), (solutions.search, *solutions.inner)
+            search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
+            records.append(
+                BackSolvedRecord(
+                    reading=reading,
+                    entry=name,
+                    title=ledger.title(name),
+                    unit=unit,
+                    printed=float(self.judge.value(name) / si),
+                    intervals=intervals,
+                    search=search,
+                    search_reason=ledger.search(name)[2],
+                    proof=proof,
+                )
+            )
+        return records
 
     def solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
         """The values of an entry (SI), the others as printed, with which a reading agrees."""
@@ -144,9 +138,8 @@ class Explainer:
 
     def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
         """Whether all claims that confirm a number agree with this value of it (SI)."""
-        screen = Screen(self.ledger, self.judge.assumed)
-        claims = map(self.ledger.claims.__getitem__, chosen.shown_by)
-        return all(screen.agrees(claim, "", {chosen.id: value}) for claim in claims)
+        ledger, changed = self.ledger, {**self.judge.assumed, chosen.id: value}
+        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
 
     # Misprints
 
@@ -169,15 +162,14 @@ class Explainer:
         return repairs[:_SHOWN]
 
     def _edited(self, name: str, entry: str) -> list[RepairRecord]:
-        """The edits of an entry that make a claim or an equation agree."""
-        repairs, title = [], self.ledger.title(entry)
+        repairs = []
         for text, kind in edits_of(self.ledger, entry):
             changed = self.ledger.misprint(entry, text)
             if (reading := self._agreeing(name, entry, changed)) is not None:
                 repairs.append(
                     RepairRecord(
                         entry=entry,
-                        title=title,
+                        title=self.ledger.title(entry),
                         reading=reading,
                         printed=self.ledger.printed_text(entry),
                         text=text,
@@ -212,20 +204,19 @@ class Explainer:
         within = changed.equation_of(name)
         if within is not None:
             return "" if follows(changed, within) else None
-        claim, screens = changed.claims[name], self._screens(changed)
-        if claim.computation is None:
-            if entry != name or not self._is_shown(claim, claim.value):
-                return None
-            sources = changed.sources_of(name)
-            agrees = not sources or any(claim.target().meets(s.interval) for s in sources)
-            return "" if agrees else None
-        agreeing = (r for r in claim.computations for s in screens if s.agrees(claim, r))
-        return next(agreeing, None)
+        claim, sources = changed.claims[name], changed.sources_of(name)
+        if claim.computation is not None:
+            pairs = product(claim.computations, self._taken)
+            return next((r for r, taken in pairs if agrees(changed, claim, taken, r)), None)
+        if entry != name or not self._is_shown(claim, claim.value):
+            return None
+        sourced = not sources or any(claim.target().meets(s.interval) for s in sources)
+        return "" if sourced else None
 
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
         """All claims and equations that fail with the edit, also those that it does not touch."""
         touched, within = dependents(self.ledger, entry), self.ledger.equation_of(entry)
-        failing = min((s.failing(touched) for s in self._screens(changed)), key=len)
+        failing = min((disagreeing(changed, touched, taken) for taken in self._taken), key=len)
         if within is not None:
             touched.add(within)
             failing |= set() if follows(changed, within) else {within}
@@ -233,7 +224,7 @@ class Explainer:
 
     @cached_property
     def _failing_now(self) -> set[str]:
-        claims = Screen(self.ledger, self.judge.assumed).failing(self.ledger.claims)
+        claims = disagreeing(self.ledger, self.ledger.claims, self.judge.assumed)
         return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One culprit for all that fails
@@ -318,9 +309,9 @@ _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
     if name in ledger.equations:
-        return equation_edits(ledger, name)
-    claim = ledger.claims[name]
-    return iter(()) if claim.printed is None else edits(claim.text)
+        yield from equation_edits(ledger, name)
+    elif ledger.claims[name].printed is not None:
+        yield from edits(ledger.claims[name].text)
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:

@@ -5,7 +5,7 @@ sheet and verdicts; only what has no such words is a function here.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from fnmatch import fnmatch
 from fractions import Fraction
 from functools import cache, partial
@@ -68,7 +68,7 @@ class Known:
         constant = self.equation(claim.within).constants.get(claim.id) if claim.within else None
         reason = wording.constant_explanation(self.ledger, claim, constant) if constant else ""
         if constant and constant.verdict != Verdict.NOT_CHECKABLE:
-            return Assessment(Verdict(constant.verdict), reason)
+            return Assessment(constant.verdict, reason)
         if sources := self.sources(claim.id):
             agrees = any(source.agrees for source in sources)
             verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
@@ -148,10 +148,17 @@ class Evidence:
         if name in self.formulas:
             value: Fraction | float = self.calculated(self.formulas[name])
             return bool(value > 0) if piece is not None and piece.is_outcome else value
+        if name.startswith("unit:"):
+            return to_si(name.removeprefix("unit:"))
         if piece is None:
-            return self._named(name)
+            return self._named(*name.split("."))
         if piece.over:
-            return self._least(piece.formula, piece.over)
+            box = {
+                entry: self.known.judge.rounded(entry, _CONVENTIONS[name]).ends
+                for name, entries in piece.over.items()
+                for entry in entries
+            }
+            return enclose(partial(self.calculated, piece.formula), box).ends[0]
         if piece.exact:
             changed = {key: float(self.calculated(x)) for key, x in piece.exact.items()}
             impact = case(self.known, 5, **changed)
@@ -168,18 +175,35 @@ class Evidence:
             return Fraction(" ".join(self.known.ledger.text.split()).count(piece.words))
         return _BESIDES[f"{self.finding.id}: {name}"](self)
 
-    def _named(self, name: str) -> Value:
-        """A unit, an entry or a source, or what the parts of its name say of it."""
-        entry, *parts = name.split(".")
-        if name.startswith("unit:"):
-            return to_si(name.removeprefix("unit:"))
-        if not parts:
-            return self.known.exact(name)
-        if parts[-1] in ("least", "greatest"):
-            return self._range(entry, *parts[:-1]).ends[parts[-1] == "greatest"]
-        if parts[0] == "by":
-            return _needed(self.known, entry, parts[1])
-        return _PARTS[parts[0]](self.known, entry)
+    def _named(self, entry: str, *parts: str) -> Value:
+        """The value of an entry or a source, or what the parts of its name say of it, SI."""
+        known, ledger = self.known, self.known.ledger
+        match parts:
+            case ():
+                return known.exact(entry)
+            case (*how, "least" | "greatest" as end):
+                return self._range(entry, *how).ends[end == "greatest"]
+            case ("computed" | "derived" as part,):
+                reading = known.reading(entry, DERIVED if part == "derived" else "")
+                return reading.computed * float(ledger.claims[entry].si)
+            case ("by", needed):  # the middle of the values with which the derived form gives it
+                solutions = known.explainer.solutions(ledger.claims[entry], DERIVED, needed)
+                return float(sum(solutions.inner[0])) / 2
+            case ("digit",):
+                return ledger.claims[entry].number.quantum * ledger.claims[entry].si
+            case ("slips",):
+                slips = known.explainer.slips(ledger.claims[entry])
+                return Fraction(sum(bool(slip.fits) for slip in slips))
+            case ("factor",):
+                factor = known.equation(entry).factor
+                return Fraction(0) if factor is None else 1 / factor
+            case ("needed",):
+                equation = known.equation(ledger.claims[entry].within)
+                (value,) = equation.constants[entry].needed
+                return Fraction(value)
+            case ("odd",):
+                return Fraction(len(known.judge.inference(entry).odd))
+        raise KeyError(".".join((entry, *parts)))
 
     def _range(self, entry: str, how: str = "") -> Interval:
         """What prints like a claim, or what the evidence of an inferred input admits, SI.
@@ -195,9 +219,7 @@ class Evidence:
         inference = judge.inference(entry, centered=how == "centered")
         return inference.with_mass if how == "mass" else inference.inner
 
-    def calculated(
-        self, formula: str, ar: Arithmetic | None = None, numbers: Mapping[str, Number] = {}
-    ) -> Any:
+    def calculated(self, formula: str, ar: Arithmetic | None = None, /, **numbers: Number) -> Any:
         """The value of a formula, exact until a logarithm or a root is taken.
 
         Or in another arithmetic, in which some entries are given as `numbers`.
@@ -206,19 +228,10 @@ class Evidence:
 
         def value(name: str) -> Number:
             if numbers and name in self.formulas:
-                return self.calculated(self.formulas[name], ar, numbers)
+                return self.calculated(self.formulas[name], ar, **numbers)
             return numbers[name] if name in numbers else self.value(name)
 
         return evaluate(node, ar or _Exact(), {name: value(name) for name in names})
-
-    def _least(self, formula: str, over: Mapping[Any, Sequence[str]]) -> Fraction:
-        """The least value of a formula, proven, for all that some entries may stand for."""
-        box = {
-            entry: self.known.judge.rounded(entry, _CONVENTIONS[name]).ends
-            for name, entries in over.items()
-            for entry in entries
-        }
-        return enclose(lambda ar, **numbers: self.calculated(formula, ar, numbers), box).ends[0]
 
     def _run(self, claim: str, row: str = "", scheme: str = "published", **inputs: str) -> float:
         """What the sheet gives for a claim in another row, by another scheme, of other inputs."""
@@ -253,31 +266,22 @@ class Evidence:
 
     def record(self) -> r.FindingRecord:
         """The finding with its evidence, as asserted and as computed."""
-        evidence = [self._piece(*assertion) for assertion in self.finding.evidence.items()]
-        return r.filled(
-            r.FindingRecord,
-            self.finding,
-            claims=list(self.finding.claims),
-            holds=all(piece.holds for piece in evidence) and all(self.finding.steps.values()),
-            evidence=evidence,
-        )
-
-    def _piece(self, name: str, assertion: asserted.Assertion) -> r.EvidenceRecord:
-        value: Value | None
-        try:
-            value = self.value(name)
-            if not isinstance(value, bool):
-                value = Fraction(value) / to_si(assertion.unit)
-        except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
-            value = None
-        return r.filled(
-            r.EvidenceRecord,
-            assertion,
-            name=name,
-            asserted=assertion.says,
-            computed=float(value) if isinstance(value, Fraction) else value,
-            holds=value is not None and assertion.holds(value),
-        )
+        pieces = []
+        for name, assertion in self.finding.evidence.items():
+            value: Value | None
+            try:
+                value = self.value(name)
+                if not isinstance(value, bool):
+                    value = Fraction(value) / to_si(assertion.unit)
+            except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
+                value = None
+            holds = value is not None and assertion.holds(value)
+            computed = float(value) if isinstance(value, Fraction) else value
+            given = {"name": name, "asserted": assertion.says, "computed": computed, "holds": holds}
+            pieces.append(r.filled(r.EvidenceRecord, assertion, **given))
+        holds = all(piece.holds for piece in pieces) and all(self.finding.steps.values())
+        claims = list(self.finding.claims)
+        return r.filled(r.FindingRecord, self.finding, claims=claims, evidence=pieces, holds=holds)
 
 
 class _Exact(Floats):
@@ -288,42 +292,6 @@ class _Exact(Floats):
 
     def rounded(self, x: Number) -> Fraction:
         return Fraction(f"{float(x):.2e}")
-
-
-def _needed(known: Known, claim: str, entry: str) -> float:
-    """The middle of the values of an entry (SI) with which the derived form gives a claim."""
-    solutions = known.explainer.solutions(known.ledger.claims[claim], DERIVED, entry)
-    return float(sum(solutions.inner[0])) / 2
-
-
-def _computed(known: Known, claim: str, reading: str = "") -> float:
-    return known.reading(claim, reading).computed * float(known.ledger.claims[claim].si)
-
-
-def _factor(known: Known, equation: str) -> Fraction:
-    factor = known.equation(equation).factor
-    return Fraction(0) if factor is None else 1 / factor
-
-
-def _constant(known: Known, name: str) -> Fraction:
-    (value,) = known.equation(known.ledger.claims[name].within).constants[name].needed
-    return Fraction(value)
-
-
-_PARTS: Mapping[str, Callable[[Known, str], Value]] = {
-    "computed": _computed,
-    "derived": partial(_computed, reading=DERIVED),
-    "factor": _factor,
-    "needed": _constant,
-    "digit": lambda known, name: (
-        known.ledger.claims[name].number.quantum * known.ledger.claims[name].si
-    ),
-    "odd": lambda known, name: Fraction(len(known.judge.inference(name).odd)),
-    "slips": lambda known, name: Fraction(
-        sum(bool(slip.fits) for slip in known.explainer.slips(known.ledger.claims[name]))
-    ),
-}
-"""The value that each part of a name gives of an entry; explained at the head of findings.toml."""
 
 
 # What has no formula

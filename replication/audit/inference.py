@@ -1,6 +1,6 @@
 """Inputs that the report never prints, inferred from the numbers that it does print."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from enum import Enum
 from fractions import Fraction
 from functools import cache, cached_property
@@ -27,9 +27,10 @@ class Inference:
 
     `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
     sphere's. `each` has the values for every piece of evidence alone, with the other inputs exactly
-    as printed. `agreeing` is the largest set of evidence that one value can satisfy; `odd` is the
-    rest. Every value of `inner` is proven to satisfy the agreeing evidence, and none outside
-    `outer` does. Where no value satisfies any, all evidence is odd, and the ledger's value stays.
+    as printed. `agreeing` is the largest set of evidence that one value can satisfy, of several
+    that of the least value; `odd` is the rest. Every value of `inner` is proven to satisfy the
+    agreeing evidence, and none outside `outer` does. Where no value satisfies any, all evidence is
+    odd, and the ledger's value stays.
     """
 
     def __init__(
@@ -37,14 +38,16 @@ class Inference:
     ) -> None:
         self.ledger, self.name, self.centered = ledger, name, centered
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
-        self._narrowed, self._admitted = cache(self._narrow), cache(self._bounds)
+        self.rounded, self._admitted = cache(self._rounded), cache(self._bounds)
         self.each: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
             function, search = ledger.function(resting, centered=centered), self.entry.search
             self.each[claim.id] = solve(function, name, search, claim.target(), others=printed)
-        self.agreeing = _agreeing(self.each)
+        values = sorted({low for solutions in self.each.values() for low, _ in solutions.inner})
+        sets = (tuple(claim for claim, own in self.each.items() if own.admits(x)) for x in values)
+        self.agreeing = max(sets, key=len, default=())
         self.odd = tuple(claim for claim in self.each if claim not in self.agreeing)
         serving = [self.each[claim] for claim in self.agreeing]
         outer = _intersection([self.entry.search], *(solutions.outer for solutions in serving))
@@ -74,15 +77,14 @@ class Inference:
         constraints, box = self.joint(convention, {self.name: self.entry.search})
         return Interval(*bounds(constraints, self.name, box))
 
-    def rounded(self, name: str, convention: Convention) -> Ends:
+    def _rounded(self, name: str, convention: Convention) -> Ends:
         """The values of an input that print like it and agree with what is computed from it alone.
 
         The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
         """
-        return self._narrowed(name, *self.ledger.claims[name].as_input(convention).ends)
-
-    def _narrow(self, name: str, low: Fraction, high: Fraction) -> Ends:
-        for shown in map(self.ledger.claims.__getitem__, self.ledger.claims[name].shown_by):
+        claim = self.ledger.claims[name]
+        low, high = claim.as_input(convention).ends
+        for shown in map(self.ledger.claims.__getitem__, claim.shown_by):
             if low != high and shown.entries == [name]:
                 function = self.ledger.function(shown)
                 allowed = solve(function, name, (low, high), shown.target()).outer
@@ -138,16 +140,6 @@ class Inference:
             if admitted is not False:
                 return admission if admitted else Admission.UNDECIDED
         return Admission.EXCLUDED
-
-
-def _agreeing(each: Mapping[str, Solutions]) -> tuple[str, ...]:
-    """The largest set of evidence that one value satisfies; of several, that of the least value.
-
-    Empty if no value of the search satisfies any of it.
-    """
-    values = sorted({low for solutions in each.values() for low, _ in solutions.inner})
-    sets = (tuple(name for name, own in each.items() if own.admits(value)) for value in values)
-    return max(sets, key=len, default=())
 
 
 def _intersection(first: Sequence[Ends], *others: Sequence[Ends]) -> list[Ends]:

@@ -5,13 +5,12 @@ from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice, product
 from math import prod
-from typing import Any
 
 import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import InexactError, Rationals, Reals
-from reference.enclosure import Box, Constraint, Ends, enclose, satisfying
+from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Ledger, in_header
@@ -137,7 +136,6 @@ class Judge:
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
-        judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
         exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
@@ -145,7 +143,12 @@ class Judge:
         if not self.ledger.misprinted:  # of a misprint in an equation the models know nothing
             computed = float(Fraction(self.answer(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
-        return Reading(name, computation.summary, computed, digits, tuple(judgements))
+        judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
+        in_unit = tuple(
+            replace(judgement, ends=(judgement.ends[0] / claim.si, judgement.ends[1] / claim.si))
+            for judgement in judgements
+        )
+        return Reading(name, computation.summary, computed, digits, in_unit)
 
     def answer(self, claim: Claim, name: str = "", scheme: str = "published") -> float:
         """What the models give for a claim at its inputs as printed, in SI."""
@@ -157,7 +160,7 @@ class Judge:
         return replica(computation.name, inputs, **settings)
 
     def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        """Under every convention that makes a difference to the claim, the usual one first."""
+        """Under every convention that makes a difference, the usual one first; ends in SI."""
         printed = self.printed(claim)
         for centered in (False, True) if claim.by_scheme else (False,):
             inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
@@ -166,60 +169,48 @@ class Judge:
                 everywhere = self._range(claim, name, centered, {**printed, **inferred})
             for rounding in Rounding:
                 convention, target = Convention(rounding, centered=centered), claim.target(rounding)
-                judged = partial(_judgement, claim, convention)
                 if target.excludes(*at_print):
                     conventions = _input_conventions(self.ledger, claim, convention)
                     yield from map(partial(self._search, claim, name), conventions)
                 elif target.encloses(*everywhere):
-                    yield judged(Verdict.REPRODUCED, everywhere)
+                    yield Judgement(convention, Verdict.REPRODUCED, everywhere)
                 elif target.encloses(*at_print):
                     # Only some admitted values do: the evidence does not tell which is meant.
                     witness = {entry: self.value(entry) for entry in claim.entries}
-                    yield judged(Verdict.WITHIN_ROUNDING, everywhere, witness)
+                    yield Judgement(convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
                 else:
-                    yield judged(Verdict.UNDECIDED, everywhere)
+                    yield Judgement(convention, Verdict.UNDECIDED, everywhere)
 
     def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
         """The inputs as printed do not give the number: do others that print like them?
 
-        Those must also give the numbers from which an input is inferred.
+        Those must also give the numbers from which an input is inferred. A radius that was computed
+        from the mass is given by the mass.
         """
         target = claim.target(convention.rounding)
         function = self.ledger.function(claim, reading=name, centered=convention.centered)
-        box = self.box(claim, convention)
+        box = own_box = self.box(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
-            return _judgement(claim, convention, Verdict.NOT_REPRODUCED, ends)
-        outcome, witness = self._meeting((function, target), claim, convention)
-        verdict = {
-            True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
-        }[outcome]  # fmt: skip
-        alone = outcome is False and bool(claim.inferred)
-        alone = alone and satisfying([(function, target)], box, _BUDGET // 10)[0] is True
-        return _judgement(claim, convention, verdict, ends, witness, alone)
-
-    def _meeting(
-        self, constraint: Constraint, claim: Claim, convention: Convention
-    ) -> tuple[bool | None, dict[str, Fraction] | None]:
-        """Whether some inputs of a claim meet a constraint and agree with all evidence; and which.
-
-        None where that could not be decided. A radius that was computed from the mass is given by
-        the mass.
-        """
+            return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        constraints, box, names = [constraint], self.box(claim, convention), set(claim.entries)
-        wide: dict[str, Ends] = {}
-        for name in claim.inferred:
-            inference = self.inference(name, centered=convention.centered)
+        own = constraints = [(function, target)]
+        names, wide = set(claim.entries), dict[str, Ends]()
+        for entry in claim.inferred:
+            inference = self.inference(entry, centered=convention.centered)
             constraints, box = inference.joint(convention, box, constraints)
-            wide[name] = inference.entry.search
+            wide[entry] = inference.entry.search
             if inference.entry.radius in names - box.keys():
                 names.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
         if outcome is None and wide:
             # In halves of its whole range of search, an inferred input may be narrowed sooner.
             outcome, point = satisfying(constraints, {**box, **wide}, budget)
-        return outcome, point and {name: x for name, x in point.items() if name in names}
+        witness = point and {entry: x for entry, x in point.items() if entry in names}
+        against_evidence = bool(
+            wide and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
+        )
+        return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""
@@ -255,12 +246,10 @@ class Judge:
         return exact, exact
 
 
-def _judgement(
-    claim: Claim, convention: Convention, verdict: Verdict, ends: Ends, *more: Any
-) -> Judgement:
-    """As `Judgement`, the ends given in SI."""
-    return Judgement(convention, verdict, (ends[0] / claim.si, ends[1] / claim.si), *more)
-
+_VERDICTS = {
+    True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
+}  # fmt: skip
+"""By whether some inputs that print like the report's give the number."""
 
 _BUDGET = 100
 """Most boxes that a search tries; a tenth of it for whole sheets, each of which takes 10 ms."""
@@ -367,10 +356,9 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
         needed |= {claim: passing(claim, corrected) for claim in printed if claim != culprit}
     constants = {}
     for claim, values in needed.items():
-        fits, alone = printed[claim] in values, len(values) == 1
-        verdict = Verdict.UNDECIDED if not values else Verdict.NOT_REPRODUCED
-        if fits:
-            verdict = Verdict.REPRODUCED if alone else Verdict.NOT_CHECKABLE
+        verdict = Verdict.NOT_REPRODUCED if values else Verdict.UNDECIDED
+        if printed[claim] in values:
+            verdict = Verdict.REPRODUCED if len(values) == 1 else Verdict.NOT_CHECKABLE
         constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from reference.ledger import Claim, Convention, Ledger
+from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
@@ -97,7 +97,9 @@ def _exceptions(reading: Reading) -> str:
     """The verdicts that some conventions change it to, and which; empty if none does."""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
-        exceptions.setdefault(judgement.verdict, []).append(_conditions(judgement.convention))
+        convention = judgement.convention
+        unusual = (words for key, value, words in _UNUSUAL if getattr(convention, key) == value)
+        exceptions.setdefault(judgement.verdict, []).append(tuple(unusual))
     parts = []
     for verdict, conditions in exceptions.items():
         # A condition that contains another says nothing more.
@@ -106,16 +108,14 @@ def _exceptions(reading: Reading) -> str:
     return ", and ".join(parts)
 
 
-def _conditions(convention: Convention) -> tuple[str, ...]:
-    """What a convention does otherwise than the usual one."""
-    rounding = {Rounding.AWAY: "", Rounding.EVEN: "ties go to even"}
-    parts = (
-        rounding.get(convention.rounding, "digits are cut off"),
-        "" if convention.choices_exact else "what the author chose is rounded, too",
-        "the header of Table A-1 is exact" if convention.header_exact else "",
-        "the drag is taken at the middle velocity" if convention.centered else "",
-    )
-    return tuple(filter(None, parts))
+_UNUSUAL = (
+    ("rounding", Rounding.EVEN, "ties go to even"),
+    ("rounding", Rounding.CUT, "digits are cut off"),
+    ("choices_exact", False, "what the author chose is rounded, too"),
+    ("header_exact", True, "the header of Table A-1 is exact"),
+    ("centered", True, "the drag is taken at the middle velocity"),
+)
+"""What a convention does otherwise than the usual one."""
 
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:

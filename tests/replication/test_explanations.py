@@ -13,7 +13,7 @@ from replication.audit.audit import Audit, audit
 from replication.audit.explain import (
     EQUATION_EDITS,
     Explainer,
-    Screen,
+    disagreeing,
     edits,
     equation_edits,
 )
@@ -125,9 +125,9 @@ def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
 )
 def test_what_is_computed_with_an_equation_sees_the_rest(name: str, seen: str | None) -> None:
     """With Eq. 1 none is: only the finding on it has its power as evidence."""
-    as_printed = Screen(LEDGER, ASSUMED).failing(LEDGER.claims)
+    as_printed = disagreeing(LEDGER, LEDGER.claims, ASSUMED)
     for edit in UNSEEN[name]:
-        failing = Screen(LEDGER.misprint(name, edit), ASSUMED).failing(LEDGER.claims)
+        failing = disagreeing(LEDGER.misprint(name, edit), LEDGER.claims, ASSUMED)
         assert seen in failing if seen else failing == as_printed, edit
 
 
