@@ -254,11 +254,11 @@ def satisfying(
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
     for _ in range(budget):
-        if not queue:
-            return False, None
         part, remaining = queue.popleft()
         undecided = _undecided(remaining, part)
         if undecided is None:
+            if not queue:
+                return False, None
             continue
         point = _aimed(undecided, part)
         if _undecided(undecided, _points(point)) == []:

@@ -44,10 +44,11 @@ class Audit(Known):
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
+        fail = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
         inferred = product(self.ledger.inferred, (False, True))
         return r.Record(
             schema=r.SCHEMA,
-            headline=headline.statement if headline.holds else f"{counts.failing} numbers fail.",
+            headline=headline.statement if headline.holds else fail,
             report=self.ledger.report,
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,

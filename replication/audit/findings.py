@@ -198,8 +198,8 @@ class Evidence:
                 factor = known.equation(entry).factor
                 return Fraction(0) if factor is None else 1 / factor
             case ("needed",):
-                equation = known.equation(ledger.claims[entry].within)
-                (value,) = equation.constants[entry].needed
+                constants = known.equation(ledger.claims[entry].within).constants
+                (value,) = constants[entry].needed
                 return Fraction(value)
             case ("odd",):
                 return Fraction(len(known.judge.inference(entry).odd))
@@ -273,7 +273,7 @@ class Evidence:
                 value = self.value(name)
                 if not isinstance(value, bool):
                     value = Fraction(value) / to_si(assertion.unit)
-            except (ArithmeticError, IndexError, ValueError):  # in a report with a misprint
+            except (ArithmeticError, LookupError, ValueError):  # in a report with a misprint
                 value = None
             holds = value is not None and assertion.holds(value)
             computed = float(value) if isinstance(value, Fraction) else value

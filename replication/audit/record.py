@@ -52,7 +52,7 @@ class Verdict(StrEnum):
         return self.is_open or self is Verdict.DIFFERS
 
 
-class _Part(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_fields=True):
+class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A part of the record."""
 
 

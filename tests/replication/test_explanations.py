@@ -81,6 +81,14 @@ def test_a_report_without_its_faults_has_none_and_one_fault_is_found_as_the_culp
     assert spoiled.culprit is not None
     assert (spoiled.culprit.entry, spoiled.culprit.text) == ("fz-kt", "1.046")
     assert set(spoiled.failing) == set(PAIR)
+    single = audit(repaired().misprint("a1-deceleration-4", "2.17E+09"))
+    assert single.headline == "1 number fails."
+
+
+def test_evidence_that_a_misprint_takes_away_leaves_its_findings_open() -> None:
+    slip = next(text for text in dict(equation_edits(LEDGER, "eq16")) if r"\alpha" in text)
+    findings = audit(LEDGER.misprint("eq16", slip)).findings
+    assert {finding.id for finding in findings if not finding.holds} >= {"equation-16"}
 
 
 # A misprint in an equation is seen, whatever it is; what is not seen is listed and judged
