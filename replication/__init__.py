@@ -38,20 +38,15 @@ __all__ = [
     "velocity_at_depth",
 ]
 
-_HOMES = {
-    "BETA_3": "cases",
-    "BETA_5": "cases",
-    "Impact": "models.impact",
-    "run": "models.sheet",
-    "audit": "audit",
-}
+_HOMES = {"BETA_3": "cases", "BETA_5": "cases", "Impact": "models.impact", "run": "models.sheet"}
 
 
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = import_module(f"{__name__}.{_HOMES.get(name, 'models.arrays')}")
-    return home if name == "audit" else getattr(home, name)
+    if name == "audit":  # the package itself can be called
+        return import_module(f"{__name__}.audit")
+    return getattr(import_module(f"{__name__}.{_HOMES.get(name, 'models.arrays')}"), name)
 
 
 def __dir__() -> list[str]:

@@ -134,18 +134,15 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
     """
     names = [INFERRED + name for name in truth.ledger.inferred]
     ends = {name: truth.judge.inference(name).inner.ends for name in names}
+    parts = 24  # for the density they are 1 kg/m^3 wide
     values = [{name: truth.ledger.value(name) for name in names}] + [
-        {name: low + (high - low) * k / _VALUES for name, (low, high) in ends.items()}
-        for k in range(_VALUES + 1)
+        {name: low + (high - low) * k / parts for name, (low, high) in ends.items()}
+        for k in range(parts + 1)
     ]
     return all(
         disagreeing(ledger, claims, inferred) - disagreeing(truth.ledger, claims, inferred)
         for inferred in values
     )
-
-
-_VALUES = 24
-"""How many values of an inferred input are tried: for the density they are 1 kg/m^3 apart."""
 
 
 def power(

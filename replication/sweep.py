@@ -99,7 +99,6 @@ class Plan:
         bounds = {name: dict.fromkeys(source.bounds) for name, source in self.sources.items()}
         for corner in itertools.product(*bounds.values()):
             case = dict(zip(bounds, corner, strict=True))
-            ends = {name: value for name, value in case.items() if len(bounds[name]) > 1}
             if law := self.by_mass:
                 mass = particle_mass(case["radius"], case["particle_density"])
                 # Without a mass there is no velocity: infinity, which is refused.
@@ -107,8 +106,9 @@ class Plan:
             try:
                 Impact(**case)
             except ValueError as error:
-                where = ", ".join(f"{name} {value!r}" for name, value in ends.items())
-                raise ValueError(f"{error} (with {where})" if ends else str(error)) from error
+                ends = [f"{name} {case[name]!r}" for name in bounds if len(bounds[name]) > 1]
+                where = f" (with {', '.join(ends)})" if ends else ""
+                raise ValueError(f"{error}{where}") from error
 
     @property
     def grid(self) -> dict[str, int]:
@@ -195,7 +195,7 @@ def read_plan(path: Path) -> Plan:
             name, asked = settings.get("case", "beta-5"), settings.get("outputs", [])
             if not isinstance(name, str) or name not in CASES:
                 raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
-            if not isinstance(asked, list) or not all(map([*EXTRAS].__contains__, asked)):
+            if not isinstance(asked, list) or any(extra not in [*EXTRAS] for extra in asked):
                 known = ", ".join(EXTRAS)
                 raise ValueError(f"outputs must be a list of {known}; the depths always come")
             check_scheme(scheme := settings.get("scheme", "published"))
@@ -248,15 +248,13 @@ def read_source(name: str, value: Any) -> Source:
         items = value if isinstance(value, list) else [value]
         if not items:
             raise ValueError("the list is empty: give one value or more")
-        return _listed(np.array([read_number(str(item), INPUTS[name]) for item in items]))
-    if "distribution" in value:
+        values = np.array([read_number(str(item), INPUTS[name]) for item in items])
+    elif "distribution" in value:
         return _drawn(value, INPUTS[name])
-    if "from" in value:
-        return _listed(_spaced(value, INPUTS[name]))
-    raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
-
-
-def _listed(values: Floats) -> Source:
+    elif "from" in value:
+        values = _spaced(value, INPUTS[name])
+    else:
+        raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
     return Source((float(values.min()), float(values.max())), values.take, len(values))
 
 
@@ -267,24 +265,18 @@ def _spaced(table: Table, unit: str) -> Floats:
         raise ValueError(f"scale is {scale!r}: choose linear or log")
     ends = {key: table[key] for key in ("from", "to")}
     first, last = read_numbers(ends, dict.fromkeys(ends, unit)).values()
-    if scale == "log" and min(first, last) <= 0:
-        raise ValueError("a log scale needs from and to greater than zero")
     count = _whole_number("points", table["points"], 2, MAX_POINTS)
-    if scale == "log":
+    if scale == "linear":
+        values = np.linspace(first, last, count)
+    elif min(first, last) > 0:
         values = 10.0 ** np.linspace(math.log10(first), math.log10(last), count)
     else:
-        values = np.linspace(first, last, count)
+        raise ValueError("a log scale needs from and to greater than zero")
     values[[0, -1]] = first, last
     return values.clip(min(first, last), max(first, last))
 
 
 def _drawn(table: Table, unit: str) -> Source:
-    """A distribution of the quantity or (log) of its logarithm, by the inverse of its probability.
-
-    A normal one is truncated: a value outside lower and upper counts as drawn again.
-    """
-    from scipy.special import ndtri
-
     kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
     if kind not in kinds:
         raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
@@ -299,10 +291,28 @@ def _drawn(table: Table, unit: str) -> Source:
     lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
     if lower >= upper:
         raise ValueError("lower must be less than upper")
-    low, high = (_log(lower), _log(upper)) if log else (lower, upper)
-    normal = None
-    if wanted == shape:
-        normal = _normal(numbers["mean"], numbers["deviation"], log)
+    return _distribution(lower, upper, log, numbers.get("mean"), numbers.get("deviation", 0.0))
+
+
+def _distribution(
+    lower: float, upper: float, log: bool, mean: float | None, deviation: float
+) -> Source:
+    """The distribution of a quantity or (log) of its logarithm, by the inverse of its probability.
+
+    It is normal if there is a mean, and truncated: a value outside of lower and upper counts as
+    drawn again.
+    """
+    from scipy.special import ndtri
+
+    low, high, normal = lower, upper, None
+    if log:
+        low, high = (math.log(end) if end > 0 else -math.inf for end in (lower, upper))
+    if mean is not None:
+        if log:
+            ratio = deviation / mean
+            variance = math.log1p(ratio * ratio)
+            mean, deviation = math.log(mean) - variance / 2, math.sqrt(variance)
+        normal = NormalDist(mean, deviation)
         low, high = normal.cdf(low), normal.cdf(high)
         if high - low < 1e-6:
             raise ValueError("less than a millionth of the distribution is between lower and upper")
@@ -321,19 +331,6 @@ def _drawn(table: Table, unit: str) -> Source:
     if least < 0:
         raise ValueError(f"values down to {least:.3g} would be drawn: give a lower end")
     return Source((least, greatest), quantile)
-
-
-def _log(value: float) -> float:
-    return math.log(value) if value > 0 else -math.inf
-
-
-def _normal(mean: float, deviation: float, log: bool) -> NormalDist:
-    """The distribution of a quantity, or of the logarithm of one with this mean and deviation."""
-    if not log:
-        return NormalDist(mean, deviation)
-    ratio = deviation / mean
-    variance = math.log1p(ratio * ratio)
-    return NormalDist(math.log(mean) - variance / 2, math.sqrt(variance))
 
 
 def _by_mass(name: str, table: Table) -> dict[str, float]:

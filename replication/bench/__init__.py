@@ -88,8 +88,8 @@ class Case:
             end = self.motion.depth_at_velocity(stop)
             exact = [depth for depth in self.depths if stop == 0 or depth <= end]
             wholes = [self.motion.final_depth] * len(exact)
-            row = computed if computed.ndim == 1 else computed[len(computed) // 2]
-            computed = row[: len(exact)]
+            rows = np.atleast_2d(computed)
+            computed = rows[len(rows) // 2, : len(exact)]
         terms = zip(map(self.motion.context.mpf, computed.tolist()), exact, wholes, strict=True)
         return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
@@ -104,23 +104,19 @@ def build(name: str) -> Case:
     if name not in CASES:
         raise ValueError(f"there is no case {name!r} to time: choose one of {', '.join(CASES)}")
     impact = changed(BETA_5, HARD_CASES[CASES[name]])
-    motion = exact_motion(impact)
-    times, depths = zip(*(_instant(motion, k) for k in range(POINTS)), strict=True)
-    return Case(name, impact, motion, np.array(times), depths)
-
-
-def _instant(motion: Trajectory, k: int) -> tuple[float, Number]:
-    """The k-th time as a double, and the exact depth at that very double.
-
-    The time for a depth takes one quadrature, the depth for a time would take a dozen. Depths
-    X (1 - s^2), with s falling evenly, are about evenly spaced in time. Rounding the time to a
-    double leaves out 1e-16 of the motion; one Taylor step adds that again, to within 1e-32.
-    """
-    s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
-    depth = motion.final_depth * (1 - s * s)
-    exact = motion.time_to_depth(depth)
-    time = float(exact)
-    return time, depth + motion.velocity_at_depth(depth) * (motion.context.mpf(time) - exact)
+    motion, times, depths = exact_motion(impact), list[float](), list[Number]()
+    for k in range(POINTS):
+        # Depths X (1 - s^2), with s falling evenly, are about evenly spaced in time. The time for a
+        # depth takes one quadrature, the depth for a time would take a dozen.
+        s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
+        depth = motion.final_depth * (1 - s * s)
+        time = motion.time_to_depth(depth)
+        times.append(float(time))
+        # Rounding the time to a double leaves out 1e-16 of the motion; one Taylor step adds that
+        # again, to within 1e-32.
+        rounding = motion.context.mpf(times[-1]) - time
+        depths.append(depth + motion.velocity_at_depth(depth) * rounding)
+    return Case(name, impact, motion, np.array(times), tuple(depths))
 
 
 # The methods
@@ -220,9 +216,6 @@ Point = dict[str, Any]
 
 DIGITS = range(1, 16)
 
-BATCH = 5e-3
-"""For about so many seconds a call is repeated between two looks at the clock."""
-
 
 def bench(
     names: Sequence[str], repeat: int = 7, limit: float = 5.0, quiet: bool | None = True
@@ -236,27 +229,27 @@ def bench(
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
     cases = [build(name) for name in names]
+    measured = []
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that all is compiled anew
         arrays.ufunc.cache_clear()
         numba.vectorize(["f8(f8)"])(error_for)  # starting the compiler is no method's cost
-        measured = [_measure(case, repeat, limit, quiet) for case in cases]
+        for case in cases:
+            trials = [trial(case, task, repeat, limit) for task in tasks(case)]
+            with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
+                points = [next(turn, {}) for turn in turns]
+            del points[len(trials) :]  # later turns have filled in those of the first
+            mark_front(points)
+            asked = product((False, True), MEASURES, DIGITS)
+            measured.append({
+                "name": case.name,
+                "inputs": inputs_of(case.impact),
+                "depth": float(case.motion.final_depth),
+                "times": case.times.tolist(),
+                "points": points,
+                "fastest": [fastest(points, *question) for question in asked],
+            })  # fmt: skip
     return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
-
-
-def _measure(case: Case, repeat: int, limit: float, quiet: bool | None) -> dict[str, Any]:
-    trials = [trial(case, task, repeat, limit) for task in tasks(case)]
-    with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
-        points = [next(turn, {}) for turn in turns][: len(trials)]  # later turns fill them in
-    mark_front(points)
-    return {
-        "name": case.name,
-        "inputs": inputs_of(case.impact),
-        "depth": float(case.motion.final_depth),
-        "times": case.times.tolist(),
-        "points": points,
-        "fastest": [fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)],
-    }
 
 
 def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
@@ -282,7 +275,7 @@ def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
         point["gap"] = str(failure)
         yield point
         return
-    calls = max(1, round(BATCH / once))
+    calls = max(1, round(5e-3 / once))  # a batch takes about 5 ms between two looks at the clock
     repeats = max(1, int(min(repeat, limit / (once * calls))))
     compiling = max(first - once, 0.0) if task.compiled else None
     point |= {"error": error, "compile": compiling, "repeats": repeats, "calls": calls}
@@ -349,15 +342,6 @@ def _machine() -> dict[str, Any]:
 
 # What a run has measured, as text, JSON, CSV, and a figure a case
 
-
-def texts(record: dict[str, Any]) -> dict[str, str]:
-    """The files of a run that are text, by name."""
-    cases = record["cases"]
-    rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
-    text = "\n".join(_lines(record)) + "\n"
-    return {"bench.txt": text, "bench.json": json_text(record), "bench.csv": rows_csv(rows)}
-
-
 _HEAD = """\
 The sheet is measured down to its stop velocity: its final depth against the exact one there, its \
 history until the exact time of it. All others are measured to rest, and all but solve_ivp and \
@@ -366,16 +350,20 @@ Times are a case's, in us: best and median of {repeats} that take turns, or of t
 {limit:g} s allow; to compile in s. * marks the Pareto front of one case at a time."""
 
 
-def _lines(record: dict[str, Any]) -> Iterator[str]:
-    """The whole run: machine, every case's table, and what to use for N digits."""
+def texts(record: dict[str, Any]) -> dict[str, str]:
+    """The files of a run that are text, by name."""
+    cases = record["cases"]
     repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
-    yield ", ".join(f"{name} {value}" for name, value in record["machine"].items())
-    yield _HEAD.format(repeats=repeats, limit=record["limit"])
-    for case in record["cases"]:
-        yield from ("", f"{case['name']}: {case['depth'] * 1e6:.7g} um")
-        yield from _table(case["points"])
-    yield from ("", "What should I use for N digits?")
-    yield from (f"  {line}" for line in _answers(record["cases"]))
+    lines = [
+        ", ".join(f"{name} {value}" for name, value in record["machine"].items()),
+        _HEAD.format(repeats=repeats, limit=record["limit"]),
+    ]
+    for case in cases:
+        lines += ["", f"{case['name']}: {case['depth'] * 1e6:.7g} um", *_table(case["points"])]
+    lines += ["", "What should I use for N digits?", *_answers(cases), ""]
+    rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
+    csv = rows_csv(rows)
+    return {"bench.txt": "\n".join(lines), "bench.json": json_text(record), "bench.csv": csv}
 
 
 def _table(points: Sequence[Point]) -> Iterator[str]:
@@ -423,7 +411,7 @@ def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
         digits = _span([answers[0]["digits"], answers[-1]["digits"]])
         times = [1e6 * answer["best"] for answer in answers if answer["best"]]
         taken = f", {_span(times)} us" if times else ""
-        yield f"{asked}, {digits} digit{'' if digits == '1' else 's'}: {answer}{taken}"
+        yield f"  {asked}, {digits} digit{'' if digits == '1' else 's'}: {answer}{taken}"
 
 
 def _span(values: Sequence[float]) -> str:

@@ -18,16 +18,11 @@ from replication.models.depth import final_depth
 from replication.models.sheet import run
 from replication.text import aligned
 
-# With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1 at rest.
-_HALF_BURIED = {
-    "particle_density": 4000.0,
-    "target_density": 8000.0,
-    "resistance": 8000.0 * 500.0 * 500.0 / 2 / math.expm1(1.0),
-}
 
-
-def _buried(factor: float) -> dict[str, float]:
-    return _HALF_BURIED | {"resistance": _HALF_BURIED["resistance"] * factor}
+def _half_buried(factor: float) -> dict[str, float]:
+    # With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1.
+    resistance = 8000.0 * 500.0 * 500.0 / 2 / math.expm1(1.0) * factor
+    return {"particle_density": 4000.0, "target_density": 8000.0, "resistance": resistance}
 
 
 def _shallow(velocity: float) -> dict[str, float]:
@@ -38,9 +33,9 @@ def _shallow(velocity: float) -> dict[str, float]:
 HARD_CASES: Mapping[str, dict[str, float]] = {
     "the report's beta-5": {},
     "the report's beta-3": {"beta": 3.0},
-    "depth just below R": _buried(1 + 1e-9),
-    "depth at R": _buried(1.0),
-    "depth just above R": _buried(1 - 1e-9),
+    "depth just below R": _half_buried(1 + 1e-9),
+    "depth at R": _half_buried(1.0),
+    "depth just above R": _half_buried(1 - 1e-9),
     "shallow, 1e-9 m/s": _shallow(1e-9),
     "shallow, 1e-3 m/s": _shallow(1e-3),
     "slow, 1 m/s": _shallow(1.0),
@@ -116,24 +111,21 @@ def outcome(name: str) -> dict[str, Any]:
     return result | {"warnings": list(warnings(sheet).values())}
 
 
-_RANGES = {
-    "velocity": (1e-9, 1e5),
-    "radius": (1e-12, 1e3),
-    "particle_density": (1e-1, 1e5),
-    "target_density": (1e-1, 1e5),
-    "resistance": (1.0, 1e15),
-}
-"""Least and greatest inputs (SI) of the random cases; their logarithms are evenly distributed."""
-
-
 def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
-    """The inputs of so many random cases over `_RANGES`."""
+    """The inputs (SI) of so many random cases; their logarithms are evenly distributed."""
+    ranges = {
+        "velocity": (1e-9, 1e5),
+        "radius": (1e-12, 1e3),
+        "particle_density": (1e-1, 1e5),
+        "target_density": (1e-1, 1e5),
+        "resistance": (1.0, 1e15),
+    }
     # NumPy's generator would take longer to import than all cases to compute.
     draw = random.Random(seed)  # noqa: S311  (no secret)
     for _ in range(count):
         yield {
             name: math.exp(draw.uniform(math.log(low), math.log(high)))
-            for name, (low, high) in _RANGES.items()
+            for name, (low, high) in ranges.items()
         }
 
 
@@ -177,31 +169,25 @@ def record(count: int, seed: int) -> dict[str, Any]:
 
 def text(record: dict[str, Any]) -> str:
     """The hard cases as a table, notes under it, and the worst of the random cases."""
-    heads = ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
+    rows: list[tuple[str, ...]] = [
+        ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
+    ]
     notes = []
     for case in record["cases"]:
-        refusals = (case[key] for key in ("refused", "sheet_refused") if case[key])
-        said = (*map("refused: {}".format, refusals), *case["warnings"])
-        notes += [f"{case['name']}: {note}" for note in said]
+        sheet, closed = ("-", "refused", ""), ("", "", "")
+        if case["steps"] is not None:
+            off = f"{100 * case['sheet_error']:+.3g} %"
+            sheet = str(case["steps"]), f"{case['sheet']:.9g}", off
+        if case["reference"]:
+            closed = f"{case['closed_form']:.9g}", f"{case['ulps']:+.2f}", case["reference"]
+        rows.append((case["name"], *sheet, *closed))
+        refusal = case["refused"] or case["sheet_refused"]
+        said = [f"refused: {refusal}"] if refusal else case["warnings"]
+        notes += [f"{case['name']}: {words}" for words in said]
     worst = record["random"]
     inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
-    return "\n".join(
-        [
-            *aligned([heads, *map(_line, record["cases"])]),
-            "",
-            *notes,
-            "",
-            f"Closed form over {worst['cases']} random cases ({worst['skipped']} without a normal "
-            f"double for an answer): at worst {worst['ulps']:.2f} ulp, at {inputs}.",
-        ]
+    closing = (
+        f"Closed form over {worst['cases']} random cases ({worst['skipped']} without a normal "
+        f"double for an answer): at worst {worst['ulps']:.2f} ulp, at {inputs}."
     )
-
-
-def _line(case: dict[str, Any]) -> tuple[str, ...]:
-    sheet, closed = ("-", "refused", ""), ("", "", "")
-    if case["steps"] is not None:
-        off = f"{100 * case['sheet_error']:+.3g} %"
-        sheet = str(case["steps"]), f"{case['sheet']:.9g}", off
-    if case["reference"]:
-        closed = f"{case['closed_form']:.9g}", f"{case['ulps']:+.2f}", case["reference"]
-    return case["name"], *sheet, *closed
+    return "\n".join([*aligned(rows), "", *notes, "", closing])

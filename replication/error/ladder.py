@@ -61,10 +61,6 @@ _PARTS = ("time_step", "stop_rule", "half_step", "rounding")
 
 # A ladder of steps
 
-SAFETY, CAUTION = 1.25, 3.0
-"""Factors of the grid convergence index (Roache): for three levels and more whose observed order is
-within a tenth of the scheme's, and for others."""
-
 
 def ladder(step: float, levels: int) -> list[float]:
     """So many steps from 16 times the given one down by halves, coarsest first.
@@ -96,15 +92,16 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
     for step in steps:  # one that needs too many rows is refused before the long work
         run(replace(impact, step=step), scheme)
-    motion, levels = exact_motion(impact), list[Level]()
-    for step in steps:
-        levels.append(_level(run(replace(impact, step=step), scheme), levels[-1:]))
-    at_stop = motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity))
-    order, depths = SCHEMES[scheme].order, [level["depth"] for level in levels[-3:]]
-    limit = extrapolated(steps[-3:], depths, order)
-    meaningless = any(level["regime"] == "meaningless" for level in levels[-3:])
+    levels: list[Level] = []
+    for step in steps:  # again, as a million rows of each would not fit into memory together
+        sheet = run(replace(impact, step=step), scheme)
+        levels.append(_level(sheet, levels[-1] if levels else None))
+    order, finest, motion = SCHEMES[scheme].order, levels[-3:], exact_motion(impact)
+    limit = extrapolated(steps[-3:], [level["depth"] for level in finest], order)
+    meaningless = any(level["regime"] == "meaningless" for level in finest)
     if meaningless and not limit["limit_undefined"]:
         limit = dict.fromkeys(limit) | {"limit_undefined": "a depth of the three is meaningless"}
+    at_stop = motion.depth_at_velocity(min(impact.stop_velocity, impact.velocity))
     return {
         "inputs": inputs_of(impact),
         "scheme": scheme,
@@ -116,10 +113,10 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     }
 
 
-def _level(sheet: Sheet, before: Sequence[Level]) -> Level:
+def _level(sheet: Sheet, coarse: Level | None) -> Level:
     step, (error, budget) = sheet.impact.step, split(sheet)
     order = time_step_order = None
-    for coarse in before:
+    if coarse:
         pair = coarse["steps"], coarse["step"] / step
         order = error_order(coarse["error"], error, *pair)
         time_step_order = error_order(coarse["budget"]["time_step"], budget["time_step"], *pair)
@@ -185,14 +182,11 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
     order = math.log(shrink) / math.log(again)
     # An observed order above the scheme's is an accident, and would make the index too small.
     cautious = min(max(order, 0.5), nominal)
-    factor = SAFETY if abs(order - nominal) <= 0.1 * nominal else CAUTION
+    # Roache's factors: for an observed order within a tenth of the scheme's, and for others.
+    factor = 1.25 if abs(order - nominal) <= 0.1 * nominal else 3.0
     gci = factor * abs((fine - middle) / fine) / (again**cautious - 1)
     limit = fine + (fine - middle) / (shrink - 1)
     return result | {"limit": limit, "observed_order": order, "gci": gci}
-
-
-_HALVINGS = 3
-"""How often a step is halved, to see that it did not give the digits by accident."""
 
 
 def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
@@ -204,6 +198,7 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> d
     Raises ValueError where no step does: the stop rule alone is off by more, or too many rows are
     needed.
     """
+    halvings = 3  # must keep the digits, too: the step did not give them by accident
     motion = exact_motion(impact)
     rest = float(motion.final_depth)
     allowed = 0.5 * 10.0 ** (math.floor(math.log10(rest)) + 1 - digits)
@@ -215,13 +210,13 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> d
         )
 
     def keeps(step: float) -> bool:
-        halved = (replace(impact, step=step / 2**k) for k in range(_HALVINGS + 1))
+        halved = (replace(impact, step=step / 2**k) for k in range(halvings + 1))
         return all(abs(run(case, scheme).final_depth - rest) <= allowed for case in halved)
 
     step = 2 * stop_time(**impact.motion)
     while not keeps(step):
         step /= 2
-        if rest / impact.velocity / step > MAX_STEPS / 2**_HALVINGS:
+        if rest / impact.velocity / step > MAX_STEPS / 2**halvings:
             raise ValueError(f"{digits} digits need more than {MAX_STEPS:,} steps")
     while keeps(4 * step):
         step *= 4
@@ -251,26 +246,28 @@ _WHY = {
         "and at the middle velocity."
     ),
 }
-_HEADS = [
-    ("step", "steps", "depth", "error", "order", "time step", "order", "stop rule", "half step",
-     "rounding", "governed by"),
-    ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", ""),
-]  # fmt: skip
 
 
 def _um(length: float | None, digits: int) -> str:
     return "-" if length is None else number(length * 1e6, digits)
 
 
-def _row(level: Level) -> tuple[str, ...]:
-    budget, orders = level["budget"], (level["order"], level["time_step_order"])
-    order, time_step_order = ("-" if x is None else f"{x:.2f}" for x in orders)
-    return (
-        number(level["step"] * 1e9, 5), str(level["steps"]), _um(level["depth"], 7),
-        _um(level["error"], 3), order, _um(budget["time_step"], 3), time_step_order,
-        _um(budget["stop_rule"], 3), _um(budget["half_step"], 3), _um(budget["rounding"], 2),
-        level["regime"],
-    )  # fmt: skip
+def _table(levels: Sequence[Level]) -> list[str]:
+    rows: list[tuple[str, ...]] = [
+        ("step", "steps", "depth", "error", "order", "time step", "order", "stop rule", "half step",
+         "rounding", "governed by"),
+        ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", ""),
+    ]  # fmt: skip
+    for level in levels:
+        budget, orders = level["budget"], (level["order"], level["time_step_order"])
+        order, time_step_order = ("-" if x is None else f"{x:.2f}" for x in orders)
+        rows.append((
+            number(level["step"] * 1e9, 5), str(level["steps"]), _um(level["depth"], 7),
+            _um(level["error"], 3), order, _um(budget["time_step"], 3), time_step_order,
+            _um(budget["stop_rule"], 3), _um(budget["half_step"], 3), _um(budget["rounding"], 2),
+            level["regime"],
+        ))  # fmt: skip
+    return aligned(rows)
 
 
 def text(result: dict[str, Any]) -> str:
@@ -280,7 +277,7 @@ def text(result: dict[str, Any]) -> str:
         f"grid convergence index {100 * result['gci']:.2g} %"
     )
     lines = [
-        *aligned([*_HEADS, *map(_row, result["levels"])]),
+        *_table(result["levels"]),
         "",
         f"exact, at rest            {_um(result['exact'], 10)} um",
         f"exact, at stop velocity   {_um(result['exact_at_stop'], 10)} um",

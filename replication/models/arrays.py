@@ -36,8 +36,8 @@ model by itself would give NaN; TypeError for what holds no real numbers.
 """What is added to the docstrings of all models for arrays."""
 
 
-def _for_anything(model: Model, explain: Model | None = None) -> Model:
-    """The model for whatever holds numbers; where it gives NaN, `explain` tells why."""
+def _for_anything(model: Model) -> Model:
+    """The model for whatever holds numbers."""
     signature = inspect.signature(model)
 
     @wraps(model)
@@ -48,7 +48,7 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases), explain)
+        compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases))
         return _contained(compute, bound.arguments, (float,))
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
@@ -56,18 +56,12 @@ def _for_anything(model: Model, explain: Model | None = None) -> Model:
     return function
 
 
-def _exceeds(name: str, most: str) -> Model:
-    return lambda case, _: InputError(name, f"is {case[name]!r}: it must not exceed {most}")
-
-
 normalized_depth = _for_anything(depth.normalized_depth)
 final_depth = _for_anything(depth.final_depth)
-depth_at_velocity = _for_anything(
-    depth.depth_at_velocity, _exceeds("at_velocity", "the impact velocity")
-)
-velocity_at_depth = _for_anything(depth.velocity_at_depth, _exceeds("at_depth", "the final depth"))
-time_to_depth = _for_anything(motion.time_to_depth, _exceeds("at_depth", "the final depth"))
-stop_time = _for_anything(motion.stop_time, _exceeds("stop_velocity", "the impact velocity"))
+depth_at_velocity = _for_anything(depth.depth_at_velocity)
+velocity_at_depth = _for_anything(depth.velocity_at_depth)
+time_to_depth = _for_anything(motion.time_to_depth)
+stop_time = _for_anything(motion.stop_time)
 
 
 def history(
@@ -91,7 +85,7 @@ def history(
         results = ufunc(motion.history)(time, *case)
         if results[0].dot(results[0]) < math.inf:  # none is NaN
             return results
-    compute = partial(_computed, partial(_filled, motion.history), _histories, None)
+    compute = partial(_computed, partial(_filled, motion.history), _histories)
     return _contained(compute, inputs, (float, float))
 
 
@@ -146,7 +140,6 @@ def run_many(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
         lambda *cases: _each(ufunc(sheet.last_row), *cases, centered),
-        lambda case, depth: sheet.refusal(depth, case["step"], case["stop_velocity"]),
     )
     return _contained(compute, inputs, (float, int))
 
@@ -154,12 +147,11 @@ def run_many(
 # What is refused
 
 
-def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -> Any:
-    """The checked results of the plain model, or for arrays of the compiled one.
-
-    For a case whose result is not finite, `explain` makes the error to raise of both.
-    """
-    numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
+    """The checked results of the plain model, or for arrays of the compiled one."""
+    numbers: dict[str, Any] = {
+        name: x if type(x) is float else _real(name, x) for name, x in inputs.items()
+    }
     compute = plain if set(map(type, numbers.values())) == {float} else many
     if compute is many:
         import numpy as np
@@ -170,12 +162,18 @@ def _computed(plain: Model, many: Model, explain: Model | None, **inputs: Any) -
         except ValueError as error:
             those = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
             raise ValueError(f"arrays of these shapes do not broadcast: {those}") from error
-    _check(numbers)
+    for name, number in numbers.items():
+        low, high = number, number
+        if type(number) is not float:
+            low, high = number.min(initial=1.0), number.max(initial=1.0)
+        if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
+            _refuse(numbers)
+            break
     results = compute(*numbers.values())
     first = results[0] if isinstance(results, tuple) else results
     finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
     if not finite:
-        _refuse(numbers, first, explain)
+        _refuse(numbers, first)
     return results
 
 
@@ -198,34 +196,21 @@ def _real(name: str, value: Any) -> Any:
     raise TypeError(f"{name} must hold real numbers, in SI units, not {what}")
 
 
-def _check(numbers: Mapping[str, Any]) -> None:
-    """Raise InputError for the first element that no model takes, if there is one."""
-    for name, value in numbers.items():
-        low, high = value, value
-        if type(value) is not float:
-            low, high = value.min(initial=1.0), value.max(initial=1.0)
-        if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
-            _refuse(numbers)
-            return
-
-
-def _refuse(numbers: Mapping[str, Any], result: Any = 0.0, explain: Model | None = None) -> None:
+def _refuse(numbers: Mapping[str, Any], result: Any = 0.0) -> None:
     """Raise for the first element, if any, that a check refuses, or that has no finite result."""
     import numpy as np
 
     arrays = np.broadcast_arrays(result, *numbers.values())
     doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays[1:]], axis=0)
-    formed = inspect.signature(check_range).parameters
     for place in np.argwhere(doubtful | ~np.isfinite(arrays[0])).tolist():
         index = tuple(place)
         value, *values = (float(array[index]) for array in arrays)
         case = dict(zip(numbers, values, strict=True))
         try:
             check(case)
-            check_range(**{name: number for name, number in case.items() if name in formed})
+            check_range(**case)
             if not math.isfinite(value):
-                beyond = InputError("the result", "is beyond what a double can hold")
-                raise explain(case, value) if explain else beyond
+                raise _without_result(case, value)
         except InputError as error:
             name, problem = error.name, error.problem
             if name in numbers:  # its place in that input's own array
@@ -235,6 +220,16 @@ def _refuse(numbers: Mapping[str, Any], result: Any = 0.0, explain: Model | None
             elif name != "the sheet":
                 problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
             raise InputError(name, problem, index) from None
+
+
+def _without_result(case: Mapping[str, float], result: float) -> InputError:
+    if "step" in case:
+        return sheet.refusal(result, case["step"], case["stop_velocity"])
+    for name in ("at_velocity", "at_depth", "stop_velocity"):
+        if name in case:
+            most = "final depth" if name == "at_depth" else "impact velocity"
+            return InputError(name, f"is {case[name]!r}: it must not exceed the {most}")
+    return InputError("the result", "is beyond what a double can hold")
 
 
 # How it is computed

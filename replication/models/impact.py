@@ -126,11 +126,12 @@ zero
 
 def check_range(
     velocity: float, particle_density: float, target_density: float, resistance: float,
-    radius: float = 1.0, step: float = 1.0,
+    radius: float = 1.0, step: float = 1.0, **_: float,
 ) -> None:  # fmt: skip
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
-    Within that range no formula of the models overflows, underflows or divides by zero.
+    Within that range no formula of the models overflows, underflows or divides by zero. Other
+    inputs, such as a time, are part of none of these.
     """
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:

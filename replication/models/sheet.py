@@ -127,7 +127,8 @@ def _rows(
     of them; none comes if that is clear from the start.
     """
     k, x, v, M = 0, 0.0, V, particle_mass(R, rho_p)
-    if _fewest_steps(v, v_stop, dt, R, M, rho_t, R_t) > MAX_STEPS:
+    # A row reduces the velocity by at most a dt, with the deceleration a at V and the area pi R^2.
+    if (V - v_stop) / deceleration(R, V, R, M, rho_t, R_t) / dt > MAX_STEPS:
         k = MAX_STEPS
     while k < MAX_STEPS and v >= v_stop:
         k += 1
@@ -152,16 +153,6 @@ def deceleration(x: float, v: float, R: float, M: float, rho_t: float, R_t: floa
     area_over_pi = 2 * R * x - x * x if x < R else R * R
     stress = 0.5 * rho_t * v * v + R_t
     return stress * math.pi * area_over_pi / M
-
-
-def _fewest_steps(
-    v: float, v_stop: float, dt: float, R: float, M: float, rho_t: float, R_t: float
-) -> float:
-    """A lower bound on the number of rows that the sheet takes from V = v.
-
-    A row reduces the velocity by at most a dt, with the deceleration a at V and the area pi R^2.
-    """
-    return (v - v_stop) / deceleration(R, v, R, M, rho_t, R_t) / dt
 
 
 def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
