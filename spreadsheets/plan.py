@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
+from string import ascii_uppercase
 from textwrap import wrap
 from typing import Any, Literal, NamedTuple
 
@@ -199,11 +200,14 @@ class SheetPlan:
         part: what the keys begin with; they end with the number of the cell in its column:
         "high.row.depth[1]". finish: what is made of each formula.
         """
-        letters, entries = "".join(columns), columns.values()
-        units = [entry.get("under", written(entry.get("unit", "1")) or None) for entry in entries]
-        self.heads(letters, [entry["head"] for entry in entries], letters, units)
-        first, self.row = self.row, self.row + count
+        letters = "".join(columns)
+        self.heads(letters, [entry["head"] for entry in columns.values()], letters)
+        first = self.row + 1
+        self.row = first + count
         for column, entry in columns.items():
+            unit = entry.get("under", written(entry.get("unit", "1")) or None)
+            if unit is not None:
+                self.cells[f"{column}{first - 1}"] = Cell(unit, "unit right")
             looks = ("unit", "shown", "like")
             look = filled_in({name: entry[name] for name in looks if name in entry}, words)
             at_start = {**look, "shown": entry.get("start_shown", "General")}
@@ -221,24 +225,19 @@ class SheetPlan:
                     continue
                 self.cells[f"{column}{first + k}"] = cell
 
-    def heads(
-        self, columns: str, words: Sequence[str], right: str, units: Sequence[str | None] = ()
-    ) -> None:
-        """Heads of columns, and units under them; `right` names the columns of numbers."""
-        styles = ("right" if c in right else "unit" if c != "A" else "" for c in columns)
-        cells = (Cell(w, f"head {style}".rstrip()) for w, style in zip(words, styles, strict=True))
-        self.put(**dict(zip(columns, cells, strict=True)))
-        if units:
-            under = (None if unit is None else Cell(unit, "unit right") for unit in units)
-            self.put(**dict(zip(columns, under, strict=True)))
+    def heads(self, columns: str, words: Sequence[str], right: str) -> None:
+        """Heads of columns; `right` names the columns of numbers."""
+        for column, head in zip(columns, words, strict=True):
+            style = "head right" if column in right else "head" if column == "A" else "head unit"
+            self.cells[f"{column}{self.row}"] = Cell(head, style)
+        self.row += 1
 
     def table(self, right: str, scrolling: str) -> None:
         """The heads of its entry; `right`: the columns of numbers, `scrolling`: as of `headed`."""
-        heads = self.entry["heads"]
-        letters = "ABCDEFGHIJKLM"[: len(heads)]
-        self.widths = {letter: width for letter, (_, width) in zip(letters, heads, strict=True)}
+        heads = dict(zip(ascii_uppercase, self.entry["heads"], strict=False))
+        self.widths = {column: width for column, (_, width) in heads.items()}
         self.headed = scrolling, self.row, self.row
-        self.heads(letters, [words for words, _ in heads], right)
+        self.heads("".join(heads), [words for words, _ in heads.values()], right)
 
     def description(self, values: Mapping[str, Value]) -> str:
         """What its chart shows, in words, with these values."""
@@ -325,27 +324,23 @@ class WorkbookPlan:
         """
         from openpyxl.utils.cell import coordinate_to_tuple
 
-        from spreadsheets.foreign import Book, Position
-        from spreadsheets.recalculation import parse
+        from spreadsheets import engines, foreign
+        from spreadsheets.recalculation import Calculation, parse
 
-        cells = {(place[0], *coordinate_to_tuple(place[1])): place for place, _ in self.cells()}
+        sheets = {
+            sheet.name: {
+                coordinate_to_tuple(address): foreign.Cell(cell.formula or None, None)
+                for address, cell in sheet.cells.items()
+            }
+            for sheet in self.sheets
+        }
         names = {cell.name: "'{}'!{}".format(*place) for place, cell in self.cells() if cell.name}
-        book = Book(Path(), {sheet.name: {} for sheet in self.sheets}, names)
-        readers: dict[Position, list[Position]] = {}
-        waiting, inexact = list[Position](), set[Place]()
-        for position, place in cells.items():
-            if formula := self.cell(place).formula:
-                if re.search(r"LN\(|SIN\(|\^|ROUND\(", formula):
-                    waiting.append(position)
-                for area in parse(formula, position, book).areas:
-                    for read in area.places():
-                        readers.setdefault(read, []).append(position)
-        while waiting:
-            position = waiting.pop()
-            if cells[position] not in inexact:
-                inexact.add(cells[position])
-                waiting += readers.get(position, ())
-        return inexact
+        book = foreign.Book(Path(), sheets, names)
+        texts = {place: cell.formula for place, cell in book.cells() if cell.formula}
+        formulas = {place: parse(text, place, book) for place, text in texts.items()}
+        rounded = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
+        inexact = Calculation(book, formulas, {}).needing(rounded)
+        return {(sheet, engines.address(row, column)) for sheet, row, column in inexact}
 
 
 def place_of(text: str) -> Place:

@@ -10,11 +10,11 @@ a cell holds stands there as the value stored.
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from itertools import accumulate, pairwise
+from itertools import accumulate, pairwise, product
 from typing import NamedTuple
 
 from openpyxl.formula.tokenizer import Token, Tokenizer, TokenizerError
@@ -83,9 +83,8 @@ class Area(NamedTuple):
 
     def places(self) -> Iterator[Position]:
         """Every cell, row by row."""
-        for row in range(self.top, self.bottom + 1):
-            for column in range(self.left, self.right + 1):
-                yield self.sheet, row, column
+        rows, columns = range(self.top, self.bottom + 1), range(self.left, self.right + 1)
+        return product([self.sheet], rows, columns)
 
     def covers(self, place: Position) -> bool:
         """Whether a cell lies in it."""
@@ -159,6 +158,7 @@ def parse(text: str, place: Position, book: Book) -> Formula:
     return Formula(place, (Piece("text", text),), reader.obstacle)
 
 
+_LAST_LETTERS = f"${get_column_letter(LAST_COLUMN)}"
 _COLUMN, _ROW = r"(\$?[A-Za-z]{1,3})", r"(\$?[1-9][0-9]{0,6})"
 _SHEET = r"(?:('(?:[^']|'')+'|[^'!\[\]]+)!)?"
 _REFERENCES = (  # a cell or some, whole columns, whole rows
@@ -179,13 +179,14 @@ def _tokens(text: str) -> tuple[Token, ...]:
     return tuple(_Tokenizer(text).items)
 
 
+@dataclass
 class _Reader:
     """Turns tokens into pieces; `obstacle` is the first reason not to compute."""
 
-    def __init__(self, place: Position, book: Book) -> None:
-        self.place, self.book = place, book
-        self.obstacle: str | None = None
-        self.expansions = 0
+    place: Position
+    book: Book
+    obstacle: str | None = None
+    expansions: int = 0
 
     def read(self, text: str) -> Iterator[Piece]:
         for token in _tokens(text):
@@ -232,30 +233,23 @@ class _Reader:
         sheet = self.place[0] if named is None else self.book.called.get(named.upper())
         if right is None:  # a lone cell is its own other end
             right, bottom = left, top
-        ends = (
-            _end(top, "$1"), _end(left, "$A"),
-            _end(bottom, f"${LAST_ROW}"), _end(right, f"${get_column_letter(LAST_COLUMN)}"),
-        )  # fmt: skip
-        rows, columns = sorted((ends[0][0], ends[2][0])), sorted((ends[1][0], ends[3][0]))
-        if sheet is None or rows[1] > LAST_ROW or columns[1] > LAST_COLUMN:
+        # A column without rows has all of them wherever it is filled: as if these were fixed.
+        ends = top or "$1", left or "$A", bottom or f"${LAST_ROW}", right or _LAST_LETTERS
+        bare = [end.lstrip("$") for end in ends]
+        numbers = [int(end) if end.isdigit() else column_index_from_string(end) for end in bare]
+        (first, last), (leftmost, rightmost) = sorted(numbers[::2]), sorted(numbers[1::2])
+        if sheet is None or last > LAST_ROW or rightmost > LAST_COLUMN:
             return None
-        area = Area(sheet, rows[0], columns[0], rows[1], columns[1])
+        area = Area(sheet, first, leftmost, last, rightmost)
         sheet_here, *here = self.place
         steps = [
-            str(end) if fixed else f"[{end - start}]"
-            for (end, fixed), start in zip(ends, here * 2, strict=True)
+            str(number) if end.startswith("$") else f"[{number - start}]"
+            for end, number, start in zip(ends, numbers, here * 2, strict=True)
         ]
         shape = "" if sheet == sheet_here else f"{sheet}!"
         shape += f"R{steps[0]}C{steps[1]}"
         shape += "" if area.cells == 1 else f":R{steps[2]}C{steps[3]}"
         return Piece("area", match[0], area, shape)
-
-
-def _end(text: str, whole: str) -> tuple[int, bool]:
-    """A row or column such as $7 or B, and whether it is fixed; `whole` where none is given."""
-    number = (text or whole).lstrip("$")
-    fixed = (text or whole).startswith("$")
-    return int(number) if number.isdigit() else column_index_from_string(number), fixed
 
 
 # Values
@@ -279,7 +273,7 @@ class Calculation:
     def number(self, place: Position | None) -> float | None:
         """The value of a cell, if it is a number."""
         value = None if place is None else self.values.get(place)
-        return float(value) if isinstance(value, float) else None
+        return value if isinstance(value, float) else None
 
     def error(self, place: Position) -> str | None:
         """The error that a formula gives, but for #N/A, which people let it give on purpose."""
@@ -323,13 +317,17 @@ class Calculation:
     @cached_property
     def unknown(self) -> set[Position]:
         """Formulas that are not computed and have no stored value, and those that need them."""
-        unknown = {place for place in self.uncomputed if self.book[place].value is None}
-        if unknown:
+        return self.needing({p for p in self.uncomputed if self.book[p].value is None})
+
+    def needing(self, places: Set[Position]) -> set[Position]:
+        """These formulas, and those that are computed from their values."""
+        needing = set(places)
+        if places:
             computed = self.formulas.keys() - self.uncomputed.keys()
             for place in sorted(computed, key=self.order.__getitem__):
-                if not unknown.isdisjoint(self._precedents(place)):
-                    unknown.add(place)
-        return unknown
+                if not needing.isdisjoint(self._precedents(place)):
+                    needing.add(place)
+        return needing
 
     @cached_property
     def named(self) -> dict[Position, str]:
@@ -418,12 +416,9 @@ def _numbers_as_text(book: Book, formulas: Mapping[Position, Formula]) -> dict[P
     """
     areas = (area for formula in formulas.values() for area in formula.areas if area.cells == 1)
     read = {area.corner for area in areas} - formulas.keys()
-    texts = {place: book[place].value for place in read}
-    return {
-        place: float(text)
-        for place, text in texts.items()
-        if isinstance(text, str) and _NUMBER.fullmatch(text) and math.isfinite(float(text))
-    }
+    texts = ((place, value) for place in read if isinstance(value := book[place].value, str))
+    numbers = {place: float(text) for place, text in texts if _NUMBER.fullmatch(text)}
+    return {place: number for place, number in numbers.items() if math.isfinite(number)}
 
 
 def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position, str]:
