@@ -17,12 +17,13 @@ import sys
 import time
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -70,8 +71,7 @@ class Engine(ABC):
         """The cells of a workbook, recalculated; blank ones included or not."""
         raise NotImplementedError  # of an engine that has the other one
 
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
-        """The cells of each of several workbooks."""
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
         return map(self._cells, paths)
 
     def recalculate(self, path: Path) -> Values:
@@ -103,6 +103,10 @@ class Engine(ABC):
             raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
         return output
 
+    def _version_of(self, program: str) -> str:
+        match = re.search(r"\d+(\.\d+)+", self._run([program, "--version"]))
+        return match[0] if match else "of no known version"
+
 
 def address(row: int, column: int) -> str:
     """The cell in that row and column, both counted from 1: (7, 2) is B7."""
@@ -120,9 +124,8 @@ class IronCalc(Engine):
     name = "ironcalc"
 
     def missing(self) -> str | None:
-        if find_spec(self.name) is not None:
-            return None
-        return f"The Python package {self.name} is not installed: run pip install {self.name}."
+        reason = f"The Python package {self.name} is not installed: run pip install {self.name}."
+        return None if find_spec(self.name) else reason
 
     def version(self) -> str:
         return version(self.name)
@@ -204,9 +207,9 @@ class LibreOffice(Engine):
         return None
 
     def version(self) -> str:
-        return _version_in(self._run([str(office()), "--version"]), r"LibreOffice\S* (\S+)")
+        return self._version_of(str(office()))
 
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterable[Iterator[Cell]]:
+    def _cells_of_each(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
         soffice, script = str(office()), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
             # Copies, since LibreOffice puts a lock file beside what it opens.
@@ -215,14 +218,14 @@ class LibreOffice(Engine):
                 for number, path in enumerate(paths)
             ]
             command = [str(_uno_python(soffice)), script, soffice, f"{folder}/profile", *copies]
-            return map(self._read, self._run(command, len(paths)).splitlines())
-
-    @staticmethod
-    def _read(line: str) -> Iterator[Cell]:
-        for sheet, rows in json.loads(line).items():
-            for row, values in enumerate(rows, start=1):
-                for column, value in enumerate(values, start=1):
-                    yield sheet, address(row, column), value
+            output = self._run(command, len(paths))
+        for line in output.splitlines():
+            yield (
+                (sheet, address(row, column), value)
+                for sheet, rows in json.loads(line).items()
+                for row, values in enumerate(rows, start=1)
+                for column, value in enumerate(values, start=1)
+            )
 
 
 def office() -> str | None:
@@ -241,11 +244,6 @@ def _uno_python(soffice: str) -> str | None:
     return None
 
 
-def _version_in(output: str, pattern: str) -> str:
-    match = re.search(pattern, output)
-    return "of no known version" if match is None else match[1]
-
-
 class Gnumeric(Engine):
     """Gnumeric through its converter `ssconvert`.
 
@@ -257,12 +255,11 @@ class Gnumeric(Engine):
     long_doubles = True
 
     def missing(self) -> str | None:
-        if shutil.which("ssconvert") is not None:
-            return None
-        return "The command ssconvert is not installed: install the system package gnumeric."
+        reason = "The command ssconvert is not installed: install the system package gnumeric."
+        return None if shutil.which("ssconvert") else reason
 
     def version(self) -> str:
-        return _version_in(self._run(["ssconvert", "--version"]), r"version '(.+)'")
+        return self._version_of("ssconvert")
 
     def _cells(self, path: Path) -> Iterator[Cell]:
         from openpyxl import load_workbook
@@ -273,12 +270,11 @@ class Gnumeric(Engine):
             # Without --recalc stored values would come back; without the importer's name, it would
             # take any text file for a table.
             formats = (f"--{way}port-type=Gnumeric_Excel:xlsx" for way in ("im", "ex"))
-            files = str(path.resolve()), str(converted)
-            self._run(["ssconvert", "--recalc", *formats, *files])
+            self._run(["ssconvert", "--recalc", *formats, str(path.resolve()), str(converted)])
             with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
                 book = load_workbook(converted, data_only=True)
         for sheet in book.worksheets:
-            for cell in (cell for row in sheet.iter_rows() for cell in row):
+            for cell in chain.from_iterable(sheet.iter_rows()):
                 value: Any = cell.value
                 if not isinstance(value, str | bool | None):
                     number = float(value if isinstance(value, float | int) else to_excel(value))  # type: ignore[no-untyped-call]

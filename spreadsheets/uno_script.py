@@ -30,23 +30,19 @@ ERRORS = {
 """Error numbers with a text of their own. The cells show the same, but in the user's language."""
 
 
-def create(context: Any, service: str) -> Any:
-    """Create a UNO service."""
-    return context.ServiceManager.createInstanceWithContext(service, context)
-
-
 def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
     """Start LibreOffice with a private profile and pipe; return its process and its desktop."""
     pipe = f"pipe,name=coldspray{uuid4().hex};urp;"
     options = ["--headless", "--norestore", "--nologo", "--nodefault", f"--accept={pipe}"]
     command = [soffice, *options, f"-env:UserInstallation={Path(profile).as_uri()}"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    resolver = create(uno.getComponentContext(), "com.sun.star.bridge.UnoUrlResolver")
+    services = uno.getComponentContext().ServiceManager
+    resolver = services.createInstance("com.sun.star.bridge.UnoUrlResolver")
     deadline = time.monotonic() + START_LIMIT_S
     while time.monotonic() < deadline:
         with suppress(uno.getClass("com.sun.star.connection.NoConnectException")):
-            context = resolver.resolve(f"uno:{pipe}StarOffice.ComponentContext")
-            return process, create(context, "com.sun.star.frame.Desktop")
+            services = resolver.resolve(f"uno:{pipe}StarOffice.ServiceManager")
+            return process, services.createInstance("com.sun.star.frame.Desktop")
         status = process.poll()
         if status == RESTART:
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
@@ -54,18 +50,6 @@ def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
             sys.exit(f"soffice ended with status {status} before it answered")
         time.sleep(0.05)
     sys.exit(f"soffice did not answer within {START_LIMIT_S} s")
-
-
-def load(desktop: Any, workbook: str) -> Any:
-    """Load a workbook without a window; only as .xlsx, or any text would do for a document."""
-    options = tuple(
-        uno.createUnoStruct("com.sun.star.beans.PropertyValue", Name=name, Value=value)
-        for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML"))
-    )
-    document = desktop.loadComponentFromURL(Path(workbook).as_uri(), "_blank", 0, options)
-    if document is None:
-        sys.exit("cannot load the workbook")
-    return document
 
 
 def rows(sheet: Any) -> list[list[float | str]]:
@@ -89,9 +73,16 @@ def main() -> None:
     """Recalculate the workbooks named on the command line."""
     soffice, profile, *workbooks = sys.argv[1:]
     process, desktop = start(soffice, profile)
+    # Without a window; only as .xlsx, or any text would do for a document.
+    options = tuple(
+        uno.createUnoStruct("com.sun.star.beans.PropertyValue", Name=name, Value=value)
+        for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML"))
+    )
     try:
         for workbook in workbooks:
-            document = load(desktop, workbook)
+            document = desktop.loadComponentFromURL(Path(workbook).as_uri(), "_blank", 0, options)
+            if document is None:
+                sys.exit("cannot load the workbook")
             document.calculateAll()  # loading alone would keep the stored values
             print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
             document.close(True)
