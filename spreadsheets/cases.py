@@ -76,10 +76,6 @@ class CaseSheet:
         """What the defined names of its results end with: "_low", "_low_coarse", or nothing."""
         return "" if self.slug == "case" else f"_{self.part}"
 
-    def claim(self, quantity: str) -> str:
-        """The claim that prints the "depth" or "ratio" of this case, if it is the report's."""
-        return f"{quantity}-beta-{self.beta}" if self.is_reports else ""
-
     def rules(self, cells: str) -> list[Rule]:
         """The styles of cells that tell whether the run can be trusted."""
         trust = f"=trust{self.suffix}="
@@ -88,6 +84,7 @@ class CaseSheet:
     @property
     def words(self) -> dict[str, str]:
         """What the words of `sheets.toml` stand for in this case: names, cells and claims."""
+        depth, ratio = (f"{kind}-beta-{self.beta}" for kind in ("depth", "ratio"))
         claimed = self.is_reports and not self.coarse
         return {
             "slug": self.slug, "part": self.part, "of": self.of, "suffix": self.suffix,
@@ -96,10 +93,10 @@ class CaseSheet:
             "not_longer": "IF(ISNUMBER(dt_s),dt_coarse<=dt_s,1=0)" if self.coarse else "1=0",
             **{column: f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}" for column in "ABDF"},
             "first": f"A{FIRST_ROW}",
-            "depth_claim": self.claim("depth") if claimed else "",
-            "ratio_claim": self.claim("ratio") if claimed else "",
+            "depth_claim": depth if claimed else "",
+            "ratio_claim": ratio if claimed else "",
             "unclaimed": "" if claimed else "Appendix",
-            "fine_claim": self.claim("depth"),
+            "fine_claim": depth if self.is_reports else "",
             "resistance_claim": "a1-resistance" if self.slug == "high" else "",
         }  # fmt: skip
 
@@ -317,13 +314,11 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     for row, (key, (label, symbol)) in enumerate(ABOVE_TABLE.items(), start=1):
         cells[f"A{row}"] = Cell(label)
         live(f"B{row}", key, f"={symbol}".format_map(case.words))
+    words = case.words | {"drag": "G" if centered else "C"}
+    entries = {**entries, "A": tables()["table_a1"]["time"], "B": {}, "G": entries["H"]}
     for column, head in heads.items():
         cells[f"{column}{_FIRST - 1}"] = Cell(head, "head" if column in "AB" else "head right")
-    columns = {column: entries["H" if column == "G" else column] for column in heads}
-    columns["A"] = tables()["table_a1"]["time"]
-    words = case.words | {"drag": "G" if centered else "C"}
-    del columns["B"]
-    for column, entry in columns.items():
+        entry = entries[column]
         if "start" in entry:
             start = f"=IF(ISNUMBER('{case.name}'!A{FIRST_ROW}),{entry['start']},\"\")"
             entry = {**entry, "start": start}

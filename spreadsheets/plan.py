@@ -244,12 +244,6 @@ class SheetPlan:
         written = re.sub("{(.+?):(.+?)}", lambda at: format(values[at[1]], at[2]), self.written)
         return str(self.entry["chart"]["description"]).format(written=written)
 
-    def color(self, cells: str, styles: Mapping[str, str]) -> None:
-        """The style that each text has in these cells of one column."""
-        first = cells.partition(":")[0]
-        for words, style in styles.items():
-            self.rules.append(Rule(cells, f'=${first}="{words}"', style))
-
     def lines(
         self, ledger: Ledger, part: str, blocks: Mapping[str, Any],
         cases: Sequence[Mapping[str, object]], columns: str = "ABCDEF", headed: bool = True,

@@ -29,6 +29,7 @@ from spreadsheets.plan import (
     Rule,
     SheetPlan,
     WorkbookPlan,
+    filled,
     filled_in,
     formula,
     guarded,
@@ -82,13 +83,12 @@ def workbook_plan(
     sheets += [_audit(ledger, findings)] if findings else []
     about = {name: getattr(ledger.report, name) for name in ("title", "author", "year")}
     properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
-    overview = _overview(ledger, pages, sheets, properties["title"], findings)
+    overview = _overview(ledger, pages, sheets, findings)
     plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
     for claim in ledger.claims.values() if report else ():
         if claim.workbook and not plan.cell(place_of(claim.workbook)).formula:
-            raise ValueError(
-                f"claim {claim.id!r}: the workbook computes nothing in {claim.workbook}"
-            )
+            reason = f"the workbook computes nothing in {claim.workbook}"
+            raise ValueError(f"claim {claim.id!r}: {reason}")
     return plan
 
 
@@ -100,15 +100,13 @@ def _block(page: SheetPlan, table: str, right: str = "") -> None:
 
 
 def _overview(
-    ledger: Ledger,
-    pages: Sequence[CaseSheet],
-    sheets: Sequence[SheetPlan],
-    title: str,
+    ledger: Ledger, pages: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
     findings: Findings | None,
-) -> SheetPlan:
+) -> SheetPlan:  # fmt: skip
     """The first sheet; `sheets` are the others."""
     report, scheme = ledger.report, pages[0].scheme
     page = SheetPlan.begun(HOME)
+    title = filled(tables()["properties"]["title"], {"title": report.title})
     page.put(A=Cell(title, "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
@@ -196,7 +194,12 @@ _HEAD_ROW = 11
 DIGITS = 4
 """Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
 
-_COLORS = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
+
+def _colors(cells: str) -> list[Rule]:
+    """The style that each live verdict has in these cells of one column."""
+    first = cells.partition(":")[0]
+    styles = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
+    return [Rule(cells, f'=${first}="{words}"', style) for words, style in styles.items()]
 
 
 def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
@@ -215,7 +218,7 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     page.table("CEHI", "B")
     for claim in ledger.claims.values():
         page.put(**_row(ledger, claim, findings, page.row))
-    page.color(verdicts, _COLORS)
+    page.rules = _colors(verdicts)
     return page
 
 
@@ -243,7 +246,7 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
             G=formula(f"{key}.verdict", live, "text"),
             H=recorded(float(claim.printed.quantum), shown="0E+00"),
         )
-    page.color(f"G{first}:G{page.row - 1}", _COLORS)
+    page.rules = _colors(f"G{first}:G{page.row - 1}")
     return page
 
 
