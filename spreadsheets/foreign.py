@@ -24,6 +24,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as ET
 
+from openpyxl.formula.tokenizer import TokenizerError
 from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
@@ -170,7 +171,7 @@ def _opened(path: Path, shown: Path) -> "Iterator[_Reader]":
             yield _Reader(archive, shown)
     except WorkbookError as error:
         raise WorkbookError(f"{shown}: {error}") from error
-    except (ET.ParseError, KeyError, IndexError, ValueError, EOFError, RecursionError) as error:
+    except (ET.ParseError, LookupError, ValueError, EOFError, RecursionError) as error:
         raise WorkbookError(f"{shown}: is damaged: {error}") from error
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
         raise WorkbookError(f"{shown}: cannot be unpacked: {error}") from error
@@ -255,8 +256,8 @@ class _Reader:
         listed = tree.findall("{*}sheets/{*}sheet")
         names = [sheet.attrib["name"] for sheet in listed]
         for sheet in listed:
-            identity = next(sheet.attrib[key] for key in sheet.attrib if key.endswith("}id"))
-            kind, part = related[identity]
+            identity = (value for key, value in sheet.attrib.items() if key.endswith("}id"))
+            kind, part = related[next(identity, "r:id")]
             if kind == "worksheet":
                 name = sheet.attrib["name"]
                 cells = _Sheet(self, texts, self.tables(name, part))
@@ -394,7 +395,7 @@ class _Sheet:
                 master, origin = self.masters[index]
                 try:
                     return str(Translator(f"={master}", origin).translate_formula(here))
-                except TranslatorError as error:
+                except (TokenizerError, TranslatorError) as error:
                     raise WorkbookError(f"is damaged: {error} at {here}") from error
         if kind == "array" and text:
             self.arrays.append((element.get("ref", here), f"={text}"))

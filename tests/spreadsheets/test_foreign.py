@@ -1,6 +1,7 @@
 """Somebody else's workbook: what it holds, what its formulas read, and what is refused."""
 
 import os
+import re
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -170,6 +171,11 @@ def test_ranges_and_a_lone_cell_as_large_as_a_sheet_cost_nothing(plain: Path) ->
 def test_damaged_parts_are_named_so(question: str, answer: str, plain: Path) -> None:
     path = spoiled(plain, {SHEET: lambda data: eval(question, {"data": data})})
     assert answer in refusal(path)
+
+
+def test_a_sheet_that_names_no_part_is_damaged(plain: Path) -> None:
+    nameless = {"xl/workbook.xml": lambda data: re.sub(rb' \w+:id="\w+"', b"", data)}
+    assert "is damaged: 'r:id'" in refusal(spoiled(plain, nameless))
 
 
 def test_shared_texts_and_all_digits_are_read(shared: Path) -> None:
