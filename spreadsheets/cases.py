@@ -121,9 +121,6 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
     return wanted
 
 
-# Inputs
-
-
 class Input(NamedTuple):
     """A number that is typed: its defined name, symbol, unit, and the limits of what is taken.
 
@@ -235,9 +232,6 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "L": recorded(entry.limits[1]),
         "M": Cell(entry.name, "unit"),
     }
-
-
-# Rows
 
 
 def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:

@@ -21,8 +21,6 @@ from spreadsheets.safely import check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
-# Values and the file
-
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
     """What every cell of the workbook shows, by sheet and address, texts included.

@@ -243,23 +243,19 @@ class _Reader:
         self.columns: dict[str, str] = {}
 
     def book(self) -> Book:
-        root = self.relations("")
-        main = next(
-            (part for kind, part in root.values() if kind == "officeDocument"), "xl/workbook.xml"
-        )
+        main = dict(self.relations("").values()).get("officeDocument", "xl/workbook.xml")
         tree, related = self.tree(main), self.relations(main)
-        strings = next((part for kind, part in related.values() if kind == "sharedStrings"), None)
+        strings = dict(related.values()).get("sharedStrings")
         texts: list[str] = []
         if strings in self.parts:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
         listed = tree.findall("{*}sheets/{*}sheet")
         names = [sheet.attrib["name"] for sheet in listed]
-        for sheet in listed:
+        for sheet, name in zip(listed, names, strict=True):
             identity = (value for key, value in sheet.attrib.items() if key.endswith("}id"))
             kind, part = related[next(identity, "r:id")]
             if kind == "worksheet":
-                name = sheet.attrib["name"]
                 cells = _Sheet(self, texts, self.tables(name, part))
                 self.tree(part, _Tree(row=cells.take))
                 sheets[name] = cells.filled()
@@ -269,7 +265,7 @@ class _Reader:
         return Book(self.path, sheets, _names(tree, names), tuple(notes), columns=self.columns)
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:
-        tables, called = [], sheet.replace("'", "''")
+        tables, quoted = [], sheet.replace("'", "''")
         for kind, part in self.relations(sheet_part).values():
             if kind == "table" and part in self.parts:
                 tree = self.tree(part)
@@ -280,26 +276,24 @@ class _Reader:
                 columns = {head.attrib["name"]: column for column, head in enumerate(heads, left)}
                 tables.append((name.lower(), columns))
                 for head, letter in ((h, get_column_letter(c)) for h, c in columns.items()):
-                    column = re.sub(r"[\[\]#'@]", r"'\g<0>", head)
-                    cells = f"'{called}'!${letter}${first}:${letter}${last}"
-                    self.columns[f"{name}[{column}]"] = cells
+                    escaped = re.sub(r"[\[\]#'@]", r"'\g<0>", head)
+                    cells = f"'{quoted}'!${letter}${first}:${letter}${last}"
+                    self.columns[f"{name}[{escaped}]"] = cells
         return tables
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
         """What a part refers to: identity -> kind and target."""
         path = PurePosixPath(part)
-        rels = f"{path.parent}/_rels/{path.name}.rels".removeprefix("./") if part else "_rels/.rels"
+        rels = f"{path.parent}/_rels/{path.name}.rels".removeprefix("./")
         if rels not in self.parts:
             return {}
-        return {
-            relation.attrib["Id"]: (
-                relation.attrib["Type"].rpartition("/")[2],
+        related = {}
+        for relation in (entry.attrib for entry in self.tree(rels)):
+            if relation.get("TargetMode") != "External":
                 # The part meant: "/" starts at the root, ".." goes up.
-                normpath(join("/", path.parent, relation.attrib["Target"])).lstrip("/"),
-            )
-            for relation in self.tree(rels)
-            if relation.attrib.get("TargetMode") != "External"
-        }
+                target = normpath(join("/", path.parent, relation["Target"])).lstrip("/")
+                related[relation["Id"]] = relation["Type"].rpartition("/")[2], target
+        return related
 
     def tree(self, part: str, tree: "_Tree | None" = None) -> ET.Element:
         parser = ET.XMLParser(target=tree or _Tree())

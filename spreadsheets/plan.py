@@ -101,9 +101,6 @@ class Curve(NamedTuple):
     y: str
 
 
-# What `sheets.toml` says
-
-
 @cache
 def tables() -> dict[str, Any]:
     """The tables of `sheets.toml`."""
@@ -345,9 +342,6 @@ def place_of(text: str) -> Place:
     """
     sheet, _, address = text.rpartition("!")
     return sheet, address
-
-
-# Formulas
 
 
 def row_formulas(

@@ -252,9 +252,6 @@ class _Reader:
         return Piece("area", match[0], area, shape)
 
 
-# Values
-
-
 @dataclass(frozen=True)
 class Calculation:
     """A book, its formulas parsed, and the value of every cell.
