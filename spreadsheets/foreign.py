@@ -262,7 +262,14 @@ class _Reader:
         if not sheets:
             raise WorkbookError("has no worksheet")
         notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
-        return Book(self.path, sheets, _names(tree, names), tuple(notes), columns=self.columns)
+        meanings: dict[str, str] = {}
+        for entry in tree.iterfind("{*}definedNames/{*}definedName"):
+            name, scope = entry.attrib["name"], entry.get("localSheetId")
+            if entry.text and not name.startswith("_xlnm."):
+                # Those of one sheet stand as 'Sheet'!name.
+                local = name if scope is None else f"'{names[int(scope)]}'!{name}"
+                meanings[local] = entry.text[:MAX_FORMULA]
+        return Book(self.path, sheets, meanings, tuple(notes), columns=self.columns)
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:
         tables, quoted = [], sheet.replace("'", "''")
@@ -437,15 +444,3 @@ class _Sheet:
                 if cell := self.cells.get(place):
                     self.cells[place] = cell._replace(formula=text, array=True)
         return self.cells
-
-
-def _names(tree: ET.Element, sheets: list[str]) -> dict[str, str]:
-    """Defined names -> what they stand for; those of one sheet as 'Sheet'!name."""
-    names = {}
-    for entry in tree.iterfind("{*}definedNames/{*}definedName"):
-        name, scope = entry.attrib["name"], entry.attrib.get("localSheetId")
-        if name.startswith("_xlnm.") or not entry.text:
-            continue
-        local = f"'{sheets[int(scope)]}'!{name}" if scope is not None else name
-        names[local] = entry.text[:MAX_FORMULA]
-    return names

@@ -466,11 +466,9 @@ def _without_ends(formula: Formula, book: Book) -> Formula:
             calls.pop()
         elif piece.text == ",":
             calls[-1] = function, argument + 1
-        searched = piece.area if function in _LOOKUPS and argument == 2 else None
-        if searched and searched.cells > 1:
-            pieces.append(piece._replace(area=_searched(searched, function, book)))
-        else:
-            pieces.append(piece)
+        area = piece.area if function in _LOOKUPS and argument == 2 else None
+        searched = _searched(area, function, book) if area and area.cells > 1 else piece.area
+        pieces.append(piece._replace(area=searched))
     return replace(formula, pieces=tuple(pieces))
 
 

@@ -280,15 +280,13 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
 def _inside(claim: Claim, row: int) -> str:
     """Whether E lies between H and I, ends counted as they are closed or open."""
     interval = claim.interval()
-    tests = []
+    below = f"E{row}{'<=' if interval.upper_closed else '<'}I{row}"
+    above = f"E{row}{'>=' if interval.lower_closed else '>'}H{row}"
+    ends = (below, interval.upper), (above, interval.lower)
+    tests = [test for test, end in ends if end is not None]
     if interval.is_point:
         # To nine digits: no program holds 2/3, and not all round it alike.
-        tests.append(f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})")
-    else:
-        if interval.upper is not None:
-            tests.append(f"E{row}{'<=' if interval.upper_closed else '<'}I{row}")
-        if interval.lower is not None:
-            tests.append(f"E{row}{'>=' if interval.lower_closed else '>'}H{row}")
+        tests = [f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"]
     verdict = f'"{AS_PRINTED}"'
     for test in tests:
         verdict = f'IF({test},{verdict},"{OTHERWISE}")'
@@ -356,12 +354,24 @@ NO_ORDER = "–"
 
 
 def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
-    """The final depth at a ladder of time steps against the depth at rest."""
+    """The inputs of the runs and those in use; then, at a ladder of steps, depths against rest."""
     curves, written = [], []
     page = SheetPlan.begun("Convergence", scheme=cases[0].scheme)
     page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
     page.row = 8
-    _same_inputs(page, run_inputs(cases))
+    page.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
+    first, shown = page.row, "0.0####E+00"
+    for name in run_inputs(cases):
+        # To twelve digits: programs round a conversion of units in their own way.
+        same = f"=IF(ABS(I{page.row}-J{page.row})*1000000000000<=ABS(I{page.row}),1,0)"
+        same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
+        page.put(
+            H=Cell(name, "text"),
+            I=recorded(f"convergence.run.{name}", shown=shown),
+            J=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
+            K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
+        )
+    page.single_cells(same=f"K{first}:K{page.row - 1}")
     page.row = 36
     for case in cases:
         key, label = f"convergence.{case.slug}", f"A{page.row}"
@@ -380,20 +390,3 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page.print_area = f"A1:K{page.row - 2}"
     page.curves, page.written = curves, ", ".join(written)
     return page
-
-
-def _same_inputs(page: SheetPlan, names: Sequence[str]) -> None:
-    """The inputs of the runs beside those in use, and whether they are the same."""
-    page.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
-    first, shown = page.row, "0.0####E+00"
-    for name in names:
-        # To twelve digits: programs round a conversion of units in their own way.
-        same = f"=IF(ABS(I{page.row}-J{page.row})*1000000000000<=ABS(I{page.row}),1,0)"
-        same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
-        page.put(
-            H=Cell(name, "text"),
-            I=recorded(f"convergence.run.{name}", shown=shown),
-            J=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
-            K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
-        )
-    page.single_cells(same=f"K{first}:K{page.row - 1}")
