@@ -14,7 +14,7 @@ import zipfile
 import zlib
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -131,30 +131,41 @@ def read(path: Path) -> Book:
     Raises WorkbookError, naming the file, for what is none of them, damaged, or beyond the limits
     of this module; OSError for what cannot be opened.
     """
+    try:
+        return _read(path)
+    except WorkbookError as error:
+        raise WorkbookError(f"{path}: {error}") from error
+    except (ET.ParseError, LookupError, ValueError, EOFError, RecursionError) as error:
+        raise WorkbookError(f"{path}: is damaged: {error}") from error
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
+        raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
+
+
+def _read(path: Path) -> Book:
     if not path.is_file():
         kind = "is a folder" if path.is_dir() else "is not a regular file"
         if not path.exists():
             kind = "is a link that leads nowhere" if path.is_symlink() else "there is no such file"
-        raise WorkbookError(f"{path}: {kind}")
+        raise WorkbookError(kind)
     if path.stat().st_size > MAX_FILE:
-        raise WorkbookError(f"{path}: has more than {MAX_FILE >> 20} MB; {_LIMITS}")
+        raise WorkbookError(f"has more than {MAX_FILE >> 20} MB; {_LIMITS}")
     if _is_xlsx(path):
-        with _opened(path, path) as reader:
-            return reader.book()
+        with zipfile.ZipFile(path) as archive:
+            return _Reader(archive, path).book()
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             sealed = file.read(len(_SEALED)) == _SEALED
         named = "has a password, or is an .xls file by another name"
         fault = named if sealed else "is not a workbook"
-        raise WorkbookError(f"{path}: {fault}; give an .xlsx or .xlsm file without a password")
+        raise WorkbookError(f"{fault}; give an .xlsx or .xlsm file without a password")
     with (
         TemporaryDirectory(prefix="coldspray-") as folder,
-        _opened(_converted(path, Path(folder)), path) as reader,
+        zipfile.ZipFile(_converted(path, Path(folder))) as archive,
     ):
-        book = reader.book()
+        book = _Reader(archive, path).book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     resolution = _OF_ODS if path.suffix.lower() == ".ods" else 0.0
-    return replace(book, path=path, notes=(note, *book.notes), resolution=resolution)
+    return replace(book, notes=(note, *book.notes), resolution=resolution)
 
 
 def _is_xlsx(path: Path) -> bool:
@@ -163,32 +174,17 @@ def _is_xlsx(path: Path) -> bool:
     return False
 
 
-@contextmanager
-def _opened(path: Path, shown: Path) -> "Iterator[_Reader]":
-    """A file's reader; errors name the file `shown`, of which it may be a conversion."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            yield _Reader(archive, shown)
-    except WorkbookError as error:
-        raise WorkbookError(f"{shown}: {error}") from error
-    except (ET.ParseError, LookupError, ValueError, EOFError, RecursionError) as error:
-        raise WorkbookError(f"{shown}: is damaged: {error}") from error
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
-        raise WorkbookError(f"{shown}: cannot be unpacked: {error}") from error
-
-
 def _converted(path: Path, folder: Path) -> Path:
     """The same workbook as .xlsx, saved by LibreOffice in a new profile, where macros are off.
 
     It runs within bounds of time, memory and disk.
     """
     if (soffice := office()) is None:
-        raise WorkbookError(
-            f"{path}: {path.suffix} files are read by way of LibreOffice, which is not installed; "
-            "save it as .xlsx"
-        )
+        ways = "by way of LibreOffice, which is not installed; save it as .xlsx"
+        raise WorkbookError(f"{path.suffix} files are read {ways}")
     if zipfile.is_zipfile(path):
-        with _opened(path, path) as reader:  # so that LibreOffice unpacks what may be unpacked
+        with zipfile.ZipFile(path) as archive:  # so that LibreOffice unpacks what may be unpacked
+            reader = _Reader(archive, path)
             for part in reader.parts:
                 deque(reader.chunks(part), maxlen=0)
     source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
@@ -202,10 +198,10 @@ def _converted(path: Path, folder: Path) -> Path:
             run_program(command, CONVERT_LIMIT_S, _limited)
         except subprocess.TimeoutExpired as error:
             reason = f"LibreOffice did not open it within {CONVERT_LIMIT_S} s"
-            raise WorkbookError(f"{path}: {reason}") from error
+            raise WorkbookError(reason) from error
         if (folder / "out" / "workbook.xlsx").is_file():
             return folder / "out" / "workbook.xlsx"
-    raise WorkbookError(f"{path}: LibreOffice cannot open it")
+    raise WorkbookError("LibreOffice cannot open it")
 
 
 def _limited() -> None:
