@@ -213,8 +213,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     else:
         style, same, place = "input", "the report’s", str(ledger.claims[entry.source].place)
         prints = printed(ledger, entry.source, entry.unit)
-    words = {"row": row, "factor": entry.factor, "same": same}
-    texts = filled_in(tables()["input"], words)
+    texts = filled_in(tables()["input"], {"row": row, "factor": entry.factor, "same": same})
     shown = "0.0####E+00" if entry.factor else "General"
     in_use = formula(key, texts["in_use"], name=entry.name, unit=unit, shown=shown)
     return {

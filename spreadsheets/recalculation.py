@@ -386,21 +386,16 @@ def calculate(book: Book) -> Calculation:
     stale = sum(values.get(place) != value for place, value in saved.items())
     are_zero = all(type(value) is float and value == 0 for value in saved.values())
     if are_zero and stale > max(_FEW, len(formulas) / 2):
-        book = _uncalculated(book)
+        note = "every formula stores 0, as some programs write it: none is calculated"
+        sheets = {
+            sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
+            for sheet, cells in book.sheets.items()
+        }
+        book = replace(book, sheets=sheets, notes=(*book.notes, note))
     calculation = Calculation(book, formulas, values, reasons, texts)
     for place in calculation.unknown:
         values.pop(place, None)  # computed with a blank where a number is not known
     return calculation
-
-
-def _uncalculated(book: Book) -> Book:
-    """A book without the values stored of formulas, which nothing has calculated."""
-    sheets = {
-        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
-        for sheet, cells in book.sheets.items()
-    }
-    note = "every formula stores 0, as some programs write it: none is calculated"
-    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
 
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*")
