@@ -295,8 +295,8 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     travel = impact.step * v / impact.radius
     return {
         **impact.motion,
-        **_of(impact, "mass", "diameter", "step", "stop_velocity"),
-        **_of(sheet, "steps", "final_depth", "normalized_depth"),
+        **{name: getattr(impact, name) for name in ("mass", "diameter", "step", "stop_velocity")},
+        **{name: getattr(sheet, name) for name in ("steps", "final_depth", "normalized_depth")},
         "label": page.label,
         "renamed": None if page.resistance_given else "",
         "row": _columns(sheet, page.rows),
@@ -339,15 +339,37 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _convergence(runs: Runs, inputs: Tree) -> Tree:
-    """Final depths at a ladder of time steps, and the inputs that they were computed with."""
+    """Final depths at steps, each half of the one before, against the depth at rest, in um.
+
+    And the inputs that they were computed with.
+    """
     of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
-    return {
+    values: Tree = {
         "message": MESSAGES["current"],
-        **{page.slug: _levels(sheet) for page, sheet in runs},
         "run": of_runs,
         "in_use": of_runs,
         "same": dict.fromkeys(of_runs, 1),
     }
+    for page, sheet in runs:
+        time_steps = ladder(sheet.impact.step, sheets.LEVELS)
+        rest = depth.final_depth(*sheet.impact.motion.values()) * 1e6
+        levels = [run(replace(sheet.impact, step=step), sheet.scheme) for step in time_steps]
+        depths = [level.final_depth * 1e6 for level in levels]
+        errors = [reached - rest for reached in depths]
+        steps = [level.steps for level in levels]
+        orders = map(error_order, errors, errors[1:], steps)
+        values[page.slug] = {
+            "rest_um": rest,
+            "step": time_steps,
+            "step_ns": [step * 1e9 for step in time_steps],
+            "steps": steps,
+            "depth_um": depths,
+            "error": errors,
+            "size": list(map(abs, errors)),
+            "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
+            "state": [_state(level)[1] for level in levels],
+        }
+    return values
 
 
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
@@ -470,10 +492,6 @@ def live_verdicts(
     return dict(_keyed(tree))
 
 
-def _of(thing: object, *names: str) -> dict[str, Any]:
-    return {name: getattr(thing, name) for name in names}
-
-
 def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     """The closed form's terms and the depth at rest, or at the stop velocity: u = 0 or v_stop.
 
@@ -515,29 +533,6 @@ def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
         columns["velocity_middle"] = (None, *middle)
     blank = [""] * (count - sheet.steps)
     return {name: [*column, *blank] for name, column in columns.items()}
-
-
-def _levels(written: Sheet) -> dict[str, Any]:
-    """Final depths at steps, each half of the one before, against the depth at rest, in um."""
-    impact = written.impact
-    time_steps = ladder(impact.step, sheets.LEVELS)
-    rest = depth.final_depth(*impact.motion.values()) * 1e6
-    finer = [run(replace(impact, step=step), written.scheme) for step in time_steps]
-    depths = [sheet.final_depth * 1e6 for sheet in finer]
-    errors = [reached - rest for reached in depths]
-    steps = [sheet.steps for sheet in finer]
-    orders = map(error_order, errors, errors[1:], steps)
-    return {
-        "rest_um": rest,
-        "step": time_steps,
-        "step_ns": [step * 1e9 for step in time_steps],
-        "steps": steps,
-        "depth_um": depths,
-        "error": errors,
-        "size": list(map(abs, errors)),
-        "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
-        "state": [_state(sheet)[1] for sheet in finer],
-    }
 
 
 def _verdict(value: Value, interval: Interval) -> str:

@@ -45,22 +45,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _discard_output()  # the reader of the pipe has seen enough; the status might have been 1
         return 128 + 13  # as shells report a program that SIGPIPE ended
     except KeyboardInterrupt as interrupt:
-        _complain(f"{program}: interrupted; no file is left in part")
+        _complain(program, "interrupted; no file is left in part")
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
-    except (ValueError, OSError) as error:
-        if isinstance(error, OSError) and error.filename is None:
+    except OSError as error:
+        if error.filename is None:
             _discard_output()  # its disk may be full
-        _complain(f"{program}: {one_line(_message(error))}")
+        name, reason = error.filename2 or error.filename, error.strerror or str(error)
+        _complain(program, f"{name}: {reason}" if name else reason)
+        return 2
+    except ValueError as error:
+        _complain(program, str(error))
         return 2
     assert isinstance(status, int)
     return status
 
 
-def _complain(line: str) -> None:
+def _complain(program: str, message: str) -> None:
     """Tell the user, if anybody listens: the status says it, too."""
     if sys.stderr is not None:
         with suppress(OSError):
-            print(line, file=sys.stderr, flush=True)
+            print(f"{program}: {one_line(message)}", file=sys.stderr, flush=True)
 
 
 def _discard_output() -> None:
@@ -83,13 +87,6 @@ def _end_as_interrupted() -> None:
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, interrupt)
-
-
-def _message(error: Exception) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        name = error.filename2 or error.filename
-        return f"{name}: {error.strerror}" if name else error.strerror
-    return str(error)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -137,9 +134,6 @@ class _Version(argparse.Action):
 
         print(f"coldspray {version('coldspray')}", flush=True)
         parser.exit(0)
-
-
-# What a command takes, as `options.toml` lists it
 
 
 def _declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:

@@ -37,8 +37,9 @@ def run_audit(options: argparse.Namespace) -> int:
         from replication.error import hard_cases
         from replication.workbook import build
         from spreadsheets import emit
+        from spreadsheets.safely import check_folder, write_folder
 
-        report.check(options.out)
+        check_folder(options.out, report.FILES)
         workbook = options.out / "workbook.xlsx"
         if workbook.exists():
             emit.check(workbook, force=options.force)
@@ -47,7 +48,8 @@ def run_audit(options: argparse.Namespace) -> int:
             "workbook.xlsx": build(record=record).to_bytes(),
             "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
         }
-        written = report.write(record, options.out, beside)
+        written = report.contents(record, beside)
+        write_folder(options.out, written)
     finally:
         gc.freeze()  # what is left over ends with the process
         gc.enable()
@@ -64,6 +66,7 @@ def run_claims(options: argparse.Namespace) -> int:
     from reference.ledger import load
 
     ledger = load()
+    claims = ledger.claims
     if options.id is None:
         record = [
             {
@@ -73,26 +76,26 @@ def run_claims(options: argparse.Namespace) -> int:
                 "quote": " ".join(claim.quote.split()),
                 "printed": claim.text,
             }
-            for claim in ledger.claims.values()
+            for claim in claims.values()
         ]
         rows = [
             (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
-            for claim in ledger.claims.values()
+            for claim in claims.values()
         ]
         return _put(options, record, lambda: columns(rows, _width(piped=10_000)))
-    if options.id not in ledger.claims:
-        from difflib import get_close_matches
+    if options.id in claims:
+        from replication.audit.audit import Audit
+        from replication.report import proof
 
-        near = ", ".join(get_close_matches(options.id[:80], list(ledger.claims), cutoff=0.4))
-        hint = f"near it: {near}" if near else "`coldspray claims` lists them"
-        if options.id in ledger.equations:
-            hint = "it is an equation: the page of `coldspray audit` has it"
-        raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
-    from replication.audit.audit import Audit
-    from replication.report import proof
+        proven = Audit(ledger).claim(claims[options.id])
+        return _put(options, proven, lambda: proof(proven, ledger, _width(), _may_emphasize()))
+    from difflib import get_close_matches
 
-    claim = Audit(ledger).claim(ledger.claims[options.id])
-    return _put(options, claim, lambda: proof(claim, ledger, _width(), _may_emphasize()))
+    near = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
+    hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+    if options.id in ledger.equations:
+        hint = "it is an equation: the page of `coldspray audit` has it"
+    raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
 
 
 def run_power(options: argparse.Namespace) -> int:
@@ -127,8 +130,8 @@ def run_workbook(options: argparse.Namespace) -> int:
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
-    is_given = options.case is not None or options.case_file is not None or _given(options)
-    case = _case(options) if is_given else None
+    named = [getattr(options, name) for name in ("case", "case_file", *INPUTS)]
+    case = None if all(value is None for value in named) else _case(options)
     book = workbook.build(case, options.scheme, options.rows)
     write_bytes(options.output, book.to_bytes())
     checks = [
@@ -149,9 +152,6 @@ def run_workbook(options: argparse.Namespace) -> int:
     return 0 if passed else 1
 
 
-_SHOWN = 5
-"""The most wrong cells of an engine that are printed; the JSON has them all."""
-
 _LEGEND = """\
 Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
 LN, SIN, ASIN or a cube root, within the rounding of that chain; and, of an engine of long doubles,
@@ -171,8 +171,8 @@ def _verified(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
             f"{cell.sheet}!{cell.cell}: expected {cell.expected!r}, found {cell.found!r}"
             for cell in check.wrong
         ]
-        if len(wrong) > _SHOWN:
-            wrong[_SHOWN:] = [f"and {len(wrong) - _SHOWN} more"]
+        if len(wrong) > 5:  # the JSON has them all
+            wrong[5:] = [f"and {len(wrong) - 5} more"]
         yield from (f"{check.engine}: {words}" for words in (check.reason, *wrong) if words)
     yield from ("", _LEGEND.format(bound=bound), "")
     ran = [check for check in checks if check.outcome != "missing"]
@@ -389,16 +389,12 @@ def _put_found(
 # What several options mean together
 
 
-def _given(options: argparse.Namespace) -> dict[str, str]:
-    """The inputs that stand on the command line."""
-    values = {name: getattr(options, name) for name in INPUTS}
-    return {name: value for name, value in values.items() if value is not None}
-
-
 def _case(options: argparse.Namespace) -> Impact:
     """The case that the options name."""
+    values = {name: getattr(options, name) for name in INPUTS}
+    given = {name: value for name, value in values.items() if value is not None}
     name = "beta-5" if options.case is None else options.case
-    return read_case(name, options.case_file, _given(options))
+    return read_case(name, options.case_file, given)
 
 
 def _times(options: argparse.Namespace, name: str, counted_by: str) -> list[float]:

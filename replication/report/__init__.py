@@ -1,4 +1,4 @@
-"""The finished record as files, written all or none, and as a terminal shows it.
+"""The finished record as files, and as a terminal shows it.
 
 Nothing is computed here.
 """
@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib import resources
-from pathlib import Path
 from string import ascii_lowercase
 from textwrap import fill
 from typing import Any
@@ -24,28 +23,16 @@ from replication.report import words as told
 from replication.report.figures import draw
 from replication.report.words import Named, Prose, quoted
 from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
-from spreadsheets.safely import check_folder, write_folder
 
-
-def check(folder: Path) -> None:
-    """Raise OSError, naming the path, where the audit's files could not be written."""
-    texts = ("audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt")
-    check_folder(folder, (*texts, "workbook.xlsx", "figures/x.svg"))
-
-
-def write(record: Record, folder: Path, beside: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Write the record, and the files `beside` it by name, into a folder that is made if needed.
-
-    None takes its name before all are drafted. Returns what was written. Raises OSError, naming
-    the file.
-    """
-    files = contents(record, beside)
-    write_folder(folder, files)
-    return files
+FILES = (
+    "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
+    "figures/x.svg",
+)  # fmt: skip
+"""The names that the audit's folder must be able to take."""
 
 
 def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Every file of the folder by its name; the record has the hashes of those beside it."""
+    """Every file of the folder by its name; the record has the hashes of those `beside` it."""
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
     record = msgspec.structs.replace(record, provenance=provenance)
@@ -78,23 +65,19 @@ def _csv(record: Record) -> str:
     return rows_csv(rows)
 
 
-# Page and Markdown: one arrangement, two templates
-
-
 def page(record: Record, drawings: Mapping[str, str]) -> str:
     """The page: no script, nothing from outside, its style named in its content policy by hash."""
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
     digest = b64encode(sha256(style.encode()).digest()).decode()
-    more = {"drawings": drawings, "style": style, "style_hash": digest}
-    parts = _parts(record)
-    prose = Prose(record.symbols, parts["names"])
-    return _filled("page.html.j2", prose.html, parts | more).lstrip()
+    parts, prose = _arranged(record)
+    parts |= {"drawings": drawings, "style": style, "style_hash": digest}
+    return _filled("page.html.j2", prose.html, parts)
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    parts = _parts(record)
-    return _filled("page.md.j2", Prose(record.symbols, parts["names"]).markdown, parts).lstrip()
+    parts, prose = _arranged(record)
+    return _filled("page.md.j2", prose.markdown, parts)
 
 
 def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
@@ -117,18 +100,18 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    text = environment.get_template(name).render(parts)
+    text = environment.get_template(name).render(parts).lstrip()
     return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
 
 
-def _parts(record: Record) -> dict[str, Any]:
-    """What both templates need: the record, its claims as they are arranged, and helpers."""
+def _arranged(record: Record) -> tuple[dict[str, Any], Prose]:
+    """What page and Markdown need: the record, its claims as they are arranged, and helpers."""
     groups, names = _groups(record), told.names_of(record)
     by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
     concerned = {name for finding in record.findings for name in finding.claims}
     sources = {claim.id: claim.sources for claim in record.claims}
     sources |= {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
-    return {
+    parts = {
         "record": record,
         "groups": groups,
         "names": names,
@@ -142,6 +125,7 @@ def _parts(record: Record) -> dict[str, Any]:
         "table": _table_a_1(groups["table-a-1"]),
         "power": measured(),
     }
+    return parts, Prose(record.symbols, names)
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
@@ -154,7 +138,7 @@ def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
     names = ("open", "equations", "table-a-1", *dict.fromkeys(by_verdict.values()))
     groups: dict[str, dict[str, ClaimRecord]] = {name: {} for name in names}
     for claim in record.claims:
-        name = by_verdict.get(Verdict(claim.verdict), "open")
+        name = by_verdict.get(claim.verdict, "open")
         if name != "open" and claim.id in constants:
             name = "equations"
         elif name != "open" and claim.cell:
@@ -222,7 +206,6 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
     context = {
         "record": None,
         "claim": claim,
-        "printed": told.printed,
         "facts": told.facts(claim, names),
         "tables": told.tried(claim),
         "findings": [finding.title for finding in findings if claim.id in finding.claims],
@@ -243,4 +226,4 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
 
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
     parts = {"fill": filled, "columns": table, "strong": bold.format}
-    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).strip("\n")
+    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).rstrip("\n")

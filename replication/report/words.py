@@ -5,17 +5,17 @@
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
 from html import escape
+from html.entities import html5
 from typing import TYPE_CHECKING, NamedTuple
 
 from reference.ledger import shown
 from reference.units import superscript
 from replication.audit import record as r
 from replication.audit.comparison import SHARES
-from replication.audit.record import Verdict
 from replication.cases import INPUTS
 from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
@@ -97,7 +97,7 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
         "to 25 digits": claim.reference,
         "proven range": claim.enclosure and between(claim.enclosure),
         "off by": off is not None
-        and Verdict(claim.verdict).is_open
+        and claim.verdict.is_open
         and f"{number(off, 3)} units of the last printed digit",
         "from": claim.computed is not None and ", ".join(inputs),
         "for instance (SI)": claim.witness and _values(claim.witness),
@@ -116,12 +116,9 @@ def _values(values: Mapping[str, float]) -> str:
     return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
 
 
-# Tables
-
-
 def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
     """The claims that do not come out as printed: what is printed, and what follows instead."""
-    claims = [claim for claim in record.claims if Verdict(claim.verdict).is_open]
+    claims = [claim for claim in record.claims if claim.verdict.is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
     names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
     rows = []
@@ -153,27 +150,22 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
     """The explanations tried of a claim that fails, and the figures that a remark is judged by."""
     figures = [(f.means, measured(f.value, f.unit, 5)) for f in claim.figures]
     slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
+    inputs = []
+    for entry in dict.fromkeys(solved.entry for solved in claim.back_solved):
+        by_reading = [solved for solved in claim.back_solved if solved.entry == entry]
+        first, needed = by_reading[0], map(_needed, by_reading)
+        search = f"{between(first.search, 4)}: {first.search_reason}"
+        inputs.append((f"`{entry}`", measured(first.printed, first.unit), *needed, search))
+    readings = dict.fromkeys(solved.reading or "as printed" for solved in claim.back_solved)
+    heads = ("input", "printed", *(f"needed, {reading}" for reading in readings), "searched")
+    changed = "One input changed, all others as printed: proven values that would give the number"
     tables = (
         Table("The figures", ("what", "computed"), figures),
-        _back_solved(claim.back_solved),
+        Table(changed, heads, inputs),
         repairs(claim.repairs, claim.id),
         Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
     )
     return [shown for shown in tables if shown.rows]
-
-
-def _back_solved(solved: Sequence[r.BackSolvedRecord]) -> Table:
-    """A row for each input, a column for each reading."""
-    rows = []
-    for entry in dict.fromkeys(record.entry for record in solved):
-        records = [record for record in solved if record.entry == entry]
-        value = measured(records[0].printed, records[0].unit)
-        search = f"{between(records[0].search, 4)}: {records[0].search_reason}"
-        rows.append((f"`{entry}`", value, *map(_needed, records), search))
-    readings = dict.fromkeys(record.reading for record in solved)
-    heads = (f"needed, {reading or 'as printed'}" for reading in readings)
-    caption = "One input changed, all others as printed: proven values that would give the number"
-    return Table(caption, ("input", "printed", *heads, "searched"), rows)
 
 
 def _needed(solved: r.BackSolvedRecord) -> str:
@@ -196,9 +188,8 @@ def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
         texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    return Table(
-        "Misprints, one edit of the text, that would give it, all else as printed", heads, rows
-    )
+    caption = "Misprints, one edit of the text, that would give it, all else as printed"
+    return Table(caption, heads, rows)
 
 
 def evidence(finding: r.FindingRecord) -> Table:
@@ -315,11 +306,12 @@ class Prose:
         spelled: dict[str, tuple[str, str]] = {}
         for symbol in symbols:
             base, _, below = symbol.partition("_")
-            greek = not base.isascii() and len(base) == 1
-            if below or greek:
-                words = (_word(base), _word(base).capitalize()) if greek else (base,)
-                for word in (base, *words):
-                    spelled.setdefault(f"{word}_{below}".rstrip("_"), (base, below))
+            spellings = [base] if below else []
+            if not base.isascii() and len(base) == 1:  # Greek; a sentence spells it by its name
+                word = unicodedata.name(base).rpartition(" ")[2].capitalize()
+                spellings = [base, word] if base.isupper() else [base, word, word.lower()]
+            for spelling in spellings:
+                spelled.setdefault(f"{spelling}_{below}".rstrip("_"), (base, below))
         longest_first = sorted(spelled, key=lambda name: (-len(name), name))
         self._spelled = spelled
         self._pattern = re.compile(
@@ -346,26 +338,17 @@ class Prose:
             return form.lowered(base, below) if below else base
 
         def part(k: int, text: str) -> str:
-            if k % 2:
-                return self._reference(text, form)
+            if k % 2:  # an id
+                code = form.code.format(escape(text))
+                if text not in self.names:
+                    return code
+                title, anchor, _ = self.names[text]
+                return form.known.format(title=self._set(title, form), code=code, anchor=anchor)
             text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
             text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
             return _POWER.sub(form.power, text)
 
         return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
-
-    def _reference(self, name: str, form: "_Form") -> str:
-        code = form.code.format(escape(name))
-        if name not in self.names:
-            return code
-        title, anchor, _ = self.names[name]
-        return form.known.format(title=self._set(title, form), code=code, anchor=anchor)
-
-
-def _word(letter: str) -> str:
-    """The name of a Greek letter, as a sentence spells it."""
-    word = unicodedata.name(letter).rpartition(" ")[2]
-    return word.capitalize() if letter.isupper() else word.lower()
 
 
 def _typographic(text: str) -> str:
@@ -402,6 +385,9 @@ _HTML = _Form(
 )  # fmt: skip
 
 
+_COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
+
+
 def quoted(text: str) -> str:
     r"""Words of the report without the marks of LaTeX in which they were read.
 
@@ -409,18 +395,9 @@ def quoted(text: str) -> str:
     'then β = ⟦3²⟧, where k_t ρ_t ≤ ln(2)'
     """
     text = re.sub(r"(?<=\w)(?=\\)", " ", shown(text))
-    text = re.sub(r"\\([A-Za-z]+)", lambda command: _command(command[1]), text)
-    return " ".join(re.sub(r"[$&]", "", text).split())
 
+    def sign(command: re.Match[str]) -> str:  # HTML calls letters as LaTeX does
+        name = command[1]
+        return _COMMANDS.get(name, html5.get(f"{name};", name))
 
-def _command(name: str) -> str:
-    if name in _COMMANDS:
-        return _COMMANDS[name]
-    size = "CAPITAL" if name[0].isupper() else "SMALL"
-    try:
-        return unicodedata.lookup(f"GREEK {size} LETTER {name}")
-    except KeyError:  # a function, such as ln
-        return name
-
-
-_COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
+    return " ".join(re.sub(r"[$&]", "", re.sub(r"\\([A-Za-z]+)", sign, text)).split())
