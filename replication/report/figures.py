@@ -7,7 +7,6 @@ and its style attributes are what the page's content policy forbids.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
-from itertools import count
 from math import log10
 
 from replication.audit.record import Record
@@ -33,9 +32,6 @@ def draw(record: Record) -> dict[str, str]:
         "convergence": _convergence,
     }
     return {name: figure(record).svg(name) for name, figure in figures.items()}
-
-
-# What a plot is made of
 
 
 @dataclass
@@ -73,13 +69,12 @@ class _Plot:
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Where a point lies in the figure."""
-
-        def share(value: float, ends: tuple[float, float]) -> float:
+        shares = []
+        for value, ends in ((x, self.x), (y, self.y)):
             low, high, here = map(log10, (*ends, value)) if self.logarithmic else (*ends, value)
-            return (here - low) / (high - low)
-
-        down = 1 - share(y, self.y)
-        return self.left + share(x, self.x) * self.width, self.top + down * self.height
+            shares.append((here - low) / (high - low))
+        across, up = shares
+        return self.left + across * self.width, self.top + (1 - up) * self.height
 
     def axes(self, x: Iterable[float], y: Iterable[float], x_label: str, y_label: str = "") -> None:
         """Grid, numbers at both axes, and what they are."""
@@ -111,7 +106,8 @@ class _Plot:
         self.path([self.at(*point) for point in points], color, dashes)
 
     def marks(self, kind: str, color: str, points: Points) -> None:
-        self.parts += [_mark(kind, color, *self.at(*point)) for point in points]
+        for point in points:
+            self.mark(kind, color, *self.at(*point))
 
     def bar(self, low: float, high: float, y: float, color: str, height: float) -> None:
         (left, down), (right, _) = self.at(min(low, high), y), self.at(max(low, high), y)
@@ -122,15 +118,27 @@ class _Plot:
 
     def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
         """Entries one below another, each with a mark or line of a kind and a color."""
-        for down, (words, (kind, color)) in zip(count(y, 17), entries.items(), strict=False):
+        for k, (words, (kind, color)) in enumerate(entries.items()):
+            down = y + 17 * k
             if kind.endswith("line"):
                 dashes = "5 3" if kind.startswith("dashed") else ""
                 self.path([(x - 9, down), (x + 9, down)], color, dashes)
             else:
-                self.parts.append(_mark(kind, color, x, down))
+                self.mark(kind, color, x, down)
             self.text(x + 15, down + 4, words)
 
     # In coordinates of the figure, not of the plot
+
+    def mark(self, kind: str, color: str, x: float, y: float) -> None:
+        """A mark by its name; a hollow one is larger than a filled one, so that both show."""
+        filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
+        r = 3.5 if filled else 5.0
+        place = f'rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}"'
+        if shape == "circle":
+            place = f'circle cx="{_n(x)}" cy="{_n(y)}" r="{r}"'
+        turn = f' transform="rotate(45 {_n(x)} {_n(y)})"' if shape == "diamond" else ""
+        fill = color if filled else "none"
+        self.parts.append(f'<{place} fill="{fill}" stroke="{color}"{turn}/>')
 
     def path(
         self, points: Points, color: str = INK, dashes: str = "", opacity: float = 1.0
@@ -148,21 +156,6 @@ class _Plot:
 
 def _n(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
-
-
-def _mark(kind: str, color: str, x: float, y: float) -> str:
-    """A mark by its name; a hollow one is larger than a filled one, so that both show."""
-    filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
-    r = 3.5 if filled else 5.0
-    looks = f'fill="{color if filled else "none"}" stroke="{color}"'
-    if shape == "circle":
-        return f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{r}" {looks}/>'
-    if shape == "diamond":
-        looks += f' transform="rotate(45 {_n(x)} {_n(y)})"'
-    return f'<rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}" {looks}/>'
-
-
-# Normalized depth by every approach
 
 
 def _comparison(record: Record) -> _Plot:
@@ -197,9 +190,6 @@ def _comparison(record: Record) -> _Plot:
     return plot
 
 
-# What each input does
-
-
 def _sensitivity(record: Record) -> _Plot:
     """A bar for each input about the depth as printed, the longest on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
@@ -226,9 +216,6 @@ def _sensitivity(record: Record) -> _Plot:
     plot.text(434, 16, "change [µm]", "end")
     plot.words = f"{'; '.join(told)}."
     return plot
-
-
-# Depth against time, and against velocity
 
 
 def _figure_3(record: Record) -> _Plot:
@@ -288,9 +275,6 @@ def _figure_5(record: Record) -> _Plot:
     return plot
 
 
-# The sheet's error against its time step
-
-
 def _convergence(record: Record) -> _Plot:
     """The error of the final depth over the time step, both axes logarithmic."""
     ladders: dict[tuple[str, float], list[tuple[float, float]]] = {}
@@ -301,11 +285,11 @@ def _convergence(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 260), (0.04, 4), (0.01, 300), below=120, logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
-    looks = {"published": (VERMILION, "circle"), "centered": (BLUE, "square")}
+    looks = {"published": ("circle", VERMILION), "centered": ("square", BLUE)}
     legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
     for (scheme, beta), points in ladders.items():
-        color, shape = looks[scheme]
-        kind = shape if beta == greatest else f"hollow {shape}"
+        kind, color = looks[scheme]
+        kind = kind if beta == greatest else f"hollow {kind}"
         plot.line(points, color)
         plot.marks(kind, color, points)
         name = f"drag at the {SCHEMES[scheme].drag_at} velocity, β = {beta:g}"
