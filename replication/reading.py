@@ -11,8 +11,6 @@ from typing import Any
 
 from reference.units import same_dimension, to_si
 
-_SIZE = 2**20
-
 
 def quoted(text: object, longest: int = 60) -> str:
     r"""What a user wrote, as a message may show it: one line, texts with quotes, shortened.
@@ -41,21 +39,6 @@ def one_line(message: str, longest: int = 340) -> str:
     return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1 :]}"
 
 
-def _content(path: Path) -> bytes:
-    """The bytes of a file or a pipe; ValueError for a large one and for a device, or OSError."""
-    if path.is_char_device():
-        raise ValueError(f"{path} is a device, not a file")
-    try:
-        with path.open("rb") as file:
-            content = file.read(_SIZE + 1)
-    except OSError as error:
-        error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
-        raise
-    if len(content) > _SIZE:
-        raise ValueError(f"{path} is larger than {_SIZE:,} bytes")
-    return content
-
-
 @contextmanager
 def place(name: str) -> Iterator[None]:
     """Put before the message of a ValueError where it was that something was wrong.
@@ -71,16 +54,12 @@ def place(name: str) -> Iterator[None]:
         raise ValueError(f"{name}: {error}") from error
 
 
+_SIZE = 2**20
 _DOTTED = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){20}""")
 """A key of more than twenty parts; one of a megabyte would take hours to read."""
 
 
-def parse_toml(content: bytes) -> dict[str, Any]:
-    r"""A TOML document. Raises ValueError if it is none.
-
-    >>> parse_toml(b"[impact]\nvelocity = 450.0")
-    {'impact': {'velocity': 450.0}}
-    """
+def _parsed(content: bytes) -> dict[str, Any]:
     if _DOTTED.search(content):
         raise ValueError("is nested too deep")
     try:
@@ -103,11 +82,20 @@ def tables_of(
 ) -> Iterator[tuple[dict[str, dict[str, Any]], bytes]]:
     """The tables of a TOML file by name, and its bytes; a ValueError in the block names the file.
 
-    Raises OSError, or ValueError for what is no TOML or has other tables than these.
+    Raises OSError, or ValueError for what is no TOML or has other tables than these, or is large.
     """
-    content = _content(path)
+    if path.is_char_device():
+        raise ValueError(f"{path} is a device, not a file")
+    try:
+        with path.open("rb") as file:
+            content = file.read(_SIZE + 1)
+    except OSError as error:
+        error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
+        raise
+    if len(content) > _SIZE:
+        raise ValueError(f"{path} is larger than {_SIZE:,} bytes")
     with place(str(path)):
-        document = parse_toml(content)
+        document = _parsed(content)
         for name, table in document.items():
             if not isinstance(table, dict):
                 raise ValueError(f"{quoted(name)} is not a table: begin with a line [{wanted[0]}]")

@@ -14,8 +14,6 @@ from typing import Any, NamedTuple
 
 from reference.units import superscript, written
 
-# For programs
-
 
 def json_text(record: Any) -> str:
     r"""One JSON document, every float with all its digits; ValueError for one that is not finite.
@@ -47,9 +45,6 @@ def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
     for row in rows:
         writer.writerow(str(x).lower() if isinstance(x, bool) else x for x in row.values())
     return buffer.getvalue()
-
-
-# For people
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:

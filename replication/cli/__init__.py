@@ -174,9 +174,6 @@ def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
         group.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=meaning)
 
 
-# How argparse reads the value of an option
-
-
 def _path(text: str) -> Path:
     """A path from the command line; the empty text of an unset variable is not this folder."""
     if not text or "\0" in text:

@@ -17,11 +17,7 @@ from replication.reading import one_line, place, quoted, read_number
 from replication.text import aligned, columns, json_text, number, numbers, quantity, rows_csv
 
 if TYPE_CHECKING:
-    from replication.check.examination import Difference
     from spreadsheets.engines import EngineCheck
-    from spreadsheets.recalculation import Calculation
-
-# The report: audit; claims, one by one; power, which misprints the audit would notice
 
 
 def run_audit(options: argparse.Namespace) -> int:
@@ -116,9 +112,6 @@ def run_power(options: argparse.Namespace) -> int:
         lines += ["", "Visible, and not noticed:"]
         lines += ["  {entry}: {true!r} as {text!r}".format_map(plant) for plant in result.unnoticed]
     return _put(options, result, lambda: "\n".join(lines))
-
-
-# A case: its live workbook; sheet, depth, history, converge; and stability, the hard cases
 
 
 def run_workbook(options: argparse.Namespace) -> int:
@@ -280,9 +273,6 @@ def run_stability(options: argparse.Namespace) -> int:
     return _put(options, record, lambda: hard_cases.text(record))
 
 
-# Many cases: sweep, by a plan; bench, by every method
-
-
 def run_sweep(options: argparse.Namespace) -> int:
     from replication.sweep import check_output, provenance, read_plan, write
 
@@ -319,14 +309,11 @@ def run_bench(options: argparse.Namespace) -> int:
     return 0
 
 
-# Somebody's workbook: check, against the report's sheet; diff, against another one
-
-
 def run_check(options: argparse.Namespace) -> int:
     """Check, and say what was found: 1 if the workbook is not the report's sheet."""
     _check_files(options, options.file)
+    from replication.check import show
     from replication.check.examination import KINDS
-    from replication.check.show import check_record
     from replication.check.workbook import check
 
     mapping = {}
@@ -339,21 +326,23 @@ def run_check(options: argparse.Namespace) -> int:
             raise ValueError(f"--map {name[:40]}: it is given twice")
         mapping[name] = where.strip()
     checked = check(options.file, mapping)
-    record = check_record(checked)
-    return _put_found(options, record, checked.differences, checked.calculation, KINDS)
+    record = show.check_record(checked)
+    page = partial(show.html, record, checked.differences, checked.calculation)
+    return _put_found(options, record, page, KINDS)
 
 
 def run_diff(options: argparse.Namespace) -> int:
     """Compare, and say what was found: 1 if anything differs."""
     _check_files(options, options.first, options.second)
+    from replication.check import show
     from replication.check.diff import KINDS, Tolerance, diff
-    from replication.check.show import diff_record
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     both = options.first, options.second
-    comparison = diff(*both, values_only=options.values_only, allowed=allowed)
-    record = diff_record(comparison)
-    return _put_found(options, record, comparison.differences, comparison.after, KINDS)
+    compared = diff(*both, values_only=options.values_only, allowed=allowed)
+    record = show.diff_record(compared)
+    page = partial(show.html, record, compared.differences, compared.after)
+    return _put_found(options, record, page, KINDS)
 
 
 def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
@@ -370,8 +359,7 @@ def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
 def _put_found(
     options: argparse.Namespace,
     record: dict[str, Any],
-    differences: "Sequence[Difference]",
-    calculation: "Calculation",
+    page: Callable[[], str],
     kinds: Sequence[str],
 ) -> int:
     """Write the files that were asked for, and print the record as JSON or text; the status."""
@@ -379,14 +367,14 @@ def _put_found(
     from spreadsheets.safely import write_bytes
 
     if options.html is not None:
-        write_bytes(options.html, show.html(record, differences, calculation).encode())
+        write_bytes(options.html, page().encode())
     if options.junit is not None:
         write_bytes(options.junit, show.junit(record, kinds).encode())
     _put(options, record, lambda: show.text(record), quietly=True)
     return 0 if record["clean"] else 1
 
 
-# What several options mean together
+# What they share: what several options mean together, and how to print
 
 
 def _case(options: argparse.Namespace) -> Impact:
@@ -412,9 +400,6 @@ def _times(options: argparse.Namespace, name: str, counted_by: str) -> list[floa
             if not 0 <= values[-1] <= 1e250:
                 raise ValueError(f"{quoted(time)} is not from 0 to 1e250 s")
     return values
-
-
-# How they print
 
 
 def _put(
