@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
 from reference.units import to_si
+from replication.audit.record import Record, Verdict, in_words
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DIGITS, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
@@ -28,9 +29,6 @@ from spreadsheets import cases, emit, sheets
 from spreadsheets.cases import CaseSheet, Input
 from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
 from spreadsheets.sheets import Findings
-
-if TYPE_CHECKING:
-    from replication.audit.record import Record
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,7 @@ def build(
     case: Impact | None = None,
     scheme: str = "published",
     rows: int | None = None,
-    record: "Record | None" = None,
+    record: Record | None = None,
     *,
     ledger: Ledger | None = None,
 ) -> Workbook:
@@ -136,10 +134,8 @@ def rounding_bound(sheet: Sheet) -> float:
     return 4 * (2 * n + 41) * max(1.0, stretch) * 2.0**-53
 
 
-def findings_of(record: "Record", scheme: str, ledger: Ledger) -> Findings:
+def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
     """What the audit tells the workbook, with the verdicts under the workbook's scheme."""
-    from replication.audit.record import Verdict, in_words
-
     usual = in_words(Convention(centered=scheme == "centered"))
     verdicts, explanations = {}, {}
     for claim in record.claims:

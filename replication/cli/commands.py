@@ -378,7 +378,6 @@ def _put_found(
 
 
 def _case(options: argparse.Namespace) -> Impact:
-    """The case that the options name."""
     values = {name: getattr(options, name) for name in INPUTS}
     given = {name: value for name, value in values.items() if value is not None}
     name = "beta-5" if options.case is None else options.case

@@ -54,7 +54,6 @@ class _Plot:
         self.left, self.top, self.width, self.height = self.box
 
     def svg(self, name: str) -> str:
-        """The figure."""
         height = f"{self.top + self.height + self.below:.0f}"
         head = (
             f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '

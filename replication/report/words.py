@@ -10,7 +10,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
 from html import escape
 from html.entities import html5
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from reference.ledger import shown
 from reference.units import superscript
@@ -19,9 +19,6 @@ from replication.audit.comparison import SHARES
 from replication.cases import INPUTS
 from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 
 class Named(NamedTuple):
@@ -326,8 +323,8 @@ class Prose:
         """For Markdown, where a bar would end a table's cell."""
         return self._set(sentence, _MARKDOWN)
 
-    def html(self, sentence: str) -> "Markup":
-        """For a page: subscripts, powers and links as elements."""
+    def html(self, sentence: str) -> str:
+        """For a page: subscripts, powers and links as elements; it is `Markup`."""
         from markupsafe import Markup
 
         return Markup(self._set(sentence, _HTML))  # noqa: S704  (every part is escaped)
