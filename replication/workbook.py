@@ -290,6 +290,7 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     trust, message = _state(sheet)
     v, at_rest = impact.velocity, _without_steps(impact)
     at_stop = _without_steps(impact, to_stop=True)
+    rest, stop = at_rest["normalized_depth"], at_stop["normalized_depth"]
     travel = impact.step * v / impact.radius
     return {
         **impact.motion,
@@ -309,12 +310,10 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
         "travel": travel,
         "too_long": too_long(travel),
-        "over_exact": sheet.normalized_depth / at_rest["normalized_depth"],
+        "over_exact": sheet.normalized_depth / rest,
         **{f"stop_{name}": at_stop[name] for name in ("pressure", "c", "normalized_depth")},
-        "stop_share": at_stop["normalized_depth"] / at_rest["normalized_depth"],
-        "over_stop": sheet.normalized_depth / at_stop["normalized_depth"]
-        if at_stop["normalized_depth"]
-        else NOT_COMPUTED,
+        "stop_share": stop / rest,
+        "over_stop": sheet.normalized_depth / stop if stop else NOT_COMPUTED,
     }
 
 

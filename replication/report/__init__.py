@@ -5,7 +5,7 @@ Nothing is computed here.
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib import resources
@@ -21,7 +21,7 @@ from replication.audit.record import ClaimRecord, Record, Verdict
 from replication.power import measured
 from replication.report import words as told
 from replication.report.figures import draw
-from replication.report.words import Named, Prose, quoted
+from replication.report.words import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
 from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
 
 FILES = (
@@ -69,21 +69,23 @@ def page(record: Record, drawings: Mapping[str, str]) -> str:
     """The page: no script, nothing from outside, its style named in its content policy by hash."""
     style = (resources.files("replication.report") / "page.css").read_text("utf-8")
     digest = b64encode(sha256(style.encode()).digest()).decode()
-    parts, prose = _arranged(record)
+    parts = _arranged(record)
     parts |= {"drawings": drawings, "style": style, "style_hash": digest}
-    return _filled("page.html.j2", prose.html, parts)
+    return _filled("page.html.j2", Prose(HTML, record.symbols, parts["names"]), parts)
 
 
 def markdown(record: Record) -> str:
     """The same as Markdown, without the figures."""
-    parts, prose = _arranged(record)
-    return _filled("page.md.j2", prose.markdown, parts)
+    parts = _arranged(record)
+    return _filled("page.md.j2", Prose(MARKDOWN, record.symbols, parts["names"]), parts)
 
 
-def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) -> str:
+def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     """One of the templates beside this file, filled; outside HTML no two empty lines in a row."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
+    from markupsafe import Markup
 
+    finished = Markup if prose.form is HTML else str  # every part of it is escaped
     environment = Environment(
         loader=PackageLoader("replication.report", ""),
         autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (all HTML there is)
@@ -96,7 +98,8 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
-        "prose": cache(lambda sentence: prose(str(sentence))),  # what a macro gives is Markup
+        # What a macro gives is Markup, too.
+        "prose": cache(lambda sentence: finished(prose(str(sentence)))),
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
@@ -104,14 +107,14 @@ def _filled(name: str, prose: Callable[[str], str], parts: Mapping[str, Any]) ->
     return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
 
 
-def _arranged(record: Record) -> tuple[dict[str, Any], Prose]:
+def _arranged(record: Record) -> dict[str, Any]:
     """What page and Markdown need: the record, its claims as they are arranged, and helpers."""
     groups, names = _groups(record), told.names_of(record)
     by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
     concerned = {name for finding in record.findings for name in finding.claims}
     sources = {claim.id: claim.sources for claim in record.claims}
     sources |= {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
-    parts = {
+    return {
         "record": record,
         "groups": groups,
         "names": names,
@@ -125,7 +128,6 @@ def _arranged(record: Record) -> tuple[dict[str, Any], Prose]:
         "table": _table_a_1(groups["table-a-1"]),
         "power": measured(),
     }
-    return parts, Prose(record.symbols, names)
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
@@ -190,7 +192,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
         "shown": FINDINGS,
     }
-    return _terminal(Prose(record.symbols, {}), context, width, strong)
+    return _terminal(Prose(TERMINAL, record.symbols, {}), context, width, strong)
 
 
 def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
@@ -211,7 +213,7 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
         "findings": [finding.title for finding in findings if claim.id in finding.claims],
     }
     symbols = (symbol.shown for symbol in ledger.symbols.values())
-    return _terminal(Prose(symbols, names), context, width, strong)
+    return _terminal(Prose(TERMINAL, symbols, names), context, width, strong)
 
 
 def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
@@ -222,8 +224,8 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
         )  # fmt: skip
 
     def table(rows: Sequence[tuple[str, ...]]) -> str:
-        return columns([tuple(map(prose.text, row)) for row in rows], width)
+        return columns([tuple(map(prose, row)) for row in rows], width)
 
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
     parts = {"fill": filled, "columns": table, "strong": bold.format}
-    return _filled("terminal.txt.j2", prose.text, {**context, **parts}).rstrip("\n")
+    return _filled("terminal.txt.j2", prose, {**context, **parts}).rstrip("\n")

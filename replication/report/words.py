@@ -285,21 +285,55 @@ _SIGN = re.compile(r"<=|>=| [*-] |(?<![\w)\]])-(?=\d|\(|inf\b)|\binf\b|\bum\b|\^
 _POWER = re.compile(r"\^(\(([^()]*)\))")
 
 
+def _typographic(text: str) -> str:
+    """Escaped for HTML, with curly quotes and with numbers that stay with their names and units."""
+    text = escape(re.sub('"([^"]*)"', r"“\1”", text).replace("'", "’"), quote=False)
+    return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
+
+
+_TOGETHER = re.compile(  # the space comes first, as that makes the search fast
+    r" (?=[\dA])(?:(?<=\bEq\. )|(?<=\bEqs\. )|(?<=\bTable )|(?<=\bFigure ))"
+    r"| (?<=\d )(?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
+)
+
+
+class Form(NamedTuple):
+    """How to escape a text, and to set a subscript, a power in brackets, an id and its title."""
+
+    escaped: Callable[[str], str]
+    lowered: Callable[[str, str], str]
+    power: str
+    code: str
+    known: str
+
+
+TERMINAL = Form(
+    str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
+)
+MARKDOWN = TERMINAL._replace(  # a bar would end a table's cell
+    escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
+)
+HTML = Form(
+    _typographic, "{}<sub>{}</sub>".format, r"<sup>\2</sup>", "<code>{}</code>",
+    '<a href="#{anchor}">{title}</a>',
+)  # fmt: skip
+
+
 class Prose:
-    """Turns the record's plain sentences into HTML, Markdown or text for a terminal.
+    """Turns the record's plain sentences into HTML, Markdown or text for a terminal, by its form.
 
     `symbols` are written as "ρ_t"; in a sentence the Greek letter may be spelled out. An id stands
     between backticks, and `names` tells what it stands for.
 
-    >>> prose = Prose(["ρ_t", "V"], {"a1-density": Named("particle density", "claim-a1-density")})
-    >>> prose.text("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
+    >>> names = {"a1-density": Named("particle density", "claim-a1-density")}
+    >>> Prose(TERMINAL, ["ρ_t", "V"], names)("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
     'particle density (a1-density): ρₜ V² is 2×10⁹ Pa, −8 %'
-    >>> print(prose.html("rho_t < `a1-density`"))
-    ρ<sub>t</sub> &lt; <a href="#claim-a1-density">particle density</a>
+    >>> Prose(HTML, ["ρ_t", "V"], names)("rho_t < `a1-density`")
+    'ρ<sub>t</sub> &lt; <a href="#claim-a1-density">particle density</a>'
     """
 
-    def __init__(self, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
-        self.names = names
+    def __init__(self, form: Form, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
+        self.form, self.names = form, names
         spelled: dict[str, tuple[str, str]] = {}
         for symbol in symbols:
             base, _, below = symbol.partition("_")
@@ -315,21 +349,9 @@ class Prose:
             rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?!\w)"
         )
 
-    def text(self, sentence: str) -> str:
-        """For a terminal: subscripts and powers in Unicode."""
-        return self._set(sentence, _TERMINAL)
+    def __call__(self, sentence: str) -> str:
+        form = self.form
 
-    def markdown(self, sentence: str) -> str:
-        """For Markdown, where a bar would end a table's cell."""
-        return self._set(sentence, _MARKDOWN)
-
-    def html(self, sentence: str) -> str:
-        """For a page: subscripts, powers and links as elements; it is `Markup`."""
-        from markupsafe import Markup
-
-        return Markup(self._set(sentence, _HTML))  # noqa: S704  (every part is escaped)
-
-    def _set(self, sentence: str, form: "_Form") -> str:
         def symbol(match: re.Match[str]) -> str:
             base, below = self._spelled[match[1]]
             return form.lowered(base, below) if below else base
@@ -340,46 +362,12 @@ class Prose:
                 if text not in self.names:
                     return code
                 title, anchor, _ = self.names[text]
-                return form.known.format(title=self._set(title, form), code=code, anchor=anchor)
+                return form.known.format(title=self(title), code=code, anchor=anchor)
             text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
             text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
             return _POWER.sub(form.power, text)
 
         return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
-
-
-def _typographic(text: str) -> str:
-    """Escaped for HTML, with curly quotes and with numbers that stay with their names and units."""
-    text = escape(re.sub('"([^"]*)"', r"“\1”", text).replace("'", "’"), quote=False)
-    return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
-
-
-_TOGETHER = re.compile(  # the space comes first, as that makes the search fast
-    r" (?=[\dA])(?:(?<=\bEq\. )|(?<=\bEqs\. )|(?<=\bTable )|(?<=\bFigure ))"
-    r"| (?<=\d )(?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
-)
-
-
-class _Form(NamedTuple):
-    """How to escape a text, and to set a subscript, a power in brackets, an id and its title."""
-
-    escaped: Callable[[str], str]
-    lowered: Callable[[str, str], str]
-    power: str
-    code: str
-    known: str
-
-
-_TERMINAL = _Form(
-    str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
-)
-_MARKDOWN = _TERMINAL._replace(
-    escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
-)
-_HTML = _Form(
-    _typographic, "{}<sub>{}</sub>".format, r"<sup>\2</sup>", "<code>{}</code>",
-    '<a href="#{anchor}">{title}</a>',
-)  # fmt: skip
 
 
 _COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}

@@ -41,7 +41,8 @@ from replication.models import depth
 from replication.models.impact import Impact
 from replication.report import contents, page
 from replication.report.figures import draw
-from replication.report.words import Named, Prose
+from replication.report.words import HTML as PAGE
+from replication.report.words import TERMINAL, Named, Prose
 from replication.text import json_text
 
 # The record
@@ -372,8 +373,8 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     text = report.summary(record, width)
     assert max(map(len, text.splitlines())) <= width
     flat = " ".join(text.split())
-    prose = Prose(record.symbols, {})
-    assert all(prose.text(f.title) in flat for f in record.findings[: report.FINDINGS])
+    prose = Prose(TERMINAL, record.symbols, {})
+    assert all(prose(f.title) in flat for f in record.findings[: report.FINDINGS])
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
@@ -416,7 +417,7 @@ def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -
 
 @given(st.text())
 def test_prose_in_html_is_always_closed(text: str) -> None:
-    prose = Prose(["ρ_t", "V"], {"a": Named("<title>", "claim-a")})
-    assert not re.sub(
-        r"</?(?:sub|sup|code)>|<a href=\"#claim-a\">|</a>", "", prose.html(text)
-    ).count("<")
+    prose = Prose(PAGE, ["ρ_t", "V"], {"a": Named("<title>", "claim-a")})
+    assert not re.sub(r"</?(?:sub|sup|code)>|<a href=\"#claim-a\">|</a>", "", prose(text)).count(
+        "<"
+    )
