@@ -163,7 +163,6 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
-        "proven": told.proven(cells.values()),
     }
 
 

@@ -197,10 +197,10 @@ def _sensitivity(record: Record) -> _Plot:
     height, rows = 32 * len(effects), (len(effects) - 0.5, -0.5)
     plot = _Plot(title, (140, 24, 240, height), (5.4, 10.6), rows, below=84)
     plot.axes(range(6, 11), [], "Depth X [µm]")
-    names = [e.input.replace("_", " ").replace("beta", "β") for e in effects]
-    plot.rows([f"{name}; {shown_range(e)}" for name, e in zip(names, effects, strict=True)])
+    named = [(e.input.replace("_", " ").replace("beta", "β"), e) for e in effects]
+    plot.rows([f"{name}; {shown_range(e)}" for name, e in named])
     at_rest, told = case.depth * 1e6, []
-    for y, (name, effect) in enumerate(zip(names, effects, strict=True)):
+    for y, (name, effect) in enumerate(named):
         ends = [depth * 1e6 for depth in effect.depths]
         for end, color in zip(ends, (VERMILION, BLUE), strict=True):
             plot.bar(at_rest, end, y, color, 18)
