@@ -255,13 +255,6 @@ def _inputs(
 ) -> Tree:
     first = runs[0][1].impact
     changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
-    followed = {
-        "D_p": first.diameter,
-        "M_p": first.mass,
-        "half_step": first.step / 2 * 1e9,
-        "mean_radius": si["D_mean"] / 2 * 1e6,
-        **{f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs},
-    }
     values: Tree = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
@@ -271,18 +264,23 @@ def _inputs(
         "unusable": 0,
         "changed": len(changed),
         "message": MESSAGES["changed" if changed else "unchanged"],
+        "D_p": first.diameter,
+        "M_p": first.mass,
+        "half_step": first.step / 2 * 1e9,
+        "mean_radius": si["D_mean"] / 2 * 1e6,
         "travel_most": COARSE,
         "excess_most": DIGITS,
         "off_stop_most": OFF_STOP,
-        **followed,
-        **{f"{name}.check": "" for name in followed},
     }
     for entry, number in typed.items():
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
         check = "yours" if name in changed else unchanged
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
-    return values
+    for page, sheet in runs:
+        values[f"R_t{page.of}"] = sheet.impact.target_resistance
+    followed = "D_p", "M_p", "half_step", "mean_radius", *(f"R_t{page.of}" for page, _ in runs)
+    return {f"{name}.check": "" for name in followed} | values
 
 
 def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
@@ -341,12 +339,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
     And the inputs that they were computed with.
     """
     of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
-    values: Tree = {
-        "message": MESSAGES["current"],
-        "run": of_runs,
-        "in_use": of_runs,
-        "same": dict.fromkeys(of_runs, 1),
-    }
+    values: Tree = {"message": MESSAGES["current"]}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, sheets.LEVELS)
         rest = depth.final_depth(*sheet.impact.motion.values()) * 1e6
@@ -366,7 +359,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
             "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
             "state": [_state(level)[1] for level in levels],
         }
-    return values
+    return values | {"run": of_runs, "in_use": of_runs, "same": dict.fromkeys(of_runs, 1)}
 
 
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
