@@ -32,8 +32,7 @@ def drifting(f: Examination) -> None:
     lines, number = f.table.every_line, f.calculation.number
     inputs = {entry.place for entry in (*f.inputs.values(), *f.derived.values(), *f.unread)}
     for line in lines:
-        known = f.calculation.formulas
-        formulas = [known[place] for place in line.cells if place in known]
+        formulas = list(filter(None, map(f.calculation.formulas.get, line.cells)))
         alike = [formula for formula in formulas if formula.shape == formulas[-1].shape]
         for pieces in zip(*(formula.pieces for formula in alike), strict=True):
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
@@ -45,21 +44,17 @@ def drifting(f: Examination) -> None:
                 cells = [formula.place for formula in alike[1:]]
                 cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
                 along, across = ("row", "column") if line.across else ("column", "row")
-                text = f"its {along} reads {cell}, which no $ fixes: this {across} reads {here}, "
-                text += "and so on"
+                text = f"its {along} reads {cell}, which no $ fixes: this {across} reads {here}"
+                text += ", and so on"
                 f.add("odd formula", cells, None, text, f.calculation.book[cells[0]].formula)
 
 
 class Wrong(NamedTuple):
-    """A column beside the table that the rows brake by, and the rows in which it is wrong."""
+    """A column beside the table that the rows brake by, and its wrong cells by row."""
 
     line: Line
-    rows: set[int]
+    cells: dict[int, Position]
     says: str
-
-    def cells(self, f: Examination) -> list[Position]:
-        """Its wrong cells."""
-        return [self.line.place(f.table.zero + k) for k in sorted(self.rows)]
 
 
 def wrong_beside(f: Examination) -> Wrong | None:
@@ -87,7 +82,7 @@ def wrong_beside(f: Examination) -> Wrong | None:
             continue
         if all(power_of_ten(needed[k][1] / number) is not None for k, number in numbers.items()):
             continue  # it is right, in whatever unit
-        wrong = {k for k in numbers if not near(*needed[k])}
+        wrong = {k: line.place(f.table.zero + k) for k in numbers if not near(*needed[k])}
         if wrong and all(near(unit, units[0]) for unit in units):
             return Wrong(line, wrong, f"this {what}")
     return None
@@ -118,9 +113,8 @@ def each_cell(f: Examination) -> None:
             continue
         elif _fails(f, role, k, expected, place in read):
             kind, text = _lone(f, role, k, expected)
-            if beside and role == "deceleration" and k in beside.rows:
-                place, expected = beside.line.place(f.table.zero + k), None
-                text = beside.says
+            if beside and role == "deceleration" and k in beside.cells:
+                place, expected, text = beside.cells[k], None, beside.says
             place, text = _converting(f, place, text)
         else:
             continue
@@ -251,31 +245,28 @@ def _unlike(f: Examination, beside: Wrong | None) -> dict[Position, tuple[str, s
     """Cells unlike their column, with kind and explanation; but not right ones among wrong ones."""
     odd = {p: why for line in f.table.every_line for p, why in irregular(line, f.table)}
     for role in {f.table.places[place][0] for place in odd.keys() & f.table.places.keys()}:
-        cells = [place for place in f.cells(role, 1) if place in f.calculation.formulas]
-        fails = {place: _fails_at(f, place) for place in cells}
-        if any(fails[place] for place in cells if place not in odd):
-            odd = {place: why for place, why in odd.items() if fails.get(place) is not False}
+        fails = {
+            place: _fails(f, role, k, expected)
+            for k, place in enumerate(f.cells(role, 1), 1)
+            if place in f.calculation.formulas
+            if (expected := f.rows.wanted(role, k)) is not None
+        }
+        if any(fails[place] for place in fails.keys() - odd.keys()):
+            odd = {place: why for place, why in odd.items() if fails.get(place, True)}
     if beside:
-        wrong, cells = set(beside.cells(f)), beside.line.cells
-        odd = {place: why for place, why in odd.items() if place in wrong or place not in cells}
+        right = set(beside.line.cells) - set(beside.cells.values())
+        odd = {place: why for place, why in odd.items() if place not in right}
     return odd
 
 
-def _fails_at(f: Examination, place: Position) -> bool | None:
-    """Whether a cell is not what the cells before it give; None where they give nothing."""
-    role, k = f.table.places[place]
-    expected = f.rows.wanted(role, k)
-    return None if expected is None else _fails(f, role, k, expected, False)
-
-
-def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool) -> bool:
+def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool = False) -> bool:
     """Whether a cell is not what it should hold. `read`: whether a cell of the table reads it."""
     column, place = f.rows.columns[role], f.table.place(role, k)
     value = column.get(k)
     if value is None:
         needed = 0 < k < max(column, default=0) or (read and k > 0)
         beyond = expected is not None and not math.isfinite(expected)  # so it gives an error
-        wrong = needed or _text(f, place) or f.calculation.error(place)
+        wrong = needed or _is_text(f, place, k) or f.calculation.error(place)
         return bool(wrong) and not beyond
     numbered = role == "time" and math.isclose(value, k * f.case.step, rel_tol=NEAR)
     if expected is None or numbered:  # by the number of the row, not from the time before
@@ -283,9 +274,7 @@ def _fails(f: Examination, role: str, k: int, expected: float | None, read: bool
     size = abs(expected)
     if role.startswith("velocity"):
         size = max(size, abs(f.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    if abs(value - expected) <= NEAR * size:
-        return False
-    if _rests(f, role, value, expected):
+    if abs(value - expected) <= NEAR * size or _rests(f, role, value, expected):
         return False
     # A first row that is the report's may be unlike the others, which follow another rule.
     part = FILLS.get(role, "advance")
@@ -297,10 +286,9 @@ def _rests(f: Examination, role: str, value: float | None, expected: float) -> b
     return role == "velocity_final" and value == 0 and expected < f.case.stop_velocity
 
 
-def _text(f: Examination, place: Position) -> bool:
-    """Whether a text or a truth value is typed into a cell of the table, below its heads."""
+def _is_text(f: Examination, place: Position, k: int) -> bool:
+    """Whether a text or a truth value is typed into a cell of row k, below the table's heads."""
     value = f.calculation.values.get(place)
-    _, k = f.table.places.get(place, ("", 0))
     if not isinstance(value, str | bool) or place in f.calculation.formulas:
         return False
     return (k > 0 and value != "") or is_spoiling(place, f.calculation)
@@ -314,7 +302,7 @@ def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[st
     alone = "typed number" if typed else "odd formula"
     if error := f.calculation.error(place):
         return "odd formula", f"{cell} gives {error}, as do all cells that read it"
-    if value is None and _text(f, place):
+    if value is None and _is_text(f, place, k):
         return alone, f"{cell} is {_WHAT[type(f.calculation.values[place])]}, not a number"
     if value is None:
         return "odd formula", f"{cell} is {'blank' if typed else 'no number'}"
@@ -350,7 +338,7 @@ def order(f: Examination) -> None:
         rows = [k for k in column if k and f.table.place(role, k) not in accused
                 and f.table.place(role, k) in f.calculation.formulas
                 and f.table.place(role, k) not in f.calculation.uncomputed
-                and not _fails(f, role, k, f.rows.wanted(role, k), False)]  # fmt: skip
+                and not _fails(f, role, k, f.rows.wanted(role, k))]  # fmt: skip
         by_mass = []
         for case in cases:
             ways = {k: _ordered(f, role, k, case) for k in rows}
@@ -368,8 +356,9 @@ def order(f: Examination) -> None:
 
 def _ordered(f: Examination, role: str, k: int, case: Case) -> set[float]:
     """What a cell may hold, by the order of the operations."""
-    x, v = f.rows("depth", k), f.rows("velocity_initial", k)
-    if role == "deceleration":
-        return set() if x is None or v is None else orders(case, x, v)
     value = f.rows.wanted(role, k)
-    return set() if value is None or _rests(f, role, f.rows(role, k), value) else {value}
+    if value is None or _rests(f, role, f.rows(role, k), value):
+        return set()
+    if role == "deceleration":
+        return orders(case, f.rows["depth", k], f.rows["velocity_initial", k])
+    return {value}

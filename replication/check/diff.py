@@ -69,9 +69,13 @@ def diff(
     """Compare two workbooks. Raises WorkbookError for what cannot be read."""
     comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
     comparison.layout()
+    formulas: _Differing = {}
     if not values_only:
         comparison.names()
-    comparison.contents(values_only)
+        formulas = comparison.differing(comparison.formulas)
+    comparison.group(formulas, "formula")
+    values = comparison.differing(comparison.values)
+    comparison.group(comparison.traced(values, formulas), "value")
     comparison.differences.sort(key=lambda d: d.rank)
     return comparison
 
@@ -123,26 +127,20 @@ class Comparison:
 
     def align(self, name: str, partner: str) -> None:
         """Match the cells of two sheets in the way that leaves the fewest that differ."""
+        old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
         least = math.inf
         for pairs in pairings(self.before, name, self.after, partner):
-            trial = self.trial(name, partner, pairs)
-            size = trial.size()
-            if size < least:
+            trial = Comparison(self.before, self.after, self.tolerance)
+            trial.matched({(name, *cell): (partner, *there) for cell, there in pairs.items()})
+            trial.moves(name, partner)
+            trial.left_over("removed", name, old.keys() - pairs.keys())
+            trial.left_over("added", partner, new.keys() - set(pairs.values()))
+            if (size := trial.size()) < least:
                 best, least = trial, size
             if least <= 1:  # no other way can leave fewer
                 break
         self.where |= best.where
         self.differences += [d for d in best.differences if d.kind not in ("formula", "value")]
-
-    def trial(self, name: str, partner: str, pairs: Mapping[Cell, Cell]) -> "Comparison":
-        """A comparison that takes these cells as the same, the rest as gone or new."""
-        trial = Comparison(self.before, self.after, self.tolerance)
-        trial.matched({(name, *cell): (partner, *there) for cell, there in pairs.items()})
-        old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
-        trial.moves(name, partner)
-        trial.left_over("removed", name, old.keys() - pairs.keys())
-        trial.left_over("added", partner, new.keys() - set(pairs.values()))
-        return trial
 
     def size(self) -> int:
         """How many cells differ, but for numbers; a text for another is one gone and one new."""
@@ -264,13 +262,7 @@ class Comparison:
             was, now = (text or "not defined" for text in (was, now))
             self.add("name", [place], was, now, f"the name {shown} {what}")
 
-    def contents(self, values_only: bool) -> None:
-        """Formulas and values that differ, of cells that both workbooks have."""
-        formulas = {} if values_only else self.differing(self.formulas)
-        self.group(formulas, "formula")
-        self.group(self.traced(self.differing(self.values), formulas), "value")
-
-    def differing(self, compare: "_Compare") -> "_Differing":
+    def differing(self, compare: Callable[[Position, Position], "_Differs | None"]) -> "_Differing":
         """Cells that differ, by their places in the second workbook."""
         pairs = self.where.items()
         return {new: differs for old, new in pairs if (differs := compare(old, new))}
@@ -302,10 +294,9 @@ class Comparison:
 
         Those in last digits are one.
         """
-        labels = {place: text for place, (*_, text) in differing.items()}
-        last = [place for place, text in labels.items() if text == LAST]
-        last.sort(key=lambda place: (place[0], place[2], place[1]))  # column by column, as runs
-        told = runs({place: text for place, text in labels.items() if text != LAST})
+        every = list(runs({place: text for place, (*_, text) in differing.items()}))
+        told = [run for run in every if differing[run[0]][2] != LAST]
+        last = [place for run in every if differing[run[0]][2] == LAST for place in run]
         for run in filter(None, (*told, last)):
             was, now, text = differing[run[0]]
             where = "more" if text == LAST else "after it"
@@ -375,7 +366,6 @@ class Comparison:
 _Differs = tuple[Value | None, Value | None, str]
 """What a cell was, what it is, and how the two differ."""
 _Differing = Mapping[Position, _Differs]
-_Compare = Callable[[Position, Position], _Differs | None]
 
 
 class _Cells:

@@ -7,7 +7,7 @@ own numbers, or solved back from the rows, and is said to be so.
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from functools import cache
 from itertools import islice, product
@@ -152,8 +152,7 @@ def _own(
 
 def read_beside(table: Table) -> dict[Position, int]:
     """The cells beside a table that its formulas read, and through how many others."""
-    formulas = table.calculation.formulas
-    read = _read((place for place in table.places if place in formulas), table.calculation)
+    read = _read(table.places, table.calculation)
     return {place: far for place, far in read.items() if place not in table.places}
 
 
@@ -215,11 +214,10 @@ def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
     for place in masses:
         of_particle = unsaid & _read([place], calculation).keys()
         if len(of_particle) == 1 < len(unsaid):
-            whose = {p: "particle" if p in of_particle else "target" for p in unsaid}
+            whose: dict[Position | None, str] = dict.fromkeys(unsaid, "target_density")
+            whose |= dict.fromkeys(of_particle, "particle_density")
             return [
-                replace(cell, roles=frozenset({f"{whose[cell.place]}_density"}))
-                if cell.place in whose
-                else cell
+                replace(cell, roles=frozenset({whose[cell.place]})) if cell.place in whose else cell
                 for cell in cells
             ]
     return cells
@@ -521,7 +519,7 @@ def _with_inputs(
     negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
         columns["deceleration"] = {k: -a for k, a in brakes.items()}
-    inputs = _completed(table, chosen, columns, powers)
+    inputs = _completed(table, chosen, speeds, powers)
     for entry in inputs.values():
         if not (1e-100 < entry.si < 1e100 or (entry.role == "stop_velocity" and entry.si == 0)):
             where = address(entry.place, True) if entry.place else f"the table on {table.sheet!r}"
@@ -529,9 +527,8 @@ def _with_inputs(
                 f"{where}: taken for {title(entry.role)}, is {entry.si:g}; it should be greater "
                 f"than zero; if another cell is meant, give --map {entry.role}=CELL"
             )
-    names = ("velocity", "radius", "particle_density", "target_density", "resistance", "step",
-             "stop_velocity")  # fmt: skip
-    case = Case(**{name: inputs[name].si for name in names if name in inputs}, pi=pi)
+    names = [each.name for each in fields(Case) if each.name in inputs]
+    case = Case(**{name: inputs[name].si for name in names}, pi=pi)
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     rows = Rows(columns, case, REPORT)
@@ -619,7 +616,7 @@ def _whole(factor: float, named: int | None) -> int:
 def _completed(
     table: Table,
     chosen: Mapping[str, Input],
-    columns: Mapping[str, Mapping[int, float]],
+    speeds: Mapping[int, float],
     powers: Mapping[str, int],
 ) -> dict[str, Input]:
     """The inputs, with those that follow from others or from the columns."""
@@ -633,7 +630,6 @@ def _completed(
     if {"beta", "flow_stress"} <= set(inputs):
         resistance = inputs["beta"].si * inputs["flow_stress"].si
         add("resistance", resistance, "follows", "beta", "flow_stress")
-    speeds = columns.get("velocity_initial") or columns["velocity_final"]
     add("velocity", speeds[min(speeds)], "rows")
     add("radius", report["radius"][0], "report")
     if "mass" in inputs:
@@ -641,7 +637,10 @@ def _completed(
         density = inputs["mass"].si / volume if volume else 0.0
         add("particle_density", density, "follows", "mass", "radius")
     if "step" not in inputs:
-        step = _step(table, powers)
+        step = _usual(table, "time") * 10.0 ** powers.get("time", 0)
+        scale = 10.0 ** (powers["depth"] - powers[table.speed])
+        step = step or _usual(table, "depth", table.speed) * scale
+        step = _shortest(step, 1e-6) if 0 < step < math.inf else report["step"][0]
         add("step", step, "formulas" if step in _typed(table.calculation) else "rows")
     for role in ("particle_density", "target_density", "resistance"):
         add(role, report[role][0], "report")
@@ -651,14 +650,6 @@ def _completed(
 def _typed(calculation: Calculation) -> set[float]:
     """Every number that stands in a formula."""
     return {number for formula in calculation.formulas.values() for number in formula.literals}
-
-
-def _step(table: Table, powers: Mapping[str, int]) -> float:
-    """The step that the rows have taken, as the shortest decimal that they agree with."""
-    speed = table.speed
-    step = _usual(table, "time") * 10.0 ** powers.get("time", 0)
-    step = step or _usual(table, "depth", speed) * 10.0 ** (powers["depth"] - powers[speed])
-    return _shortest(step, 1e-6) if 0 < step < math.inf else report_inputs()["step"][0]
 
 
 def _shortest(value: float, near: float) -> float:

@@ -673,7 +673,7 @@ def _named(f: Examination) -> None:
         _, cells, wanted = _from_first_unlike(f, part)
         cells = cells[:1] if part == "start" else cells
         if part == "brake" and (beside := wrong_beside(f)):
-            cells, wanted = beside.cells(f), None
+            cells, wanted = [*beside.cells.values()], None
         text = f"{rule.name}: {rule.says}"
         f.add("other scheme", cells, wanted, text, change={part: rule})
 

@@ -7,7 +7,6 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
-from functools import cached_property
 from itertools import chain, groupby, takewhile
 from operator import itemgetter
 from typing import TypeVar
@@ -53,14 +52,13 @@ def _cells(calculation: Calculation, sheet: str) -> dict[Cell, str]:
     cells = {}
     for (row, column), cell in calculation.book.sheets[sheet].items():
         formula = calculation.formulas.get((sheet, row, column))
-        if formula is not None:
+        if formula is None:
+            cells[row, column] = ("'" if isinstance(cell.value, str) else "n") + str(cell.value)
+        else:
             pieces = (
                 "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
             )
             cells[row, column] = "=" + "".join(pieces)
-        else:
-            text = isinstance(cell.value, str)
-            cells[row, column] = f"'{cell.value}" if text else f"n{cell.value}"
     return cells
 
 
@@ -72,30 +70,25 @@ def _kind(cell: str) -> str:
 def pairings(
     before: Calculation, name: str, after: Calculation, partner: str
 ) -> Iterator[dict[Cell, Cell]]:
-    """In which ways the cells of two sheets may be the same: old places and new ones."""
+    """In which ways the cells of two sheets may be the same: old places and new ones.
+
+    With their rows and columns, in place, along one of these, or in rows of another order.
+    """
     old, new = _cells(before, name), _cells(after, partner)
-    ways = list(_ways(old, new))
-    return (_paired(old, new, way) for i, way in enumerate(ways) if way not in ways[:i])
-
-
-def _ways(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> Iterator[dict[Cell, Cell]]:
-    """Where each cell may be now: with its row and column, in place, or along one of them."""
     a, b = ({cell: _kind(what) for cell, what in cells.items()} for cells in (old, new))
     columns = _matched(_profiles(a), _profiles(b))
-    rows = _matched(_lines(a, 0, columns.keys()), _lines(b, 0, set(columns.values())))
-    yield {(r, c): (rows[r], columns[c]) for r, c in a if r in rows and c in columns}
-    yield {cell: cell for cell in a}
+    rows = _matched(_rows(a, columns.keys()), _rows(b, set(columns.values())))
+    ways = [{(r, c): (rows[r], columns[c]) for r, c in a if r in rows and c in columns}]
+    ways.append({cell: cell for cell in a})
     for axis in (1, 0):
-        before, after = (_by(cells, itemgetter(axis)) for cells in (a, b))
-        yield {
-            cell: there
-            for line in before.keys() & after.keys()
-            for cell, there in _matched(
-                {c: a[c] for c in before[line]}, {c: b[c] for c in after[line]}, 0
-            ).items()
-        }
+        here, there = (_by(cells, itemgetter(axis)) for cells in (a, b))
+        way: dict[Cell, Cell] = {}
+        for line in here.keys() & there.keys():
+            way |= _matched({c: a[c] for c in here[line]}, {c: b[c] for c in there[line]}, 0)
+        ways.append(way)
     rows = _sorted(old, new)
-    yield {(r, c): (rows[r], c) for r, c in old if r in rows}
+    ways.append({(r, c): (rows[r], c) for r, c in old if r in rows})
+    return (_paired(old, new, way) for i, way in enumerate(ways) if way not in ways[:i])
 
 
 def _sorted(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> dict[int, int]:
@@ -172,18 +165,16 @@ def _elsewhere(
     return pairs
 
 
-def _lines(
-    cells: Mapping[Cell, str], axis: int, kept: Container[int]
-) -> dict[int, tuple[str, ...]]:
-    """Each row (axis 0) or column (axis 1) as what stands in some columns."""
-    lines = sorted(_by(cells, itemgetter(axis)).items())
-    return {i: tuple(cells[cell] for cell in line if cell[1] in kept) for i, line in lines}
+def _rows(cells: Mapping[Cell, str], kept: Container[int]) -> dict[int, tuple[str, ...]]:
+    """Each row as what stands in some columns."""
+    rows = _by(cells, itemgetter(0)).items()
+    return {i: tuple(cells[cell] for cell in row if cell[1] in kept) for i, row in rows}
 
 
 def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
     """Each column as what stands in it, repetitions left out."""
-    columns = _lines(cells, 1, {column for _, column in cells})
-    return {i: tuple(what for what, _ in groupby(line)) for i, line in columns.items()}
+    columns = sorted(_by(cells, itemgetter(1)).items())
+    return {i: tuple(what for what, _ in groupby(cells[c] for c in line)) for i, line in columns}
 
 
 def _matched(
@@ -219,17 +210,13 @@ class Shifts:
     """How far the rows (axis 0) and columns (axis 1) of each sheet moved, by the cells matched."""
 
     def __init__(self, where: Mapping[Position, Position]) -> None:
-        self.where = where
-
-    @cached_property
-    def lines(self) -> Mapping[tuple[str, str, int], list[tuple[int, int, int]]]:
-        """For two sheets and an axis: each line, and the least and most that its cells moved."""
         moved: dict[tuple[str, str, int], dict[int, set[int]]] = {}
-        for (sheet, *old), (partner, *new) in self.where.items():
+        for (sheet, *old), (partner, *new) in where.items():
             for axis in (0, 1):
                 by_line = moved.setdefault((sheet, partner, axis), {0: {0}})
                 by_line.setdefault(old[axis], set()).add(new[axis] - old[axis])
-        return {
+        # For two sheets and an axis: each line, and the least and most that its cells moved.
+        self.lines = {
             key: sorted((line, min(by), max(by)) for line, by in by_line.items())
             for key, by_line in moved.items()
         }

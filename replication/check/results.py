@@ -105,7 +105,7 @@ def _says_radius(text: str) -> bool:
 def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:
     """Whether a result is accused; `named` are inputs of the table that it is said to be of."""
     read = [f for f in tables if f.table.gives_depth(result.place)]
-    read = read or [f for f in tables if f.table.is_read_by(result.place)]
+    read = read or [f for f in tables if result.place in f.table.readers]
     if len(read) != 1 or (result.where == "listed" and not named):
         return False
     if result.where == "beyond" and len(tables) == 1:
@@ -139,7 +139,7 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     is_near = is_near or result_of(says) != "any depth"
     if row not in (None, last) and (_ANOTHER_ROW.search(says) or not is_near):
         return False
-    if row is not None and depths[row] == max(depths.values()) and f.table.reads_last(place):
+    if row is not None and depths[row] == max(depths.values()) and "last" in f.table.readers[place]:
         row = last  # the largest depth is that of another row only where the table has gone wrong
     wanted = meant.table.place("depth", meant.table.steps)
     shown = address(wanted, wanted[0] != place[0])

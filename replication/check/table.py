@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby, pairwise, product, takewhile
 from statistics import median
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from reference.units import same_dimension
 from replication.check.words import (
@@ -78,11 +78,9 @@ class Line:
     @cached_property
     def roles(self) -> frozenset[str]:
         """What it is, by the user or by its head."""
-        if self.given == "velocity":
-            return frozenset({"velocity_initial", "velocity_final"})
-        if self.given:
+        if self.given in COLUMNS:
             return frozenset({self.given})
-        return column_roles(self.head) if self.head else frozenset()
+        return column_roles(self.given or self.head or "")  # given: a velocity of either end
 
     @property
     def is_speed(self) -> bool:
@@ -242,25 +240,22 @@ def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[li
 
 def lines(calculation: Calculation) -> Iterator[Line]:
     """Every line of a workbook, down the columns and along the rows, with its head and unit."""
+    values, formulas = calculation.values, calculation.formulas
     for (sheet, cells), across in product(calculation.book.sheets.items(), (False, True)):
         # Each cell by its line and its place along it.
         places = {(p if across else p[::-1]): (sheet, *p) for p in cells}
-        values = {p: calculation.values.get(place) for p, place in places.items()}
-        numbers_at = {at for (_, at), value in values.items() if not isinstance(value, str | None)}
-        formulas_at = {at for (_, at), place in places.items() if place in calculation.formulas}
-        used = sorted(numbers_at | formulas_at)
-        blank = _left_out(Line(calculation, sheet, across), used, places)
+        used = {at for (_, at), place in places.items()
+                if place in formulas or not isinstance(values.get(place), str | None)}  # fmt: skip
+        blank = _left_out(Line(calculation, sheet, across), sorted(used), places)
         by_line: dict[int, dict[int, float | None]] = {}
-        for (number, at), value in values.items():
-            usable = value if isinstance(value, float) and math.isfinite(value) else None
+        for (number, at), place in places.items():
+            value = calculation.number(place)
+            usable = None if value is None or not math.isfinite(value) else value
             # An error is part of a line that has gone wrong, and so is the text that it comes from.
-            place = places[number, at]
-            if _sums_up(calculation, place, across):
-                continue
             wrong = calculation.error(place) or is_spoiling(place, calculation)
-            if usable is not None or wrong or place in calculation.unknown:
-                at -= sum(before < at for before in blank)
-                by_line.setdefault(number, {})[at] = usable
+            belongs = usable is not None or wrong or place in calculation.unknown
+            if belongs and not _sums_up(calculation, place, across):
+                by_line.setdefault(number, {})[at - sum(b < at for b in blank)] = usable
         filled = Counter(at for numbers in by_line.values() for at in numbers)
         for number, numbers in sorted(by_line.items()):
             line = Line(calculation, sheet, across, blank, number)
@@ -289,17 +284,17 @@ def _left_out(
     numbers = defaultdict[int, list[int]](list)
     for number, at in places:
         numbers[at].append(number)
-    stepped: set[int] = set()
+    stepped: list[int] = []
     for before, here in pairwise(used):
+        if here - before == 1:
+            continue
         along = (replace(line, number=number) for number in numbers[before])
-        going = [
-            each for each in along if here - before > 1 and each.reads_cell(before, before - 1)
-        ]
+        going = [each for each in along if each.reads_cell(before, before - 1)]
         # Below, a table goes on in all of them, and does not only show its last row again.
         goes_on = any(each.reads_cell(here + 1, here) for each in going)
         if goes_on and all(each.reads_cell(here, before) for each in going):
-            stepped.update(range(before + 1, here))
-    return tuple(sorted(stepped))
+            stepped += range(before + 1, here)
+    return tuple(stepped)
 
 
 def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[tuple[int, int]]:
@@ -324,21 +319,18 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
 # ---- tables
 
 
-_Where = Literal["first", "beyond", "listed"]
-
-
 class Result(NamedTuple):
-    """A cell that is called the final depth, or the `ratio` of it to the radius, by a `label`.
+    """A cell that is called the final depth, or the "ratio" of it to the radius, by a `label`.
 
-    Or one `beyond` it in its row, which may also be what it differs by from another number; or one
-    of a list below the label, where each may be of its own table, or of any row.
+    Or one "beyond" the "first" in its row, which may also be what it differs by from another
+    number; or one "listed" below the label, where each may be of its own table, or of any row.
     """
 
-    kind: Literal["depth", "ratio"]
+    kind: str
     place: Position
     unit: str | None
     label: Position
-    where: _Where
+    where: str
 
 
 @dataclass
@@ -402,10 +394,9 @@ class Table:
                 cells = list(takewhile(self._is_beside, places))
                 is_list = down and self.calculation.number((sheet, row + 2, column)) is not None
                 for cell in cells:
-                    where: _Where = "first" if cell == cells[0] else "beyond"
-                    where = "listed" if is_list else where
+                    where = "listed" if is_list else "first" if cell == cells[0] else "beyond"
                     if self.gives_depth(cell) or (where == "first" and kind != "any depth"):
-                        labelled.append(self._result(str(kind), cell, label, where))
+                        labelled.append(self._result(kind == "ratio", cell, label, where))
                 if cells:
                     break
         return labelled
@@ -415,7 +406,7 @@ class Table:
         is_number = self.calculation.number(place) is not None
         return is_number and not any(line.covers(place) for line in self.every_line)
 
-    def _result(self, kind: str, place: Position, label: Position, where: _Where) -> Result:
+    def _result(self, is_ratio: bool, place: Position, label: Position, where: str) -> Result:
         """A result, with the unit that its label or a cell beside it gives."""
         sheet, row, column = place
         near = (self.calculation.values.get((sheet, row, column + side)) for side in (1, -1))
@@ -423,49 +414,36 @@ class Table:
         # A label's unit need not be that of all numbers in its row.
         named = unit_in(str(self.calculation.values[label])) if where != "beyond" else None
         unit = named or next(filter(None, map(is_unit, texts)), None)
-        measure = "1" if kind == "ratio" else "m"
+        kind, measure = ("ratio", "1") if is_ratio else ("depth", "m")
         fits = unit is not None and same_dimension(unit, measure)
-        shown = unit if fits else None
-        return Result("ratio" if kind == "ratio" else "depth", place, shown, label, where)
+        return Result(kind, place, unit if fits else None, label, where)
 
     def gives_depth(self, place: Position) -> bool:
         """Whether a cell's formula reads a depth of the table, through cells beside it or not."""
-        return place in self._of_depth
-
-    def reads_last(self, place: Position) -> bool:
-        """Whether it reads the last depth of the table."""
-        return place in self._of_last
-
-    def is_read_by(self, place: Position) -> bool:
-        """Whether it reads any cell of the table."""
-        return place in self._of_table
+        return "depth" in self.readers.get(place, ())
 
     @cached_property
-    def _of_depth(self) -> set[Position]:
-        return self._readers([self._area(self.lines["depth"], 0)])
+    def readers(self) -> dict[Position, set[str]]:
+        """The cells beside the table whose formulas read it, directly or not.
 
-    @cached_property
-    def _of_last(self) -> set[Position]:
-        return self._readers([self._area(self.lines["depth"], self.steps)])
-
-    @cached_property
-    def _of_table(self) -> set[Position]:
-        return self._readers([self._area(line, 0) for line in self.lines.values()])
-
-    def _area(self, line: Line, first: int) -> Area:
-        """The cells of a line from a row on."""
-        (sheet, *begin), (_, *end) = (line.place(self.zero + k) for k in (first, self.steps))
-        return Area(sheet, *begin, *end)
-
-    def _readers(self, wanted: Sequence[Area]) -> set[Position]:
-        """The cells beside the table whose formulas read one of some areas, directly or not."""
-        readers = set[Position]()
+        Each with what of it: its columns by role, and the "last" depth.
+        """
+        areas = {}
+        for name in (*self.lines, "last"):
+            role, first = ("depth", self.steps) if name == "last" else (name, 0)
+            (sheet, *begin), (_, *end) = (self.place(role, k) for k in (first, self.steps))
+            areas[name] = Area(sheet, *begin, *end)
+        readers: dict[Position, set[str]] = {}
         for place in sorted(self.calculation.formulas, key=self.calculation.order.__getitem__):
-            areas = self.calculation.areas(place)
-            read = (p for area in areas for p in _looked_at(area))
-            overlap = any(area.overlaps(each) for area in areas for each in wanted)
-            if overlap or not readers.isdisjoint(read):
-                readers |= {place} - self.places.keys()
+            if place in self.places:
+                continue
+            for area in self.calculation.areas(place):
+                read = {name for name, wanted in areas.items() if area.overlaps(wanted)}
+                # Of many cells, such as a long column, the first and the last are looked at.
+                cells = area.places() if area.cells <= FEW else area.ends
+                read = read.union(*(readers.get(cell, ()) for cell in cells))
+                if read:
+                    readers.setdefault(place, set()).update(read)
         return readers
 
     @cached_property
@@ -501,11 +479,6 @@ class Table:
             usual = (least for count, least in parts if count <= digits)
             roundings[role] = digits, min(usual, default=-300)
         return roundings
-
-
-def _looked_at(area: Area) -> Iterable[Position]:
-    """The cells of an area; of many, such as a long column, the first and the last."""
-    return area.places() if area.cells <= FEW else area.ends
 
 
 def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
@@ -653,21 +626,17 @@ def _at_beginning(depth: Line, speed: Line, beside: Sequence[Line]) -> bool:
     if len(speed.roles) == 1 and not any("velocity_initial" in line.roles for line in beside):
         return speed.roles == {"velocity_initial"}
     brakes = [line for line in beside if "deceleration" in line.roles or not line.roles]
-    if not brakes:  # the depth moves on by the velocity at the beginning
-        rows = range(depth.first + 1, depth.last + 1)
-        moved = [
-            _constant(((depth.change(at), speed.at(at - back)) for at in rows), 1e-9)
-            for back in (0, 1)
-        ]
-        return moved[0] >= moved[1] - 0.05
-    later = max((_braking(line, speed, 1) for line in brakes), default=0.0)
-    return later >= max((_braking(line, speed, 0) for line in brakes), default=0.0) - 0.05
+    if not brakes:
+        here, later = (_tied(depth, speed, back, 1e-9) for back in (0, 1))
+        return here >= later - 0.05
+    here, later = (max(_tied(speed, line, back) for line in brakes) for back in (0, 1))
+    return later >= here - 0.05
 
 
-def _braking(brake: Line, speed: Line, later: int, close: float = _CLOSE) -> float:
-    """The share of rows in which a deceleration takes the velocity down by a constant times it."""
-    rows = range(brake.first, brake.last + 1)
-    return _constant(((speed.change(at + later), brake.at(at)) for at in rows), close)
+def _tied(line: Line, source: Line, back: int, close: float = _CLOSE) -> float:
+    """The share of rows in which a line changes by a constant times another, so many rows back."""
+    rows = range(source.first, source.last + 1)
+    return _constant(((line.change(at + back), source.at(at)) for at in rows), close)
 
 
 def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
@@ -687,7 +656,7 @@ def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
             return 0.0  # a velocity that no other row takes on is one in the middle of its row
         return named + same * line.falls
     if role == "deceleration":
-        fit = _braking(line, speed, initial) + 0.5 * _braking(line, speed, initial, 1e-9)
+        fit = _tied(speed, line, initial) + 0.5 * _tied(speed, line, initial, 1e-9)
         return named + fit * (not line.falls)
     steps = [b - a for a, b in pairwise(line.numbers)] or [0.0]
     counts = median(steps) == 1  # the rows, unless its head says time

@@ -5,7 +5,7 @@ one called beta or target resistance that of the report's other case, and nothin
 it, then one table reads a cell that is not its own.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from replication.check.examination import Examination, Input, near
 from replication.check.inputs import as_role, report_inputs
@@ -41,7 +41,10 @@ def meant(
                 if (place := cell.place) and place not in read]  # fmt: skip
         for source, alike in _repeating(tables, names):
             for place, cell in idle:
-                value, number = _meant_by(cell, alike), _owner(place, source, alike)
+                number, value = _owner(place, source, alike), cell.si
+                if cell.role == "beta":  # the resistance that follows from it
+                    stress = next(iter(alike.values())).inputs.get("flow_stress")
+                    value *= stress.si if stress else report_inputs()["flow_stress"][0]
                 # A resistance or a beta may be of another model, unless the report prints it.
                 is_its = role != "resistance" or any(near(value, x) for x in report_inputs()[role])
                 if number is None or not is_its or near(value, getattr(alike[number].case, role)):
@@ -68,14 +71,6 @@ def _repeating(
     return ((source, equal) for (source, *_), equal in alike.items() if len(equal) > 1)
 
 
-def _meant_by(cell: Input, alike: Mapping[int, Examination]) -> float:
-    """What a cell tells in SI, of a beta the resistance that follows from it."""
-    if cell.role != "beta":
-        return cell.si
-    stress = next(iter(alike.values())).inputs.get("flow_stress")
-    return cell.si * (stress.si if stress else report_inputs()["flow_stress"][0])
-
-
 def _owner(place: Position, source: Position, tables: dict[int, Examination]) -> int | None:
     """The table by number to which an idle cell belongs, None if it is far from all.
 
@@ -87,8 +82,8 @@ def _owner(place: Position, source: Position, tables: dict[int, Examination]) ->
         for number, f in reversed(tables.items())
         if place[0] in (source[0], f.table.sheet)
     }
-    nearest = min(off, key=off.__getitem__, default=None)
-    return None if nearest is None or off[nearest] > _BLOCK else nearest
+    near_by = [number for number in off if off[number] <= _BLOCK]
+    return min(near_by, key=off.__getitem__, default=None)
 
 
 def _apart(place: Position, table: Table) -> int:
