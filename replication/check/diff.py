@@ -140,7 +140,7 @@ class Comparison:
             if least <= 1:  # no other way can leave fewer
                 break
         self.where |= best.where
-        self.differences += [d for d in best.differences if d.kind not in ("formula", "value")]
+        self.differences += best.differences
 
     def size(self) -> int:
         """How many cells differ, but for numbers; a text for another is one gone and one new."""

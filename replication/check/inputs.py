@@ -405,10 +405,7 @@ def as_role(cell: Input, role: str, report: Report) -> Input:
 
 
 def _settled(
-    table: Table,
-    choices: Mapping[str, list[Input]],
-    feeding: Mapping[str, Input],
-    pi: float,
+    table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input], pi: float
 ) -> Examination:
     """One cell for each role: where there are several, those that the rows agree with."""
     choices = {
@@ -546,7 +543,8 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     # What the step would be, and what a column would be, if all cells were in SI units.
     step, move = _usual(table, "time"), _usual(table, "depth", speed)
     depth = table.lines["depth"]
-    if depth.formula(depth.last) and not depth.reads(depth, 1):
+    advance = depth.formula(depth.last)
+    if advance and not depth.reads(depth, 1):
         move = 0.0  # its rows do not add to those before
     brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
     named = {role: unit_power(line.unit) for role, line in table.lines.items()}
@@ -555,7 +553,6 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
     impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed] or 0, _round(impact / start)}
     steps = [inputs["step"].si] if "step" in inputs else []
-    advance = depth.formula(depth.last)
     place = inputs["step"].place if steps else None
     is_direct = place is None or advance is None or advance.reads(place)
     if step or move:

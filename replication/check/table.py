@@ -307,7 +307,7 @@ def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[t
     for before, here in pairwise([*places, places[-1] + _GAP + 2]):
         gap = range(before + 1, here)
         ends = len(gap) > _GAP or any(filled[at] < 2 for at in gap)
-        if ends and 0 < len(gap) <= _GAP:
+        if ends and len(gap) <= _GAP:
             left, right = line.formula(before), line.formula(here)
             ends = left is None or right is None or left.shape != right.shape
         if ends:
