@@ -316,13 +316,12 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
         return value.strip() if isinstance(value, str) else ""
 
     # Behind a label, a number and its unit stands what it was converted to.
-    before = calculation.values.get((sheet, row, column - 2))
-    another = isinstance(before, float) and text(0, -3)
+    another = calculation.number((sheet, row, column - 2)) is not None and text(0, -3)
     beside = (text(0, 1), "" if another else text(0, -1), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
-        if any(left) and isinstance(calculation.values.get((sheet, row, column - i)), float):
+        if any(left) and calculation.number((sheet, row, column - i)) is not None:
             break  # what stands beyond another number is that number's label
         left.append(text(0, -i))
     for cells in (left, [text(-1, 0), text(-2, 0)], [text(0, 1), text(0, 2)]):
