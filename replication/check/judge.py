@@ -5,7 +5,7 @@ report's is one difference, named by that rule. Then every cell by itself (`cell
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from fractions import Fraction
 from functools import partial
@@ -13,13 +13,7 @@ from itertools import pairwise, product
 from statistics import median
 
 from reference.units import to_si
-from replication.check.cells import (
-    drifting,
-    each_cell,
-    irregular,
-    order,
-    wrong_beside,
-)
+from replication.check.cells import drifting, each_cell, irregular, order, wrong_beside
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import RESTS_ON, label_of, report_inputs
 from replication.check.scheme import (
@@ -67,8 +61,6 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
         _blanks(f)
         drifting(f)
         _calibrate(f)
-        _calibrate_step(f)
-        _calibrate_velocity(f)
         _derived(f)
     if meant:
         _repeated(f, *meant)
@@ -109,22 +101,41 @@ def _changed(role: str, value: float, by: float) -> Change:
 
 
 def _calibrate(f: Examination) -> None:
-    """An input that the rows take in another unit than its label says."""
+    """Inputs that the rows take in another unit than their labels say."""
     drifts = any(difference.kind == "odd formula" for difference in f.differences)
-    if drifts or f.agreement(BRAKES) >= 0.5 or _has_power(f):
-        return  # rows whose references drift do not tell
-    powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
-    for (role, entry), power in product(f.inputs.items(), powers):
-        if entry.place is None or role in ("beta", "stop_velocity", "mass"):
-            continue
-        factor = Fraction(10) ** power
-        value = scaled(entry.si, factor)
-        changed = f.following(f.case.with_input(role, value, float(factor)))
-        if changed.agreement() < 0.9:
-            continue
-        f.rows = changed.rows
-        _taken(f, entry, value, power)
-        return
+    # Rows whose references drift do not tell.
+    if not drifts and f.agreement(BRAKES) < 0.5 and not _has_power(f):
+        untold = ("beta", "stop_velocity", "mass")
+        entries = [e for e in f.inputs.values() if e.place and e.role not in untold]
+        powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
+        for entry, power in product(entries, powers):
+            if _is_taken(f, entry, power, Examination.agreement):
+                break
+    step, times = f.inputs["step"], f.rows.columns.get("time", {})
+    advance = partial(Examination.share, part="advance", rule=REPORT["advance"])
+    slip = power_of_ten((times.get(3, math.nan) - times.get(2, math.nan)) / step.si)
+    if step.unit and step.place and slip and advance(f) < 0.5:
+        _is_taken(f, step, slip, advance)
+    entry = f.inputs["velocity"]
+    if entry.place and entry.unit and entry.factor != (factor := to_si(entry.unit)):
+        labelled = replace(entry, si=scaled(entry.si, factor / entry.factor), factor=factor)
+        f.inputs = {**f.inputs, "velocity": labelled}
+        f.intended = f.intended.with_input("velocity", labelled.si)
+        _taken(f, labelled, entry.si, power_of_ten(entry.si / labelled.si) or 0)
+
+
+def _is_taken(
+    f: Examination, entry: Input, power: int, share: Callable[[Examination], float]
+) -> bool:
+    """Whether rows follow with an input so many powers of ten off; they do from then on."""
+    factor = Fraction(10) ** power
+    value = scaled(entry.si, factor)
+    changed = f.following(f.case.with_input(entry.role, value, float(factor)))
+    if share(changed) < 0.9:
+        return False
+    f.rows = changed.rows
+    _taken(f, entry, value, power)
+    return True
 
 
 def _mislabelled(f: Examination, entry: Input, power: int) -> None:
@@ -133,29 +144,6 @@ def _mislabelled(f: Examination, entry: Input, power: int) -> None:
     text = f"the label gives {title(entry.role)} in {entry.unit}, but the number is in {right}"
     assert entry.place is not None
     f.add("unit", [entry.place], right, f"{text}, as the formulas take it", entry.unit)
-
-
-def _calibrate_step(f: Examination) -> None:
-    """A time step that the rows take in another unit than its label says."""
-    entry, times = f.inputs["step"], f.rows.columns.get("time", {})
-    value = times.get(3, math.nan) - times.get(2, math.nan)
-    power, by_report = power_of_ten(value / entry.si), REPORT["advance"]
-    if entry.unit and entry.place and power and f.share("advance", by_report) < 0.5:
-        value = scaled(entry.si, Fraction(10) ** power)
-        changed = f.following(f.case.with_input("step", value))
-        if changed.share("advance", by_report) >= 0.9:
-            f.rows = changed.rows
-            _taken(f, entry, value, power)
-
-
-def _calibrate_velocity(f: Examination) -> None:
-    """An impact velocity that the rows take in another unit than its label says."""
-    entry = f.inputs["velocity"]
-    if entry.place and entry.unit and entry.factor != (factor := to_si(entry.unit)):
-        labelled = replace(entry, si=scaled(entry.si, factor / entry.factor), factor=factor)
-        f.inputs = {**f.inputs, "velocity": labelled}
-        f.intended = f.intended.with_input("velocity", labelled.si)
-        _taken(f, labelled, entry.si, power_of_ten(entry.si / labelled.si) or 0)
 
 
 def _taken(f: Examination, entry: Input, value: float, power: int) -> None:
@@ -198,16 +186,13 @@ def _unconverted(f: Examination, entry: Input, value: float, power: int) -> None
         if entry.place in (area.corner for area in f.calculation.areas(place))
     ]
     if entry.unit and readers:
-        text = f"{text}: {address(entry.place)} is in {entry.unit}"
-        lone = (place for place in readers if len(f.calculation.areas(place)) == 1)
-        converting = (p for p in lone if near(f.calculation.number(p) or 0.0, value))
+        text += f": {address(entry.place)} is in {entry.unit}"
         columns = {place: f.table.places.get(place, ("",))[0] for place in readers}
         cells = [place for place in readers if columns[place] == columns[readers[0]]]
-        expected = None
-        if place := next(converting, None):
-            cells, expected = [place], entry.si
-    change = _changed(entry.role, value, 10.0**power)
-    f.add("unit", cells, expected, text, change=change)
+        lone = (place for place in readers if len(f.calculation.areas(place)) == 1)
+        converting = [p for p in lone if near(f.calculation.number(p) or 0.0, value)]
+        cells, expected = (converting[:1], entry.si) if converting else (cells, None)
+    f.add("unit", cells, expected, text, change=_changed(entry.role, value, 10.0**power))
 
 
 def _has_power(f: Examination) -> bool:
@@ -232,22 +217,19 @@ def _derived(f: Examination) -> None:
     known = {entry.role: entry for entry in (*f.unread, *f.inputs.values())}
     spoilt = any(difference.change for difference in f.differences)
     rows, stated = replace(f.case, own_mass=None, own_diameter=None), f.intended
-    factors = [known[name].si for name in RESTS_ON["resistance"] if name in known]
-    if len(factors) == 2 and min(factors) > 0:
-        stated = replace(stated, resistance=known["beta"].si * known["flow_stress"].si)
-        _product(f, known["beta"], known["flow_stress"], stated.resistance)
+    beta, flow_stress = (known.get(name) for name in RESTS_ON["resistance"])
+    if beta and flow_stress and min(beta.si, flow_stress.si) > 0:
+        stated = replace(stated, resistance=beta.si * flow_stress.si)
+        _product(f, beta, flow_stress, stated.resistance)
     halved = _halved(f, known["radius"])
     for role, of in RESTS_ON.items():
-        cell = f.derived.get(role)
-        sources = [known[name] for name in of if name in known]
-        if role == "diameter" and halved:
+        cell, sources = f.derived.get(role), [known[name] for name in of if name in known]
+        # From a number that is not positive nothing follows.
+        if cell is None or (role == "diameter" and halved) or any(s.si <= 0 for s in sources):
             continue
         # With an input in a wrong unit the rows have what follows from it, which is no new fault.
-        if cell and spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR):
-            continue
-        if min((s.si for s in sources), default=1.0) <= 0:
-            continue  # nothing follows from such a number
-        if cell and (any(s.place for s in sources) or cell.si == 0):
+        follows = spoilt and math.isclose(cell.si, getattr(rows, role), rel_tol=NEAR)
+        if not follows and (any(s.place for s in sources) or cell.si == 0):
             _derived_cell(f, cell, getattr(stated, role), sources)
     if halved:
         _judge_radius(f, halved)
@@ -255,11 +237,10 @@ def _derived(f: Examination) -> None:
 
 def _halved(f: Examination, radius: Input) -> list[Position]:
     """The cells from that of the radius down to the diameter's, if it is computed from that."""
-    cells, diameter = list[Position](), f.derived.get("diameter")
-    place = radius.place if diameter and diameter.place and diameter.si > 0 else None
-    while place and place not in cells:
+    cells, place, diameter = list[Position](), radius.place, f.derived.get("diameter")
+    while diameter and diameter.si > 0 and place and place not in cells:
         cells.append(place)
-        if diameter and place == diameter.place:
+        if place == diameter.place:
             return cells if len(cells) > 1 else []
         place = next((area.corner for area in f.calculation.areas(place)), None)
     return []
@@ -269,14 +250,10 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
     """A radius that is computed from the diameter, through cells, against half of that."""
     radius, diameter = f.inputs["radius"], f.derived["diameter"]
     wanted, ratio = diameter.si / 2, radius.si / diameter.si * 2
-    power = power_of_ten(ratio)
     simple = all(len(f.calculation.areas(place)) == 1 for place in cells[:-1])
-    slips = (ratio, ratio / 2, ratio * 2)  # the diameter itself, or a quarter of it
-    if (
-        math.isclose(ratio, 1.0, rel_tol=NEAR)
-        or not simple
-        or not any(power_of_ten(slip) is not None for slip in slips)
-    ):
+    # Half of it in another unit, the diameter itself, or a quarter of it.
+    power, *powers = map(power_of_ten, (ratio, ratio / 2, ratio * 2))
+    if not simple or math.isclose(ratio, 1.0, rel_tol=NEAR) or {power, *powers} == {None}:
         return
     place, factor = cells[0], radius.factor * 2
     for between in cells[-2:0:-1]:  # which may have the diameter in another unit
@@ -287,12 +264,10 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
     rows = (f.case, f.case.holding("diameter", diameter.si))
     f.rows = replace(f.rows, case=max(rows, key=lambda case: f.following(case).agreement()))
     f.intended = f.intended.with_input("radius", wanted)
-    kind, text = "odd formula", "does not follow from"
-    if power:
-        kind, text = "unit", f"is {times_too(power)} for"
     named = title("radius") if place == cells[0] else "this diameter"
-    text = f"{named} {text} {title('diameter')} in {address(cells[-1])}"
-    change = _changed("radius", radius.si, 1.0)
+    says = f"is {times_too(power)} for" if power else "does not follow from"
+    text = f"{named} {says} {title('diameter')} in {address(cells[-1])}"
+    kind, change = "unit" if power else "odd formula", _changed("radius", radius.si, 1.0)
     f.add(kind, [place], scaled(diameter.si, 1 / factor), text, change=change)
 
 
@@ -390,16 +365,16 @@ def _fault_of_derived(
     right = math.isclose(in_si, wanted, rel_tol=NEAR)
     # Tables print the factors of units with four digits and more.
     right |= any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
-    rests = titles(source.role for source in sources)
+    rests, power = titles(source.role for source in sources), power_of_ten(in_si / wanted)
     if place not in f.calculation.formulas:
         whole = len(sources) == len(RESTS_ON[role])  # from one factor nothing follows
         if not f.read or not whole or (right and not any(s in f.unread for s in sources)):
             return None
-        if power := power_of_ten(in_si / wanted):
+        if power:
             return "unit", f"is {times_too(power)} for {rests}"
         lost = "a change there changes nothing"
         return "typed constant", f"is typed as a number, though it rests on {rests}: {lost}"
-    if power := power_of_ten(in_si / wanted):
+    if power:
         return "unit", f"is {times_too(power)} for {rests}: a unit is not converted"
     if right:
         return None

@@ -8,6 +8,7 @@ goes wrong fails, not the hundred that follow from it.
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration", 1),
          "end": ("velocity_final", 1)}  # fmt: skip
@@ -60,17 +61,15 @@ class Case:
 
     def with_input(self, role: str, value: float, by: float = 1.0) -> "Case":
         """The case with another input, `by` times the one that it has, and what follows from it."""
-        if role in ("beta", "flow_stress"):
-            return replace(self, resistance=self.resistance * by)
-        if role == "mass":
-            return replace(self, own_mass=value)
-        if role == "diameter":
-            return replace(self, own_diameter=value, radius=value / 2)
-        if role == "radius":
-            return replace(self, radius=value, own_mass=None, own_diameter=None)
-        if role == "particle_density":
-            return replace(self, particle_density=value, own_mass=None)
-        return replace(self, **{role: value})
+        changes: dict[str, dict[str, Any]] = {
+            "beta": {"resistance": self.resistance * by},
+            "flow_stress": {"resistance": self.resistance * by},
+            "mass": {"own_mass": value},
+            "diameter": {"own_diameter": value, "radius": value / 2},
+            "radius": {"radius": value, "own_mass": None, "own_diameter": None},
+            "particle_density": {"particle_density": value, "own_mass": None},
+        }
+        return replace(self, **changes.get(role, {role: value}))
 
 
 @dataclass(frozen=True)
@@ -122,36 +121,28 @@ class Rows:
 
         Without a column for it, it shows in the velocity that it makes.
         """
-        role = PARTS[part][0]
-        if role in self.columns:
-            return role, k
-        return (
-            ("velocity_final", k)
-            if "velocity_final" in self.columns
-            else ("velocity_initial", k + 1)
-        )
+        for role in (PARTS[part][0], "velocity_final"):
+            if role in self.columns:
+                return role, k
+        return "velocity_initial", k + 1
 
     def wanted(self, role: str, k: int) -> float | None:
         """What a cell should hold by what others hold; None where one of those is missing."""
         try:
-            return self._wanted(role, k)
+            if role == "time":
+                return self["time", k - 1] + self.case.step
+            if role.startswith("velocity") and k <= (role == "velocity_initial"):
+                return self.case.velocity
+            if k == 0:
+                return 0.0
+            if role == "velocity_initial" and "velocity_final" in self.columns:
+                return self["velocity_final", k - 1]
+            if role == "velocity_initial":
+                return self.rules["end"].formula(self, k - 1)
+            part = "start" if role == "depth" and k == 1 else FILLS[role]
+            return self.rules[part].formula(self, k)
         except KeyError:
             return None
-
-    def _wanted(self, role: str, k: int) -> float:
-        if role == "time":
-            return self["time", k - 1] + self.case.step
-        if role.startswith("velocity") and k <= (role == "velocity_initial"):
-            return self.case.velocity
-        if k == 0:
-            return 0.0
-        if role == "velocity_initial":
-            shown = "velocity_final" in self.columns
-            return (
-                self["velocity_final", k - 1] if shown else self.rules["end"].formula(self, k - 1)
-            )
-        part = "start" if role == "depth" and k == 1 else FILLS[role]
-        return self.rules[part].formula(self, k)
 
 
 @dataclass(frozen=True)
@@ -214,10 +205,6 @@ def _brake(
     return Rule(name, by_row, says, lacks)
 
 
-def _centered(case: Case, x: float, v: float) -> float:
-    return deceleration(case, x, v - deceleration(case, x, v) * (case.step / 2))
-
-
 BEYOND = _brake(
     "area beyond the radius", lambda c, x, v: deceleration(c, x, v, area=c.diameter * x - x * x),
     "the contact area shrinks again beyond the depth R, where the report keeps pi R²",
@@ -236,7 +223,8 @@ def depth_times_ten(power: int) -> Rule:
 
 BRAKES = (
     _brake("velocity at the beginning", deceleration),
-    _brake("centered", _centered,
+    _brake("centered",
+           lambda c, x, v: deceleration(c, x, v - deceleration(c, x, v) * (c.step / 2)),
            "the drag is taken at the velocity in the middle of the step, half a step ahead of the "
            "row's initial velocity"),
     Rule("explicit Euler",
