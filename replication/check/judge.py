@@ -315,9 +315,7 @@ def _lost(f: Examination, role: str, cells: Sequence[Position], source: Position
 def _repeated(f: Examination, role: str, value: float, told: str) -> None:
     """A table that reads an input of another one, which it repeats."""
     part, taken = "advance" if role == "step" else "brake", getattr(f.case, role)
-    cells = f.cells(*f.rows.shows(part, 1))
-    if role == "velocity":
-        cells = [f.start]
+    cells = [f.start] if role == "velocity" else f.cells(*f.rows.shows(part, 1))
     text = f"the rows take {quantity(taken, role)} for {title(role)}, "
     text += f"and so repeat another table; {told}"
     f.intended = f.intended.with_input(role, value)
@@ -449,15 +447,12 @@ def _taken_otherwise(f: Examination) -> None:
         used = f.inputs.get(entry.role)
         if used is None or used.place or used.how == "follows":
             continue  # its cell, or those that it follows from, are known
-        if entry.place is None or min(used.si, entry.si) <= 0:
-            continue
         if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
-        if math.isclose(used.si, entry.si, rel_tol=1e-6):
+        unlike = not math.isclose(used.si, entry.si, rel_tol=1e-6)
+        if entry.place is None or min(used.si, entry.si) <= 0 or not unlike:
             continue
-        cells = _typing(f, used.si) or [entry.place]
-        if entry.role == "velocity":
-            cells = [f.start]
+        cells = [f.start] if entry.role == "velocity" else _typing(f, used.si) or [entry.place]
         where = address(entry.place, entry.place[0] != cells[0][0])
         here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
         text = f"{title(entry.role)} is {here} in {where}, but the rows take {there}"
@@ -491,9 +486,8 @@ def _typed_columns(f: Examination) -> None:
     typed = [role for role in cells if not f.calculation.formulas.keys() & set(cells[role][1:])]
     for role in typed if len(typed) < len(cells) else ():
         if not f.accused.intersection(cells[role]):
-            text = (
-                f"{title(role)} is typed in every row: a change of an input changes nothing there"
-            )
+            lost = "a change of an input changes nothing there"
+            text = f"{title(role)} is typed in every row: {lost}"
             f.add("typed number", cells[role], None, text)
 
 
@@ -561,16 +555,11 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
         if entry.role == "step":
             halves, is_first = {entry.si / 2, value / 2}, (role, k) == ("depth", 1)
             # The first row takes half of it, be it 1e-10 s, which lies between no units of time.
-            values |= {h for h in halves if not _plain(h) or (is_first and _is_between_none(h))}
+            odd = {h for h in halves if not between_units(power_of_ten(h) or 0, "step", True)}
+            values |= {h for h in halves if not _plain(h) or (is_first and h in odd)}
         typed = any(near(*pair) for pair in product(values, formula.literals))
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != entry.place for cell in read)
-
-
-def _is_between_none(factor: float) -> bool:
-    """Whether a factor is a power of ten by which nobody converts times to seconds."""
-    power = power_of_ten(factor)
-    return power is not None and not between_units(power, "step", surely=True)
 
 
 def _plain(value: float) -> bool:
@@ -709,19 +698,17 @@ def _as_rounded(f: Examination) -> None:
     printed = Case(**{each.name: report[each.name] for each in fields(Case) if each.name in report})
     if not any(_misprints(f, march(printed, steps=f.table.steps))):
         f.intended, f.rows = printed, replace(f.rows, case=printed)
-        f.inputs, f.derived = (
-            {
-                role: each
-                for role, each in entries.items()
-                if near(each.si, report[role]) or near(each.si, getattr(printed, role, 0.0))
-            }
-            for entries in (f.inputs, f.derived)
-        )
-    runs = [(rules, march(f.case, rules, steps=f.table.steps)) for rules in (REPORT, *others)]
-    # Some rules need another brake to go with them: by themselves they give no rows.
-    tried = [
-        (list(_misprints(f, run)), rules) for rules, run in runs if f.table.steps in run["depth"]
-    ]
+
+        def is_printed(role: str, value: float) -> bool:
+            return near(value, report[role]) or near(value, getattr(printed, role, 0.0))
+
+        f.inputs = {role: e for role, e in f.inputs.items() if is_printed(role, e.si)}
+        f.derived = {role: e for role, e in f.derived.items() if is_printed(role, e.si)}
+    tried = []
+    for rules in (REPORT, *others):
+        run = march(f.case, rules, steps=f.table.steps)
+        if f.table.steps in run["depth"]:  # some need another brake, and give no rows without
+            tried.append((list(_misprints(f, run)), rules))
     misprints, rules = min(tried, key=lambda each: len(each[0]))
     f.rows = replace(f.rows, rules=rules)
     _named(f)
@@ -823,10 +810,7 @@ def _effects(f: Examination) -> None:
     for role, column in f.rows.columns.items():
         for k, value in column.items() if role in run else ():
             right = run[role].get(k)
-            if right is None:
-                f.differing += k > steps
-            else:
-                f.differing += abs(value - right) > 1e-9 * abs(right)
+            f.differing += k > steps if right is None else abs(value - right) > 1e-9 * abs(right)
     if not stops_elsewhere(f):
         steps = f.table.steps
     with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)

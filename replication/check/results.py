@@ -118,13 +118,19 @@ def _is_wrong(tables: Sequence[Examination], result: Result, named: Mapping[str,
     if result.where == "beyond" and sum(map(f.table.gives_depth, of_label)) == 1:
         result = result._replace(where="first")  # the only one of its table in the row
     unlike = next((role for role in named if not has_input(f, role, named[role])), None)
-    return _accuse(f, result, unlike, meant[0] if len(meant) == 1 else f)
+    fault = _fault(f, result, unlike, meant[0] if len(meant) == 1 else f)
+    if fault:
+        kind, expected, text, shown = fault
+        f.add(kind, [result.place], expected, text, shown)
+    return fault is not None
 
 
-def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examination) -> bool:
-    """Accuse a result of its row, of its unit, or of its table `f` if that is not the one `meant`.
+def _fault(
+    f: Examination, result: Result, unlike: str | None, meant: Examination
+) -> tuple[str, Value | None, str, Value | None] | None:
+    """What is wrong with a result, if anything: its row, its unit, or its table.
 
-    `unlike` is an input in which the two tables differ. False where there is nothing to accuse.
+    That is `f`, and not the one `meant`; `unlike` is an input in which the two differ.
     """
     kind, place, unit, label, where = result
     what = "the final depth" if kind == "depth" else "the depth over the radius"
@@ -132,46 +138,44 @@ def _accuse(f: Examination, result: Result, unlike: str | None, meant: Examinati
     value, formula = f.calculation.number(place) or 0.0, f.calculation.book[place].formula
     says = str(f.calculation.values[label])
     is_ratio = kind == "ratio" and where != "beyond"
-    says_radius = is_ratio and _says_radius(says)
-    named = _stated(says, unit, is_ratio)
-    row, power = _row_shown(f, kind, value) if f.table.gives_depth(place) else (None, 0)
-    is_near = (row or 0) >= last - _NEAR_END or "MAX(" in (formula or "").upper()
-    is_near = is_near or result_of(says) != "any depth"
-    if row not in (None, last) and (_ANOTHER_ROW.search(says) or not is_near):
-        return False
-    if row is not None and depths[row] == max(depths.values()) and "last" in f.table.readers[place]:
-        row = last  # the largest depth is that of another row only where the table has gone wrong
+    # The row that it shows, and times which power of ten; none if it is rounded, or no such depth.
+    powers = ((k, f.power_shown(kind, value, k)) for k in sorted(depths, reverse=True))
+    rows = ((k, power) for k, power in powers if power is not None)
+    row, power = next(rows, (None, 0)) if f.table.gives_depth(place) else (None, 0)
     wanted = meant.table.place("depth", meant.table.steps)
     shown = address(wanted, wanted[0] != place[0])
-    if row is not None and unlike and meant is not f:
+    if row is None:
+        says_radius = is_ratio and _says_radius(says)
+        if says_radius and value and near(value * 2 * f.case.radius, f.final_depth or 0.0):
+            text = "the number is the depth over the diameter, not over the radius"
+            return "odd formula", 2 * value, text, None
+        says_last = says_radius or (kind == "depth" and result_of(says) == "depth")
+        if says_last and where == "first" and formula and not _is_about(f, kind, value, unit):
+            text = f"{what} is not that of the last row of the table"
+            return "odd formula", shown, text, formula
+        return None
+    is_near = row >= last - _NEAR_END or "MAX(" in (formula or "").upper()
+    is_near = is_near or result_of(says) != "any depth"
+    if row != last and (_ANOTHER_ROW.search(says) or not is_near):
+        return None
+    if depths[row] == max(depths.values()) and "last" in f.table.readers[place]:
+        row = last  # the largest depth is that of another row only where the table has gone wrong
+    if unlike and meant is not f:
         here, right = (quantity(_number(g, unlike), unlike) for g in (f, meant))
         text = f"{what} reads the table where {title(unlike)} is {here}; its label says {right}"
-        f.add("odd formula", [place], shown, text, formula)
-    elif row not in (None, last):
+        return "odd formula", shown, text, formula
+    if row != last:
         text = f"{what} reads row {row} of the table, not {last}, its last"
-        f.add("odd formula", [place], shown, text, formula)
-    elif row is not None and kind == "ratio" and power != -(named or 0):
+        return "odd formula", shown, text, formula
+    named = _stated(says, unit, is_ratio)
+    if kind == "ratio" and power != -(named or 0):
         size = times_too(power + (named or 0))
-        f.add("unit", [place], None, f"{what} is {size}: a unit is not converted")
-    elif row is not None and kind == "depth" and named not in (None, -power):
+        return "unit", None, f"{what} is {size}: a unit is not converted", None
+    if kind == "depth" and named not in (None, -power):
         in_unit = unit_text("depth", -power)
         text = f"the label gives {what} in {unit}, but the number is in {in_unit}"
-        f.add("unit", [place], in_unit, text, unit)
-    elif says_radius and value and near(value * 2 * f.case.radius, f.final_depth or 0.0):
-        text = "the number is the depth over the diameter, not over the radius"
-        f.add("odd formula", [place], 2 * value, text)
-    elif (
-        row is None
-        and (says_radius or (kind == "depth" and result_of(says) == "depth"))
-        and where == "first"
-        and formula
-        and not _is_about(f, kind, value, unit)
-    ):
-        text = f"{what} is not that of the last row of the table"
-        f.add("odd formula", [place], shown, text, formula)
-    else:
-        return False
-    return True
+        return "unit", in_unit, text, unit
+    return None
 
 
 def _is_about(f: Examination, kind: str, value: float, unit: str | None) -> bool:
@@ -182,17 +186,6 @@ def _is_about(f: Examination, kind: str, value: float, unit: str | None) -> bool
     wanted = (f.final_depth or 0.0) / (f.case.radius if kind == "ratio" else 1.0)
     ratio = value * float(to_si(unit or "1")) / wanted if wanted else 0.0
     return ratio > 0 and abs(ratio / 10.0 ** round(math.log10(ratio)) - 1) < 0.01
-
-
-def _row_shown(f: Examination, kind: str, value: float) -> tuple[int | None, int]:
-    """The row whose depth, or its ratio to the radius, a cell shows, and times which power of ten.
-
-    No row where the cell is rounded, or computed otherwise.
-    """
-    for k in sorted(f.rows.columns["depth"], reverse=True):
-        if (power := f.power_shown(kind, value, k)) is not None:
-            return k, power
-    return None, 0
 
 
 def _said(
