@@ -54,9 +54,9 @@ def misread(tables: Sequence[Examination]) -> None:
     for place in sorted(
         {*calculation.formulas, *results}, key=lambda p: calculation.order.get(p, -1)
     ):
-        if any(area.corner in wrong for area in calculation.areas(place)):
-            wrong.add(place)  # it follows from what is accused
-        elif place in results and _is_wrong(tables, results[place], said.get(place, {})):
+        follows = any(area.corner in wrong for area in calculation.areas(place))
+        here = results.get(place)
+        if follows or (here and _is_wrong(tables, here, said.get(place, {}))):
             wrong.add(place)
 
 

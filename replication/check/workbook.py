@@ -11,13 +11,7 @@ from pathlib import Path
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.inputs import (
-    find,
-    label_of,
-    numbers_beside,
-    read_beside,
-    report_inputs,
-)
+from replication.check.inputs import find, label_of, numbers_beside, read_beside, report_inputs
 from replication.check.judge import judge
 from replication.check.results import has_input, misread
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
