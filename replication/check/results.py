@@ -222,28 +222,28 @@ def _said_beside(
         if all(any(has_input(f, name, number) for f in tables) for number in named.values()):
             for place, number in named.items():
                 said.setdefault(place, {})[name] = number
-    listed = [tuple(said[place].items()) for place in beside if place in said]
-    return said if len(set(listed)) >= max(len(listed), 2) else {}
+    apart = {tuple(numbers.items()) for numbers in said.values()}
+    return said if len(apart) == len(said) >= 2 else {}
 
 
 def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[str, float]:
     """Numbers in the row of a listed result under heads of inputs; else in its column."""
     (sheet, row, column), (_, label_row, label_column) = result.place, result.label
-    numbers, is_over = defaultdict[str, set[float]](set), False
-    for k in (*range(-1, -_NEARBY, -1), 0, *range(1, _NEARBY)):
-        head, cell = (sheet, row + k, label_column), (sheet, row + k, column)
-        if label_row < row:
-            head, cell = (sheet, label_row, column + k), (sheet, row, column + k)
-        name, value = values.get(head), values.get(cell)
-        is_over = (is_over and k != 0) or (name is None and value is None)
-        if is_over or k == 0:
-            continue  # beyond a blank stands something else
-        roles = input_roles(name, None) if isinstance(name, str) else frozenset[str]()
-        if isinstance(value, str):
-            role, value = number_in(value)
-            roles = frozenset({role}) if role else roles
-        if len(roles) == 1 and isinstance(value, float) and math.isfinite(value):
-            numbers[next(iter(roles))].add(value)
+    numbers = defaultdict[str, set[float]](set)
+    for side in (-1, 1):
+        for k in range(side, side * _NEARBY, side):
+            head, cell = (sheet, row + k, label_column), (sheet, row + k, column)
+            if label_row < row:
+                head, cell = (sheet, label_row, column + k), (sheet, row, column + k)
+            name, value = values.get(head), values.get(cell)
+            if name is None and value is None:
+                break  # beyond a blank stands something else
+            roles = input_roles(name, None) if isinstance(name, str) else frozenset[str]()
+            if isinstance(value, str):
+                role, value = number_in(value)
+                roles = frozenset({role}) if role else roles
+            if len(roles) == 1 and isinstance(value, float) and math.isfinite(value):
+                numbers[next(iter(roles))].add(value)
     return {role: values.pop() for role, values in numbers.items() if len(values) == 1}
 
 
