@@ -200,10 +200,8 @@ class Examination:
         What is `found` is what that cell holds, unless something else is given.
         """
         shown = self.calculation.values.get(cells[0]) if found is None else found
-        difference = Difference(
-            kind, tuple(cells), expected, shown, text, self.rank(cells[0]), change
-        )
-        self.differences.append(difference)
+        fault = kind, tuple(cells), expected, shown, text, self.rank(cells[0]), change
+        self.differences.append(Difference(*fault))
 
     def line(self, part: str) -> Line:
         """The column that shows a part of the scheme."""

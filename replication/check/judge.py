@@ -70,9 +70,7 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
         each_cell(f)
         _taken_otherwise(f)
         _typed_inputs(f)
-        _typed_columns(f)
-        _typed_start(f)
-        _texts(f)
+        _typed_numbers(f)
         order(f)
     else:
         _as_rounded(f)
@@ -283,10 +281,8 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
         return
     taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
     where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
-    text = (
-        f"the rows take {taken} for the target resistance, {times} times the flow stress; "
-        f"beta is {beta.si:g} in {where}"
-    )
+    text = f"the rows take {taken} for the target resistance, {times} times the flow stress; "
+    text += f"beta is {beta.si:g} in {where}"
     change = _changed("resistance", used.si, 1.0)
     f.intended = f.intended.with_input("resistance", stated)
     f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
@@ -480,31 +476,29 @@ def _typed_inputs(f: Examination) -> None:
             _lost(f, entry.role, cells, entry.place)
 
 
-def _typed_columns(f: Examination) -> None:
-    """Columns of the scheme that are typed as a whole, where another one calculates."""
-    cells = {role: f.cells(role, 1) for role in ORDER if role in f.table.lines}
-    typed = [role for role in cells if not f.calculation.formulas.keys() & set(cells[role][1:])]
-    for role in typed if len(typed) < len(cells) else ():
+def _typed_numbers(f: Examination) -> None:
+    """Numbers that are typed where the rest is computed: whole columns, first cells, and texts."""
+    formulas, roles = f.calculation.formulas, [role for role in ORDER if role in f.table.lines]
+    cells = {role: f.cells(role, 1) for role in roles}
+    typed = [role for role in roles if not formulas.keys() & set(cells[role][1:])]
+    for role in typed if len(typed) < len(roles) else ():
         if not f.accused.intersection(cells[role]):
             lost = "a change of an input changes nothing there"
             text = f"{title(role)} is typed in every row: {lost}"
             f.add("typed number", cells[role], None, text)
-
-
-def _typed_start(f: Examination) -> None:
-    """A first velocity or depth that is typed: its inputs have cells, and the rest is computed."""
-    formulas = f.calculation.formulas
     rests_on = {"velocity_initial": ["velocity"], "depth": ["velocity", "step"]}
-    for role, of in rests_on.items():
-        if role not in f.table.lines:
-            continue
-        place, cells = f.table.place(role, 1), [f.inputs[name].place for name in of]
-        known = [cell for cell in cells if cell and cell not in f.table.places]
+    for role in (role for role in roles if role in rests_on):
+        place, sources = cells[role][0], [f.inputs[name].place for name in rests_on[role]]
+        known = [cell for cell in sources if cell and cell not in f.table.places]
         is_typed = place not in formulas and f.table.place(role, 2) in formulas
-        if known == cells and is_typed and place not in f.accused and f.calculation.number(place):
+        if known == sources and is_typed and place not in f.accused and f.calculation.number(place):
             lost = " or ".join(address(cell, cell[0] != place[0]) for cell in known)
             text = f"it is typed as a number: a change of {lost} is lost here"
             f.add("typed number", [place], None, text)
+    texts = f.calculation.texts
+    for place in sorted((texts.keys() & (f.read | f.table.places.keys())) - f.accused):
+        text = "it is a text, not a number: not every program calculates with it"
+        f.add("typed number", [place], float(texts[place]), text, repr(texts[place]))
 
 
 def _blanks(f: Examination) -> None:
@@ -524,15 +518,6 @@ def _blanks(f: Examination) -> None:
         for place, role in blanks.items():
             text = f"{title(role)} is blank, which the formulas take for 0"
             f.add("odd formula", [place], None, text, change=_changed(role, 0.0, 0.0))
-
-
-def _texts(f: Examination) -> None:
-    """Numbers that stand as texts in cells that the rows read."""
-    cells = f.calculation.texts.keys() & (f.read | f.table.places.keys())
-    for place in sorted(cells - f.accused):
-        text = f.calculation.texts[place]
-        says = "it is a text, not a number: not every program calculates with it"
-        f.add("typed number", [place], float(text), says, repr(text))
 
 
 def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) -> bool:

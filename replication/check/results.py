@@ -51,9 +51,8 @@ def misread(tables: Sequence[Examination]) -> None:
     calculation, wrong = tables[0].calculation, set[Position]()
     results = {result.place: result for f in tables for result in f.table.labelled}
     said = _said(tables, results.values()) if len(tables) > 1 else {}
-    for place in sorted(
-        {*calculation.formulas, *results}, key=lambda p: calculation.order.get(p, -1)
-    ):
+    order = calculation.order
+    for place in sorted({*calculation.formulas, *results}, key=lambda p: order.get(p, -1)):
         follows = any(area.corner in wrong for area in calculation.areas(place))
         here = results.get(place)
         if follows or (here and _is_wrong(tables, here, said.get(place, {}))):

@@ -263,10 +263,9 @@ def _lines(record: Record) -> Iterator[str]:
         )
         for claim in shown[:_MOST]
     ]
-    met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
     if claims:
-        yield from ("", f"Of the report's printed numbers it holds {met}")
-    yield from aligned(rows) if rows else ()
+        met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
+        yield from ("", f"Of the report's printed numbers it holds {met}", *aligned(rows))
     yield from _list("", [], len(shown))
 
 

@@ -74,11 +74,8 @@ class Check:
     @property
     def first(self) -> Difference | None:
         """The fault from which, in order of calculation, the rest follow: not from last digits."""
-        return min(
-            self.causes or self.faults,
-            key=lambda d: (d.kind == "operation order", d.rank),
-            default=None,
-        )
+        faults = self.causes or self.faults
+        return min(faults, key=lambda d: (d.kind == "operation order", d.rank), default=None)
 
 
 def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
@@ -375,16 +372,12 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
         off = abs(stored - value)
         if off <= max(calculation.book.resolution, _STALE * abs(value)):
             return False
-        return not any(
-            off <= _STALE * max(abs(number) for number in line.values if number is not None)
-            for line in lines
-            if line.covers(place)
-            or any(
-                area.covers(line.place(at))
-                for area in calculation.formulas[place].areas
-                for at in (line.first + 1, line.last)
-            )
-        )
+        for line in lines:
+            ends = (line.place(at) for at in (line.first + 1, line.last))
+            read = any(area.covers(end) for end in ends for area in calculation.areas(place))
+            if (read or line.covers(place)) and off <= _STALE * max(map(abs, line.numbers)):
+                return False
+        return True
 
     shapes = {place: f.shape for place, f in calculation.formulas.items() if is_stale(place)}
     for run in runs(shapes, tables[0].across):
