@@ -556,13 +556,6 @@ def _plain(value: float) -> bool:
 # ---- which scheme the table follows, rule by rule, by what most of its rows do
 
 
-def _is_explained(f: Examination, part: str) -> bool:
-    """Whether it is known already why the rows do not follow a rule of the scheme."""
-    place = f.table.place(*f.rows.shows(part, 3))
-    read = {place, *(area.corner for area in f.calculation.areas(place))}
-    return any(line.covers(p) for p in f.accused & read for line in f.table.every_line)
-
-
 def _scheme(f: Examination) -> None:
     """The rules that most rows follow, and a difference for each that is not the report's."""
     chosen = {"start": REPORT["start"]}
@@ -582,7 +575,11 @@ def _scheme(f: Examination) -> None:
         beside = wrong_beside(f) if part == "brake" and best != BEYOND else None
         line = beside.line if beside else f.line(part)
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, f.table))
-        if is_mixed or ((best != published or shares[best] < 0.5) and _is_explained(f, part)):
+        # Or it is known already why the rows do not follow.
+        place = f.table.place(*f.rows.shows(part, 3))
+        read = {place, *(area.corner for area in f.calculation.areas(place))} & f.accused
+        known = any(line.covers(cell) for cell in read for line in f.table.every_line)
+        if is_mixed or (known and (best != published or shares[best] < 0.5)):
             continue
         if shares[best] < 0.5:
             unknown.append(part)
@@ -596,35 +593,30 @@ def _scheme(f: Examination) -> None:
         if deeper > flat and deeper >= brake:
             chosen["brake"] = replace(BEYOND, says="")
     f.rows = replace(f.rows, rules=REPORT | chosen)
-    for part in unknown:
-        first, cells, wanted = _from_first_unlike(f, part)
-        kind, text, line = _cause(f, part)
-        if not line.covers(cells[0]):  # a column beside it, which it reads
-            rows, wanted = range(first, f.table.steps + 1), None
-            cells = [*(line.place(f.table.zero + k) for k in rows), *cells]
-        f.add(kind, cells, wanted, text)
-    _named(f)
+    _accuse(f, unknown)
 
 
-def _from_first_unlike(f: Examination, part: str) -> tuple[int, list[Position], float | None]:
-    """The first row unlike the report's, the cells from there on, what the first should hold."""
-    filled, first = PARTS[part]
-    judged = range(first, f.table.steps)
-    first = next((k for k in judged if not f.follows(part, REPORT[part], k)), first)
-    role, at = f.rows.shows(part, first)
-    wanted = replace(f.rows, rules=REPORT).wanted(role, at) if role == filled else None
-    return first, f.cells(role, at), f.shown(role, wanted)
-
-
-def _named(f: Examination) -> None:
-    """A difference for each rule that is not the report's."""
-    for part, rule in f.rows.others.items():
-        _, cells, wanted = _from_first_unlike(f, part)
+def _accuse(f: Examination, unknown: Sequence[str] = ()) -> None:
+    """A difference for each part of the scheme that follows another rule, or none that is known."""
+    for part in (*unknown, *f.rows.others):
+        filled, first = PARTS[part]
+        judged = range(first, f.table.steps)
+        first = next((k for k in judged if not f.follows(part, REPORT[part], k)), first)
+        role, at = f.rows.shows(part, first)
+        wanted = replace(f.rows, rules=REPORT).wanted(role, at) if role == filled else None
+        cells, shown = f.cells(role, at), f.shown(role, wanted)
+        if part in unknown:
+            kind, text, line = _cause(f, part)
+            if not line.covers(cells[0]):  # a column beside it, which it reads
+                rows, shown = range(first, f.table.steps + 1), None
+                cells = [*(line.place(f.table.zero + k) for k in rows), *cells]
+            f.add(kind, cells, shown, text)
+            continue
+        rule = f.rows.rules[part]
         cells = cells[:1] if part == "start" else cells
         if part == "brake" and (beside := wrong_beside(f)):
-            cells, wanted = [*beside.cells.values()], None
-        text = f"{rule.name}: {rule.says}"
-        f.add("other scheme", cells, wanted, text, change={part: rule})
+            cells, shown = [*beside.cells.values()], None
+        f.add("other scheme", cells, shown, f"{rule.name}: {rule.says}", change={part: rule})
 
 
 def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
@@ -696,7 +688,7 @@ def _as_rounded(f: Examination) -> None:
             tried.append((list(_misprints(f, run)), rules))
     misprints, rules = min(tried, key=lambda each: len(each[0]))
     f.rows = replace(f.rows, rules=rules)
-    _named(f)
+    _accuse(f)
     for role, k, expected in misprints:
         text = f"{title(role)} of row {k} is not what the scheme gives"
         f.add("typed number", [f.table.place(role, k)], expected, text)
@@ -735,22 +727,20 @@ def _stop(f: Examination) -> None:
     if not finals or steps in (below, planned):
         return  # with as many rows as there should be, where they end follows from the rest
     role = "velocity_final" if "velocity_final" in f.table.lines else "velocity_initial"
-    stop = f"the stop at {case.stop_velocity:g} m/s"
-    text = f"the rows end at {finals[max(finals)]:.4g} m/s, {{}} {stop}"
+    end, stop = f"{finals[max(finals)]:.4g} m/s", f"the stop at {case.stop_velocity:g} m/s"
     if below is not None:
         guarded = f.calculation.book[f.table.place(role, below)].formula or ""
         if "IF(" not in guarded.upper() and _end_as_shown(f, below, planned):
             return
-        cells = f.cells(role, below + 1)
-        text = f"other stop: {text.format('after')}"
-        f.add("other scheme", cells, None, text, change=OTHER_STOP)
+        text = f"other stop: the rows end at {end}, after {stop}"
+        f.add("other scheme", f.cells(role, below + 1), None, text, change=OTHER_STOP)
         return
     run = march(case, rows.rules)["velocity_final"]
     whole = max(run, default=0)
     if whole <= steps or (run[whole] >= case.stop_velocity and whole < MOST_ROWS):
         return  # the rules that the rows follow do not lead to the stop by themselves
     of = f"{whole:,}" if whole < MOST_ROWS else f"more than {MOST_ROWS:,}"
-    text = f"{text.format('before')}: {steps} of {of} steps"
+    text = f"the rows end at {end}, before {stop}: {steps} of {of} steps"
     # With other inputs, or the report's other beta, rows prepared for those before run out; an
     # excerpt has few, none of which is called the final depth. But who leaves off shortly before
     # the report does stops at another velocity.
@@ -804,10 +794,9 @@ def _effects(f: Examination) -> None:
 
 def _effect(f: Examination, difference: Difference, steps: int) -> float | None:
     """The final depth that a difference alone would give, after so many steps."""
-    change, fixed = difference.change, {}
-    rules, case = REPORT, f.intended
-    if not f.rows.rules["brake"].says:
-        rules = rules | {"brake": f.rows.rules["brake"]}
+    change, fixed, case = difference.change, {}, f.intended
+    brake = f.rows.rules["brake"]
+    rules = REPORT if brake.says else REPORT | {"brake": brake}
     if callable(change):
         case = change(case)
     elif change is not None:
