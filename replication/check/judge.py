@@ -247,7 +247,7 @@ def _halved(f: Examination, radius: Input) -> list[Position]:
 def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
     """A radius that is computed from the diameter, through cells, against half of that."""
     radius, diameter = f.inputs["radius"], f.derived["diameter"]
-    wanted, ratio = diameter.si / 2, radius.si / diameter.si * 2
+    ratio = radius.si / diameter.si * 2
     simple = all(len(f.calculation.areas(place)) == 1 for place in cells[:-1])
     # Half of it in another unit, the diameter itself, or a quarter of it.
     power, *powers = map(power_of_ten, (ratio, ratio / 2, ratio * 2))
@@ -261,7 +261,7 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
             break
     held = f.following(f.case.holding("diameter", diameter.si))
     f.rows = max(f, held, key=Examination.agreement).rows
-    f.intended = f.intended.with_input("radius", wanted)
+    f.intended = f.intended.with_input("radius", diameter.si / 2)
     named = title("radius") if place == cells[0] else "this diameter"
     says = f"is {times_too(power)} for" if power else "does not follow from"
     text = f"{named} {says} {title('diameter')} in {address(cells[-1])}"
@@ -487,8 +487,10 @@ def _typed_numbers(f: Examination) -> None:
             text = f"{title(role)} is typed in every row: {lost}"
             f.add("typed number", cells[role], None, text)
     rests_on = {"velocity_initial": ["velocity"], "depth": ["velocity", "step"]}
-    for role in (role for role in roles if role in rests_on):
-        place, sources = cells[role][0], [f.inputs[name].place for name in rests_on[role]]
+    for role, of in rests_on.items():
+        if role not in roles:
+            continue
+        place, sources = cells[role][0], [f.inputs[name].place for name in of]
         known = [cell for cell in sources if cell and cell not in f.table.places]
         is_typed = place not in formulas and f.table.place(role, 2) in formulas
         if known == sources and is_typed and place not in f.accused and f.calculation.number(place):
@@ -623,8 +625,8 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     """What else explains a column that follows no rule known here: a constant factor, and where."""
     beside = wrong_beside(f) if part == "brake" else None
     column = beside.line if beside else f.line(part)
-    pairs = [_increment(f, part, k) for k in range(PARTS[part][1], f.table.steps + 1)]
-    ratios = [actual / wanted for actual, wanted in filter(None, pairs) if wanted]
+    rows = range(PARTS[part][1], f.table.steps + 1)
+    ratios = [ratio for k in rows if (ratio := _ratio(f, part, k)) is not None]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(near(each, ratio) for each in ratios) < 0.5 * len(ratios):
         for slip in (3, -3, 6, -6) if part == "brake" else ():
@@ -654,16 +656,16 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
     return "other scheme", f"every {what} is {named} times that of the report's scheme", column
 
 
-def _increment(f: Examination, part: str, k: int) -> tuple[float, float] | None:
-    """What a row adds to the one before, and what it would add by the report's rule."""
+def _ratio(f: Examination, part: str, k: int) -> float | None:
+    """What a row adds to the one before, over what it would add by the report's rule."""
     rows = replace(f.rows, rules=REPORT)
     role, at = rows.shows(part, k)
     before = {"deceleration": 0.0, "depth": rows("depth", k - 1)}
     start = before.get(role, rows("velocity_initial", k))
     actual, wanted = rows(role, at), rows.wanted(role, at)
-    if start is None or actual is None or wanted is None:
+    if start is None or actual is None or wanted is None or wanted == start:
         return None
-    return actual - start, wanted - start
+    return (actual - start) / (wanted - start)
 
 
 def _as_rounded(f: Examination) -> None:

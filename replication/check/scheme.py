@@ -89,11 +89,6 @@ class Rows:
         """The rules by part that are not the report's."""
         return {part: rule for part, rule in self.rules.items() if rule.says}
 
-    @property
-    def scheme(self) -> str:
-        """The scheme by name."""
-        return " and ".join({rule.name: 0 for rule in self.others.values()}) or "the report's"
-
     def __getitem__(self, cell: tuple[str, int]) -> float:
         """The number in a role and row. Raises KeyError if there is none."""
         role, k = cell

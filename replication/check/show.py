@@ -108,7 +108,6 @@ def _finite(record: Record) -> Record:
 
 
 def _verdict(check: Check) -> str:
-    """One sentence for all of it."""
     causes, faults = check.causes, check.faults
     if not faults:
         others = sum(d.kind == "other input" for d in check.differences)
@@ -152,13 +151,12 @@ def _depth(f: Examination) -> Record:
 
 
 def _taken(f: Examination) -> Record:
-    """What was taken for what."""
-    table = f.table
+    table, names = f.table, dict.fromkeys(rule.name for rule in f.rows.others.values())
     return {
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": f.rows.scheme,
+        "scheme": " and ".join(names) or "the report's",
         "columns": {
             role: {"cells": table.area(role), "head": line.head,
                    "unit": unit_text(role, f.powers[role]),
@@ -270,7 +268,6 @@ def _lines(record: Record) -> Iterator[str]:
 
 
 def _table(taken: Record) -> Iterator[str]:
-    """One table: its columns and its inputs."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
     sheet = repr(safe(taken["sheet"], 40))
@@ -298,7 +295,6 @@ _WAYS = {
 
 
 def _by(how: str, said: str) -> str:
-    """How something is known."""
     if how == "follows":
         return f"follows from {said}"
     return _WAYS.get(how) or f"{how} {safe(said, 40)!r}"
