@@ -62,10 +62,8 @@ class Difference:
         cells = span(cell[1:] for cell in self.cells)
         if len(self.cells) != area or len(sheets) > 1:
             cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
-        expected, found = (
-            str(value).upper() if isinstance(value, bool) else value
-            for value in (self.expected, self.found)
-        )
+        values = self.expected, self.found
+        expected, found = (str(x).upper() if isinstance(x, bool) else x for x in values)
         return {
             "sheet": self.place[0], "cell": address(self.place), "kind": self.kind,
             "expected": expected, "found": found, "explanation": self.explanation,

@@ -178,11 +178,8 @@ def _unconverted(f: Examination, entry: Input, value: float, power: int) -> None
     expected: float | None = scaled(entry.si, Fraction(10) ** -power / entry.factor)
     cells, taken = [entry.place], f"{quantity(value, entry.role)}, {times_too(power)}"
     text = f"the formulas take {title(entry.role)} as {taken}"
-    readers = [
-        place
-        for place in sorted(f.read | f.table.places.keys(), key=f.rank)
-        if entry.place in (area.corner for area in f.calculation.areas(place))
-    ]
+    ranked = sorted(f.read | f.table.places.keys(), key=f.rank)
+    readers = [p for p in ranked if any(a.corner == entry.place for a in f.calculation.areas(p))]
     if entry.unit and readers:
         text += f": {address(entry.place)} is in {entry.unit}"
         columns = {place: f.table.places.get(place, ("",))[0] for place in readers}

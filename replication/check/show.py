@@ -343,16 +343,12 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
     environment.filters |= {"safe": safe, "contents": contents, "unit": written}
     sheets = list(calculation.book.sheets)
     marked = {d.place[0] for d in differences}
+    anchors = [_anchor(d.place, sheets) for d in differences]
     return environment.get_template("page.html.j2").render(
         record,
         style=Markup(style),  # noqa: S704  (our own file)
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-        numbered=[
-            (number, shown, _anchor(difference.place, sheets))
-            for number, (shown, difference) in enumerate(
-                zip(record["differences"], differences, strict=True), 1
-            )
-        ],
+        numbered=list(zip(range(1, len(anchors) + 1), record["differences"], anchors, strict=True)),
         sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
     )
 

@@ -165,10 +165,8 @@ def _named_line(given: str, where: str, area: Area, calculation: Calculation) ->
     line = replace(line, first=cells[0][0], values=values).headed()
     wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
     if line.unit and not same_dimension(line.unit, wanted):
-        raise ValueError(
-            f"--map {given}: the head of these cells gives {line.unit}, a unit of something else "
-            f"than {wanted}"
-        )
+        gives = f"the head of these cells gives {line.unit}"
+        raise ValueError(f"--map {given}: {gives}, a unit of something else than {wanted}")
     return line
 
 
