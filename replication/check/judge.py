@@ -422,9 +422,8 @@ def _other_inputs(f: Examination) -> None:
                 text += f"; {value} is {title(name)} there"
         kind, change = "other input", None
         power = power_of_ten(entry.si / nearest) or 0
-        if len(off) > 1 and abs(power) < 6:
-            power = 0  # a step of 0.2 ps may be chosen
-        if power and between_units(power, role, surely=True):
+        may_be_chosen = len(off) > 1 and abs(power) < 6  # such as a step of 0.2 ps
+        if power and between_units(power, role, surely=True) and not may_be_chosen:
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, entry.si, entry.si / nearest)
             f.intended = f.intended.with_input(role, nearest, nearest / entry.si)

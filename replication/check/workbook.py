@@ -320,8 +320,7 @@ def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[H
         if kind == "ratio" and not f.table.gives_depth(place) and _is_another_ratio(f, place):
             continue
         if kind == "ratio" or unit:
-            factor = to_si(unit or "1")
-            yield _judged(f"{kind}-{case}", place, Fraction(value) * factor)
+            yield _judged(f"{kind}-{case}", place, Fraction(value) * to_si(unit or "1"))
         elif depth and value:
             power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit may be another
             yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
