@@ -256,8 +256,8 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
         if not near(scaled(f.calculation.number(between) or 0.0, unit), diameter.si):
             place, factor = between, unit
             break
-    held = f.following(f.case.holding("diameter", diameter.si))
-    f.rows = max(f, held, key=Examination.agreement).rows
+    by_diameter = f.following(f.case.holding("diameter", diameter.si))
+    f.rows = max(f, by_diameter, key=Examination.agreement).rows
     f.intended = f.intended.with_input("radius", diameter.si / 2)
     named = title("radius") if place == cells[0] else "this diameter"
     says = f"is {times_too(power)} for" if power else "does not follow from"
