@@ -105,13 +105,6 @@ def test_spans_of_any_sign_reach_from_end_to_end(xs: tuple[F, F], ys: tuple[F, F
     assert (ar.below(x, y) is not False) >= (x0 < y1)
 
 
-@pytest.mark.parametrize("value", [F(1, 3), F(-7, 2), 10**60 + 1, -(10**60) - 1, F(10**60, 3**99)])
-def test_a_number_lies_in_its_ball_and_rounds_outwards(value: Any) -> None:
-    low, high = Intervals(10).ends(Intervals(10).number(value))
-    assert low <= value <= high
-    assert high - low <= abs(value) / 10**9
-
-
 @settings(max_examples=40)
 @given(st.tuples(*[st.fractions(0, F(2, 3), max_denominator=10**6)] * 2))
 def test_cap_roots_are_verified_and_tight(ends: tuple[F, F]) -> None:
@@ -154,10 +147,9 @@ test_what_single_calls_give = calls(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("ar", [Reals(20), Rationals(), Floats()], ids=lambda ar: type(ar).__name__)
-def test_points_have_no_hull(ar: Any) -> None:
+def test_points_have_no_hull() -> None:
     with pytest.raises(ValueError, match="too many"):
-        ar.hull([ar.number(1), ar.number(2)])
+        Floats().hull([1.0, 2.0])
 
 
 def test_global_precision_is_left_alone() -> None:

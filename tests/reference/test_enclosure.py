@@ -12,7 +12,7 @@ from kept import calls
 
 from reference import enclosure
 from reference.arithmetic import Rationals
-from reference.enclosure import Box, Constraint, enclose, satisfying, solve
+from reference.enclosure import Box, enclose, satisfying, solve
 from reference.printed import Interval
 
 EXACT = Rationals()
@@ -146,16 +146,13 @@ def test_solutions_are_inside_and_nothing_else_is(
 # Several inputs
 
 
-def constraints(*pairs: tuple[Any, Any, Any]) -> list[Constraint]:
-    return [(function, Interval(F(low), F(high))) for function, low, high in pairs]
-
-
-def found(*given_: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
+def found(*asked: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
     """What a search for a point comes to; what is found meets every constraint."""
-    outcome, point = satisfying(constraints(*given_), box, budget)
+    constraints = [(function, Interval(F(low), F(high))) for function, low, high in asked]
+    outcome, point = satisfying(constraints, box, budget)
     assert (outcome is True) == (point is not None)
     if point is not None:
-        assert all(target.contains(f(EXACT, **point)) for f, target in constraints(*given_))
+        assert all(target.contains(f(EXACT, **point)) for f, target in constraints)
     return outcome
 
 

@@ -228,7 +228,8 @@ def richardson(order: int, ratio: float, assumed: int) -> dict[str, float]:
 
 def regime(order: float, *parts: float) -> str:
     """What governs an error of which these parts are known; ladders of `said.txt` have others."""
-    return ladder.regime(1.0, dict(zip(ladder._PARTS, parts, strict=True)), order, 1)
+    names = ("time_step", "stop_rule", "half_step", "rounding")
+    return ladder.regime(1.0, dict(zip(names, parts, strict=True)), order, 1)
 
 
 test_what_a_ladder_tells = calls(
@@ -257,9 +258,17 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
 
 
 @pytest.mark.parametrize("name", hard_cases.HARD_CASES)
-def test_the_closed_form_holds_in_hard_cases(name: str) -> None:
+def test_the_closed_form_holds_in_hard_cases_and_an_ulp_is_seen(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The sheets beside it, their warnings and the refusals stand in `said.txt`."""
-    assert abs(hard_cases.outcome(name)["ulps"] or 0) <= 4
+    if (ulps := hard_cases.outcome(name)["ulps"]) is not None:
+        assert abs(ulps) <= 4
+        monkeypatch.setattr(
+            hard_cases, "final_depth", lambda **case: math.nextafter(final_depth(**case), math.inf)
+        )
+        # An ulp doubles at powers of two.
+        assert hard_cases.outcome(name)["ulps"] - ulps == pytest.approx(1, abs=0.51)
 
 
 def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
@@ -268,9 +277,3 @@ def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
     assert 0.5 < abs(worst["ulps"]) <= 4, "and the measure is alive"
 
 
-def test_the_measure_of_ulps_sees_an_error() -> None:
-    for case in hard_cases.random_cases(200, seed=3):
-        depth = final_depth(**case)
-        before = hard_cases._ulps(depth, case)
-        after = hard_cases._ulps(math.nextafter(depth, math.inf), case)
-        assert after - before == pytest.approx(1, abs=0.51)  # an ulp doubles at powers of two
