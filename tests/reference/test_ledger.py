@@ -177,9 +177,15 @@ def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> Non
         assert LEDGER.claims.keys() >= set(slip.inputs.values())
 
 
-def test_a_misspelt_key_is_refused() -> None:
-    with pytest.raises(msgspec.ValidationError, match="unknown field `reasons`"):
-        msgspec.convert({"says": "any", "equals": "R", "reasons": "any"}, Condition)
+def test_a_misspelt_key_or_convention_is_refused() -> None:
+    piece = {"says": "yes", "means": "-"}
+    for kind, table in (
+        (Condition, {"says": "any", "equals": "R", "reasons": "any"}),
+        (Assertion, piece | {"under": {"roundnig": "cut off"}}),
+        (Assertion, piece | {"under": {"rounding": "cut"}}),
+    ):
+        with pytest.raises(msgspec.ValidationError, match=r"reasons|under"):
+            msgspec.convert(table, kind)
 
 
 # The findings as asserted: their words, their numbers, and what they name

@@ -63,21 +63,15 @@ def test_the_original_mends_what_a_misprint_spoils(question: str, answer: str) -
     assert "; ".join(told) == answer
 
 
-def repaired() -> Ledger:
-    """The report with the factor of Eq. 16 and both values as derived."""
-    return (
-        LEDGER.misprint("eq16-denominator", "1")
-        .misprint("frank-zook-rha", "0.255")
-        .misprint("frank-zook-stainless", "0.300")
-    )
-
-
 def test_a_report_without_its_faults_has_none_and_one_fault_is_found_as_the_culprit() -> None:
-    sound = audit(repaired())
+    repaired = LEDGER.misprint("eq16-denominator", "1")
+    for name, derived in zip(PAIR, ("0.255", "0.300"), strict=True):
+        repaired = repaired.misprint(name, derived)
+    sound = audit(repaired)
     assert sound.counts.failing == 0
     assert sound.culprit is None
     assert sound.headline == "0 numbers fail.", "the usual one has lost its evidence"
-    spoiled = audit(repaired().misprint("fz-kt", "1.406"))
+    spoiled = audit(repaired.misprint("fz-kt", "1.406"))
     assert spoiled.culprit is not None
     assert (spoiled.culprit.entry, spoiled.culprit.text) == ("fz-kt", "1.046")
     assert set(spoiled.failing) == set(PAIR)

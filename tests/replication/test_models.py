@@ -11,6 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from kept import calls, kept
+from scipy.optimize import brentq
 
 from reference.arithmetic import Reals
 from reference.motion import Trajectory, sheet_rows
@@ -192,12 +193,10 @@ def test_histories_go_on_until_rest(case: tuple[float, ...], shares: list[float]
 @pytest.mark.parametrize("crossing", [1 - 1e-9, 1 - 1e-15, 1.0, 1 + 1e-15, 1 + 1e-9, 1.5])
 def test_motions_that_barely_cross_the_radius(crossing: float) -> None:
     # By its resistance a case is made to rest at y = crossing, there to 1e-14 of itself.
-    low, high = 1e6, 1e12
-    for _ in range(80):
-        middle = (low + high) / 2
-        deep = normalized_depth(500.0, 8900.0, 7850.0, middle) > crossing
-        low, high = (middle, high) if deep else (low, middle)
-    case = (500.0, 11e-6, 8900.0, 7850.0, high)
+    resistance = brentq(
+        lambda R_t: normalized_depth(500.0, 8900.0, 7850.0, R_t) - crossing, 1e6, 1e12, xtol=1e-6
+    )
+    case = (500.0, 11e-6, 8900.0, 7850.0, resistance)
     for share in (0.7, 0.1, 1e-3, 1e-9):
         check_history(case, share)
 
@@ -275,5 +274,3 @@ def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
     worst = hard_cases.worst_of(100_000, seed=1)
     assert worst["skipped"] == 0
     assert 0.5 < abs(worst["ulps"]) <= 4, "and the measure is alive"
-
-

@@ -30,7 +30,7 @@ from pages import HTML, SVG, sound
 
 from reference.ledger import load
 from reference.motion import Trajectory
-from reference.printed import parse
+from reference.printed import Interval, parse
 from replication import report
 from replication import text as texts
 from replication.audit import comparison
@@ -70,8 +70,6 @@ def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> 
 
 # What is checked by hand
 
-LINE = re.compile(r"^(?P<left>.+) = (?P<right>[-\d.]+)$")
-
 
 def arithmetic(text: str) -> float:
     """The value of a line as it stands on the page."""
@@ -87,22 +85,11 @@ def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
     lines = [line for text in by_hand for line in text.split("; ")]
     assert len(lines) == 6
     for line in lines:
-        match = LINE.match(line)
-        assert match is not None, line
-        interval = parse(match["right"]).interval()
-        value = F(arithmetic(match["left"]))
+        left, _, right = line.rpartition(" = ")
+        value = F(arithmetic(left))
         # The last line multiplies numbers that stand there with five digits.
         slack = value / 10**4 if line is lines[2] or line is lines[5] else 0
-        assert interval.meets(type(interval)(value - slack, value + slack)), line
-
-
-def test_numbers_and_symbols_are_marked_as_such(record: Record) -> None:
-    formulas = [equation.mathml for equation in record.equations]
-    formulas += [claim.mathml for claim in record.claims if claim.mathml]
-    for formula in formulas:
-        bare = re.sub("<msub>.*?</msub>", "", formula)
-        for tag, text in re.findall(r"<(m[ni])>([^<]+)</m[ni]>", bare):
-            assert (tag == "mn") == text[0].isdigit(), text
+        assert parse(right).interval().meets(Interval(value - slack, value + slack)), line
 
 
 def test_what_no_source_has_or_more_than_one_is_refused_by_name() -> None:
@@ -134,18 +121,15 @@ ELSEWHERE = (
 @pytest.mark.slow
 def test_an_audit_elsewhere_has_the_same_bytes(tmp_path: Path) -> None:
     folders = []
-    for number, environment in enumerate(ELSEWHERE):
-        folder = tmp_path / str(number) / "here"
-        folder.mkdir(parents=True)
+    for environment in ELSEWHERE:
+        folder = tmp_path / environment["PYTHONHASHSEED"]
+        folder.mkdir()
         command = [sys.executable, "-m", "replication", "audit", "--quiet", "--out", "out"]
         subprocess.run(command, cwd=folder, env={**os.environ, **environment}, check=True)
-        folders.append({p.relative_to(folder): p.read_bytes() for p in folder.rglob("*.*")})
+        folders.append({str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.*")})
     first, second = folders
-    assert {path.name for path in first} >= {
-        "audit.json", "audit.html", "audit.md", "audit.csv", "workbook.xlsx", "hard-cases.txt",
-    }  # fmt: skip
-    assert [str(path) for path in first if first[path] != second.get(path)] == []
-    assert set(first) == set(second)
+    assert "out/audit.json" in first
+    assert {path for path in {*first, *second} if first.get(path) != second.get(path)} == set()
 
 
 # What the depth depends on, and what scatter does to it
@@ -193,22 +177,13 @@ def test_quantiles_of_each_law(record: Record) -> None:
     sizes = NormalDist(22, 5.6)
     for law, power in (("Eq. 1", 1.5), ("drag on a sphere", 0.5)):
         points = laws[law]
-        for share, velocity, own in zip(
-            points.shares, points.velocities, points.ratios, strict=True
-        ):
-            size = sizes.inv_cdf(1 - share)
-            assert velocity == pytest.approx(500 * (22 / size) ** power, rel=1e-14)
-            assert own == ratio(replace(BETA_5, velocity=velocity))
+        sized = [500 * (22 / sizes.inv_cdf(1 - share)) ** power for share in points.shares]
+        assert points.velocities == pytest.approx(sized, rel=1e-14)
+        assert points.ratios == [ratio(replace(BETA_5, velocity=v)) for v in points.velocities]
         small = 22 - 1e-4, 22 + 1e-4  # the law's own slope at the mean size
         faster, slower = (500 * (22 / size) ** power for size in small)
         slope = (faster - slower) / (small[1] - small[0])
         assert laws[law].standard_deviation == pytest.approx(slope * 5.6, rel=1e-9)
-
-
-def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
-    curve = record.velocity_curve
-    ends = ("figure-5-velocity-least", "figure-5-velocity-greatest")
-    assert [curve.velocity[0], curve.velocity[-1]] == [float(LEDGER.value(end)) for end in ends]
 
 
 # The files
@@ -243,8 +218,7 @@ def test_headings_landmarks_tables_and_pictures_are_named(root: ET.Element) -> N
     assert next(root.iter(f"{HTML}html")).get("lang") == "en"
     heads = [e.tag for e in root.iter() if re.fullmatch(rf"{re.escape(HTML)}h[1-6]", e.tag)]
     levels = [int(tag[-1]) for tag in heads]
-    assert levels[0] == 1
-    assert levels.count(1) == 1
+    assert (levels[0], levels.count(1)) == (1, 1)
     assert all(after <= before + 1 for before, after in pairwise(levels))
     assert all(len(list(root.iter(f"{HTML}{tag}"))) == 1 for tag in ("header", "nav", "main"))
     for table in root.iter(f"{HTML}table"):

@@ -212,22 +212,6 @@ def test_one_wrong_cell_is_enough(
         assert (result.version, result.cells, result.rounded) == ("1.0", 4, len(told) * good)
 
 
-@pytest.mark.parametrize(
-    ("engine", "outcome", "reason"),
-    [
-        (Fake(told=lambda *_: 41.0), "echoes", "It verifies nothing: it gives stored"),
-        (Fake(reason="Install it."), "missing", "Install it."),
-        (Fake(failure="out of luck"), "failed", "fake: out of luck"),
-    ],
-)
-def test_an_engine_that_gives_no_values(
-    tmp_path: Path, engine: Fake, outcome: str, reason: str
-) -> None:
-    result = verify(tmp_path / "w.xlsx", PLAN, EXPECTED, engine, long_doubles=BOUND)
-    assert (result.outcome, result.passed, result.cells) == (outcome, outcome == "missing", 0)
-    assert (result.reason or "").startswith(reason)
-
-
 def test_a_sheet_that_is_lost_or_new_is_seen(check: Callable[..., EngineCheck]) -> None:
     lost = {**EXPECTED, "Lost": {"A1": 1.0}}
     assert check({}, lost).wrong == [Difference("Lost", "A1", 1.0, None)]
