@@ -10,7 +10,6 @@ notices is printed with its change: it does no harm, or a test is missing.
 
 import argparse
 import ast
-import difflib
 import os
 import random
 import resource
@@ -53,12 +52,14 @@ def places(tree: ast.Module) -> list[tuple[ast.AST, str, object]]:
     return [(node, *change) for node in nodes if node not in left and (change := _change(node))]
 
 
-def mutant(source: str, number: int) -> str:
-    """A module with a change at one of its places."""
+def mutant(source: str, number: int) -> tuple[str, str]:
+    """A module with a change at one of its places, and what the change is."""
     tree = ast.parse(source)
     node, name, value = places(tree)[number]
+    before = ast.unparse(node)
     setattr(node, name, value)
-    return ast.unparse(tree)
+    first, then = (text.partition("\n")[0] for text in (before, ast.unparse(node)))
+    return ast.unparse(tree), f"line {node.lineno}: {first}  becomes  {then}"
 
 
 def _change(node: ast.AST) -> tuple[str, object] | None:
@@ -123,15 +124,12 @@ def main() -> None:
         modules = sorted({module for module, _ in chosen})
         if not all(pool.map(lambda m: survives(m, sources[m], options.seed), modules)):
             parser.exit(2, "A test fails without a mutant: nothing to learn.\n")
-        texts = [mutant(sources[module], number) for module, number in chosen]
-        alive = pool.map(lambda c, text: survives(c[0], text, options.seed), chosen, texts)
-        outcomes = zip(chosen, texts, alive, strict=True)
-        for done, ((module, _), text, lives) in enumerate(outcomes, start=1):
+        mutants = [(module, *mutant(sources[module], number)) for module, number in chosen]
+        alive = pool.map(lambda m: survives(m[0], m[1], options.seed), mutants)
+        for done, ((module, _, change), lives) in enumerate(zip(mutants, alive, strict=True), 1):
             killed += not lives
             if lives:
-                lines = (ast.unparse(ast.parse(sources[module])).split("\n"), text.split("\n"))
-                name = str(module.relative_to(ROOT))
-                print("\n".join(difflib.unified_diff(*lines, name, "mutant", "", "", 1, "")))
+                print(f"{module.relative_to(ROOT)}, {change}")
             print(f"{done} of {len(chosen)}: {killed} noticed", flush=True)
     print(f"{killed} of {len(chosen)} mutants noticed ({100 * killed / len(chosen):.1f} %)")
 

@@ -132,9 +132,6 @@ def test_a_root_that_is_off_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
             ar.cap_root(ar.number(F(1, 3)))
 
 
-# Single calls
-
-
 RATIOS = Ratios(["x", "y"])
 test_what_single_calls_give = calls(
     "reference/kept.txt",

@@ -143,9 +143,6 @@ def test_solutions_are_inside_and_nothing_else_is(
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
-# Several inputs
-
-
 def found(*asked: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
     """What a search for a point comes to; what is found meets every constraint."""
     constraints = [(function, Interval(F(low), F(high))) for function, low, high in asked]

@@ -17,8 +17,6 @@ from reference.formulas import FUNCTIONS
 from reference.ledger import Claim, load
 from reference.units import unit_dimension
 
-# The printed equations
-
 LEDGER = load()
 VALUES = {
     name: F(7 + 3 * k, 5 + 2 * k) if name != "n" else F(2) for k, name in enumerate(LEDGER.symbols)
@@ -58,8 +56,6 @@ def test_what_is_shown_reads_back_the_same(name: str) -> None:
         fractions = list(mathml.iter("mfrac")) + list(mathml.iter("msup"))
         assert all(len(part) == 2 for part in fractions)
 
-
-# How text is read
 
 LETTERS = {letter: letter for letter in "abdx"} | {r"\pi": "pi"}
 

@@ -25,8 +25,6 @@ from reference.units import same_dimension, to_si
 LEDGER = load()
 CLAIMS = list(LEDGER.claims.values())
 
-# The real ledger
-
 
 NUMBER = re.compile(
     r"\d+|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|half|halves|thirds?|quarters?"

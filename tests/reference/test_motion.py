@@ -1,7 +1,6 @@
 """The exact motion: its ends and its digits; `test_models.py` compares ours with it."""
 
 from fractions import Fraction as F
-from functools import cache
 from itertools import product
 
 import mpmath
@@ -14,17 +13,12 @@ DEEP = (F(1500), F(11, 10**6), F(8900), F(7850), F(21 * 10**8))
 CASES = {"ends below the radius": SHALLOW, "crosses the radius": DEEP}
 
 
-@cache
-def exact(case: str) -> Trajectory:
-    return Trajectory(*CASES[case], digits=30)
-
-
 CLOSE = mpmath.mpf(10) ** -25
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_ends_of_the_motion(case: str) -> None:
-    motion = exact(case)
+    motion = Trajectory(*CASES[case], digits=30)
     for share in (F(1, 1000), F(1, 3), F(999, 1000)):
         depth = motion.final_depth * motion.reals.number(share)
         assert abs(motion.depth_at_velocity(motion.velocity_at_depth(depth)) / depth - 1) < CLOSE

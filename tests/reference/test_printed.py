@@ -32,8 +32,6 @@ def test_factors_and_dimensions(question: str, answer: str) -> None:
     assert said(lambda: f"{to_si(question)}, {unit_dimension(question)}") == answer
 
 
-# A value prints as the text if and only if it lies in the text's interval.
-
 MODES = {
     Rounding.AWAY: decimal.ROUND_HALF_UP,
     Rounding.EVEN: decimal.ROUND_HALF_EVEN,
@@ -85,8 +83,6 @@ def test_a_value_prints_as_the_text_if_and_only_if_it_lies_in_its_interval(
     for strict, loose in pairwise(printed.interval(quantum=q) for q in printed.quanta):
         assert loose.encloses(*strict.ends) or loose.ends[1] == strict.ends[1]
 
-
-# Intervals
 
 NUMBERS = st.sampled_from([F(k, 2) for k in range(-4, 5)])
 

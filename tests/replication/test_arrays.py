@@ -135,9 +135,6 @@ def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
     assert [row.tolist() for row in rows[0]] == [short[0].tolist()] * 2
 
 
-# What is refused
-
-
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_bad_elements_are_named_by_index(name: str) -> None:
     function = getattr(arrays, name)

@@ -38,9 +38,6 @@ def written(f: Foreign, folder: Path) -> Path:
     return writers.with_openpyxl(f, folder / f"{f.name}.xlsx")
 
 
-# ---- the rules against the models
-
-
 @pytest.mark.parametrize(("scheme", "brake"), [*zip(midpoint.SCHEMES, BRAKES, strict=False)])
 def test_the_rules_give_the_sheet_double_for_double(scheme: str, brake: Rule) -> None:
     impact = replace(BETA_5, velocity=812.3, radius=7.3e-6)  # it ends beyond the radius
@@ -48,9 +45,6 @@ def test_the_rules_give_the_sheet_double_for_double(scheme: str, brake: Rule) ->
     for role, column in run.items():
         rows = midpoint.run(impact, scheme).rows[role == "velocity_final" :]
         assert [*column.values()] == [getattr(row, role) for row in rows]
-
-
-# ---- what is said
 
 
 def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
@@ -212,9 +206,6 @@ def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     except ValueError as error:
         message = str(error)
     assert not message or (str(path) in message and "\n" not in message)
-
-
-# What changed between two workbooks
 
 
 @kept("replication/kept.txt", "Options of diff, and the kinds of differences that they leave")

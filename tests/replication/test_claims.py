@@ -101,8 +101,6 @@ def test_nothing_is_expected_that_is_not_there() -> None:
     }  # fmt: skip
 
 
-# Each number in the findings is computed by the audit, and one that is changed is noticed
-
 FINDINGS = load_findings()
 
 

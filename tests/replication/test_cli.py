@@ -1,7 +1,5 @@
 """The command line as a user meets it: what it prints, where, and with which status."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os
@@ -132,9 +130,6 @@ def run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
     return lambda *arguments: coldspray("workbook", *arguments)
 
 
-# Files
-
-
 def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "workbook.xlsx"
     assert run(*OWN)[:2] == (0, "Written: workbook.xlsx\n")
@@ -174,9 +169,6 @@ def test_a_longer_sheet_as_the_sheet_advises(run: Run, tmp_path: Path) -> None:
     assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 300 * 7
     depth = workbook.build(workbook.BETA_5).plan.where["case.depth_um"][1]
     assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
-
-
-# Verification
 
 
 def deeper(sheet: str, address: str, value: Any) -> Any:

@@ -21,13 +21,8 @@ from replication.audit.record import Verdict
 from replication.audit.verdict import Judge, assess_equation, follows
 from replication.power import Plant, measured, plants, power, trial
 
-# What would explain a failing number: back-solved inputs, misprints, slips, a common culprit
-
 LEDGER = load()
 PAIR = ("frank-zook-rha", "frank-zook-stainless")
-
-
-# Edits
 
 
 @kept("replication/kept.txt", "Edits of a number's text, one slip each")
@@ -45,9 +40,6 @@ def test_edits_of_an_equation() -> None:
             LEDGER.read(text)
     assert len(same) == 2
     assert r"X/R = ((L/D \rho_p/\rho_t + k_1)/kt)\ln(1+k_t\rho_t V^2/R_t)" in result
-
-
-# Misprints
 
 
 @kept("replication/kept.txt", "Misprints, and what mends the number that fails by them")
@@ -132,8 +124,6 @@ def test_what_is_computed_with_an_equation_sees_the_rest(name: str, seen: str | 
         failing = disagreeing(LEDGER.misprint(name, edit), LEDGER.claims, ASSUMED)
         assert seen in failing if seen else failing == as_printed, edit
 
-
-# Verdicts
 
 EXPECTED = {
     "eq16": "not reproduced",  # Eqs. 14 and 15 give twice the depth in radii that it prints

@@ -8,13 +8,14 @@ import io
 import json
 import os
 import re
+import resource
 import shlex
 import signal
 import subprocess
 import sys
 import zipfile
 from contextlib import chdir
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from kept import spelled
 from running import coldspray
 
 from replication.cases import INPUTS
+from replication.sweep import read_plan
 from spreadsheets.safely import write_folder
 
 LONGEST = 400
@@ -58,8 +60,6 @@ def check(folder: Path, *arguments: str) -> tuple[int, str]:
         assert not re.search(r"\b(?:nan|inf(?:inity)?)\b", out.lower())
     return status, err + out
 
-
-# What is said
 
 SAID = Path(__file__).with_name("said.txt").read_text("utf-8")
 EXAMPLES = [part.splitlines() for part in re.sub("\n+#.*", "", SAID).split("\n$ coldspray")[1:]]
@@ -218,8 +218,6 @@ def test_any_case_file(folder: Path, document: bytes) -> None:
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 def test_any_plan(folder: Path, document: bytes) -> None:
-    from replication.sweep import read_plan
-
     (folder / "any.toml").write_bytes(document)
     try:
         count = read_plan(folder / "any.toml").count
@@ -235,11 +233,8 @@ def test_any_plan(folder: Path, document: bytes) -> None:
 PLAN = "[inputs]\nradius = {from=1e-6, to=2e-6, points=2000}\n"
 
 
-def limited() -> None:
-    """No file of this process may grow beyond 20,000 bytes: writing fails as on a full disk."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+LIMITED = partial(resource.setrlimit, resource.RLIMIT_FSIZE, (20_000, 20_000))
+"""No file of a process may grow beyond so many bytes: writing fails as on a full disk."""
 
 
 @pytest.mark.parametrize(
@@ -256,14 +251,8 @@ def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
     (tmp_path / "plan.toml").write_text(PLAN)
     (tmp_path / target).write_text("as it was")
     before = state(tmp_path)
-    done = subprocess.run(
-        [sys.executable, "-m", "replication", *arguments],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        preexec_fn=limited,
-    )
+    command = [sys.executable, "-m", "replication", *arguments]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=LIMITED)
     assert (done.returncode, done.stdout) == (2, "")
     assert re.fullmatch(rf"coldspray {arguments[0]}: \S+: File too large\n", done.stderr)
     assert state(tmp_path) == before

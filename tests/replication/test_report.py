@@ -45,8 +45,6 @@ from replication.report.words import HTML as PAGE
 from replication.report.words import TERMINAL, Named, Prose
 from replication.text import json_text
 
-# The record
-
 LEDGER = load()
 
 
@@ -66,9 +64,6 @@ def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> 
     for more in ({"unknown": 1}, {"verdict": "maybe"}):
         claim = {**document["claims"][0], **more}
         assert not validator.is_valid({**small, "claims": [claim]}), more
-
-
-# What is checked by hand
 
 
 def arithmetic(text: str) -> float:
@@ -109,8 +104,6 @@ def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None
     )
     assert beta.by_hand is None
 
-
-# The same bytes
 
 ELSEWHERE = (
     {"PYTHONHASHSEED": "0", "TZ": "UTC", "LC_ALL": "C", "OMP_NUM_THREADS": "1"},
@@ -186,6 +179,11 @@ def test_quantiles_of_each_law(record: Record) -> None:
         assert laws[law].standard_deviation == pytest.approx(slope * 5.6, rel=1e-9)
 
 
+def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
+    ends = [float(LEDGER.value(f"figure-5-velocity-{end}")) for end in ("least", "greatest")]
+    assert record.velocity_curve.velocity[:: len(record.velocity_curve.velocity) - 1] == ends
+
+
 # The files
 
 MATH = "{http://www.w3.org/1998/Math/MathML}math"
@@ -209,9 +207,6 @@ def by_id(root: ET.Element, name: str) -> ET.Element:
 
 def words(element: ET.Element) -> str:
     return " ".join("".join(element.itertext()).split())
-
-
-# The page
 
 
 def test_headings_landmarks_tables_and_pictures_are_named(root: ET.Element) -> None:
@@ -362,9 +357,6 @@ def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], w
     text = texts.columns(rows, width)
     assert max(map(len, text.split("\n"))) <= width
     assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
-
-
-# Numbers and sentences
 
 
 doubles = st.floats(-1e12, 1e12)

@@ -55,9 +55,6 @@ def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-# What a plan means
-
-
 @kept("replication/kept.txt", "What a plan means")
 def test_what_a_plan_means(question: str, answer: str, tmp_path: Path) -> None:
     cases = all_of(plan_of(tmp_path, question))
@@ -198,9 +195,6 @@ def test_every_example_runs(tmp_path: Path) -> None:
         assert table.num_rows == sweep.read_plan(example).count
 
 
-# Files
-
-
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
 def test_the_bytes_are_the_same_on_every_run_and_parts_are_the_whole(
     suffix: str, tmp_path: Path
@@ -237,9 +231,6 @@ def test_memory_does_not_grow_with_the_cases(tmp_path: Path) -> None:
         peaks.append(int(done.stdout))
     # All the columns of a million cases more would take 96 MB.
     assert peaks[1] < peaks[0] + 50
-
-
-# The command
 
 
 def test_the_command_writes_units_all_digits_and_whose_they_are(
@@ -329,9 +320,6 @@ def started(folder: Path) -> "subprocess.Popen[bytes]":
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
     pytest.fail("the sweep has not begun within a minute")
-
-
-# A cluster
 
 
 def test_dask_writes_the_same_cases(tmp_path: Path) -> None:

@@ -21,9 +21,6 @@ LEDGER = load()
 JUDGE = Judge(LEDGER)
 
 
-# Witnesses
-
-
 def witnesses() -> Iterator[tuple[str, str, Judgement]]:
     for claim in LEDGER.claims.values():
         if claim.computation is not None and not claim.computation.restates:
@@ -112,9 +109,6 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     assert "no inputs that give this number also give the numbers" in said
     assert "all of it" not in said
     assert "none of it" not in said
-
-
-# Other numbers than the report's
 
 
 @cache

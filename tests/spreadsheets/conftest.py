@@ -1,13 +1,10 @@
 """The engines, as fixtures; workbooks, and files of them into which somebody typed."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import pytest
 from workbooks import rewritten, usable
@@ -43,19 +40,14 @@ class Emitted:
 
         All stored values remain those of the file, as when a person types.
         """
-        cells: dict[str, dict[str, Any]] = {}
-        for key, number in numbers.items():
-            sheet, address = self.book.plan.where[key]
-            cells.setdefault(sheet, {})[address] = number
-        names = [sheet.name for sheet in self.book.plan.sheets]
-        sheets = {f"xl/worksheets/sheet{n}.xml": name for n, name in enumerate(names, 1)}
+        places = {self.book.plan.where[key]: number for key, number in numbers.items()}
+        sheets = [sheet.name for sheet in self.book.plan.sheets]
 
         def type_into(part: str, content: bytes) -> bytes:
-            typed = cells.get(sheets.get(part, ""), {})
-            text = content.decode() if typed else ""
-            for address, number in typed.items():
-                text = _type(text, address, number)
-            return text.encode() or content
+            for (sheet, address), number in places.items():
+                if part == f"xl/worksheets/sheet{sheets.index(sheet) + 1}.xml":
+                    content = _type(content.decode(), address, number).encode()
+            return content
 
         path.write_bytes(rewritten(self.path.read_bytes(), type_into))
         return path

@@ -3,8 +3,6 @@
 And what is said of an engine that does, or does not, give the values that a workbook must have.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import shutil

@@ -159,9 +159,6 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
         assert "typed over" not in result["Inputs"].values()
 
 
-# The bound for long doubles
-
-
 def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emitted: Any) -> None:
     """Errors of three times the bound: of the largest of a column, or of the number alone."""
     book, result = emitted.book, usable("gnumeric").recalculate(emitted.path)
@@ -181,9 +178,6 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emit
         wrong = result[sheet][at] + 3 * book.rounding * largest
         (left,) = compare(book.cells, {**result, sheet: {**result[sheet], at: wrong}}, allowed)
         assert (left.sheet, left.cell) == (sheet, at)
-
-
-# What the models and the audit say of the same
 
 
 def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
@@ -242,11 +236,8 @@ class Page:
         return self.result[sheet].get(address, "")
 
     def verdicts(self, verdict: str) -> set[str]:
-        return {name for name in self.computed if self[f"audit.{name}.verdict"] == verdict}
-
-    @property
-    def computed(self) -> list[str]:
-        return [claim.id for claim in load().claims.values() if claim.workbook]
+        computed = [claim.id for claim in LEDGER.claims.values() if claim.workbook]
+        return {name for name in computed if self[f"audit.{name}.verdict"] == verdict}
 
     def told(self, usual: Page | None) -> str:
         """Each text, and what it is told of; but for numbers, and what is as usual."""
