@@ -41,7 +41,12 @@ def calls(text: str, section: str, names: Mapping[str, Any]) -> Callable[[str, s
 
 def spelled(text: str) -> str:
     """A text with what stands in it many times, and no quotes around what begins with a blank."""
-    text = re.sub(r"⟨(?:(\d+) )?(.*?)⟩", lambda many: int(many[1] or 1) * unescaped(many[2]), text)
+
+    def written_out(many: re.Match[str]) -> str:
+        plain = many[2].encode("ascii", "backslashreplace").decode("unicode_escape")
+        return int(many[1] or 1) * plain
+
+    text = re.sub(r"⟨(?:(\d+) )?(.*?)⟩", written_out, text)
     return text[1:-1] if re.fullmatch('".*"', text) else text
 
 
@@ -51,7 +56,3 @@ def said(answer: Callable[[], object]) -> str:
         return str(answer())
     except (ArithmeticError, LookupError, TypeError, ValueError) as error:
         return f"refused: {error}"
-
-
-def unescaped(text: str) -> str:
-    return text.encode("ascii", "backslashreplace").decode("unicode_escape")

@@ -109,21 +109,19 @@ def test_the_table_cell_by_cell() -> None:
     assert len(LEDGER.blank) == 24 + 6 + 1
 
 
-CONVENTIONS = (
-    Convention(),
-    Convention(rounding=Rounding.EVEN),
-    Convention(header_exact=True),
-    Convention(choices_exact=False),
-    Convention(choices_exact=False, header_exact=True),
-    Convention(choices_exact=False, rounding=Rounding.CUT),
-)
-
-
 @kept("reference/kept.txt", "Inputs: what they stand for; with ties to even; with the header exact;"
       " with choices rounded; these with the header exact, or cut off")  # fmt: skip
 def test_what_a_number_stands_for_as_an_input(question: str, answer: str) -> None:
+    conventions = (
+        Convention(),
+        Convention(rounding=Rounding.EVEN),
+        Convention(header_exact=True),
+        Convention(choices_exact=False),
+        Convention(choices_exact=False, header_exact=True),
+        Convention(choices_exact=False, rounding=Rounding.CUT),
+    )
     claim = LEDGER.claims[question]
-    assert "; ".join(str(claim.as_input(convention)) for convention in CONVENTIONS) == answer
+    assert "; ".join(str(claim.as_input(convention)) for convention in conventions) == answer
 
 
 test_what_single_calls_give = calls(

@@ -60,9 +60,6 @@ FORMULA_ROUNDING = 2e-15
 """Fewer than ten roundings of 1.1e-16 each."""
 
 
-KNOWN = {*LEDGER.claims, *(INFERRED + key for key in LEDGER.inferred)}
-
-
 @pytest.mark.parametrize("claim", LEDGER.claims.values(), ids=lambda claim: claim.id)
 def test_claim(claim: Claim, record: Record) -> None:
     judged = record.claim(claim.id)
@@ -70,7 +67,8 @@ def test_claim(claim: Claim, record: Record) -> None:
     assert judged.explanation.endswith(".")
     assert (judged.printed, judged.unit, judged.where) == (claim.text, claim.unit, str(claim.place))
     assert (judged.interval_exact is None) == (claim.kind == "remark")
-    assert {entry for entries in judged.rests_on.values() for entry in entries} <= KNOWN
+    known = LEDGER.claims.keys() | {INFERRED + key for key in LEDGER.inferred}
+    assert {entry for entries in judged.rests_on.values() for entry in entries} <= known
     proof = (judged.computed, judged.reference, judged.enclosure_exact, judged.holds or None)
     assert len({value is None for value in proof}) == 1, "computed with all its proof, or not"
     if judged.computed is not None and judged.enclosure_exact is not None:

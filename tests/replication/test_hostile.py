@@ -29,9 +29,6 @@ from replication.cases import INPUTS
 from replication.sweep import read_plan
 from spreadsheets.safely import write_folder
 
-LONGEST = 400
-"""Characters of a message."""
-
 
 def state(folder: Path) -> dict[str, bytes | None]:
     """What is in a folder: the contents of files, None for what is none."""
@@ -49,7 +46,7 @@ def check(folder: Path, *arguments: str) -> tuple[int, str]:
     assert status in (0, 1, 2)
     assert "Traceback" not in err
     for line in err.splitlines():
-        assert len(line) <= LONGEST
+        assert len(line) <= 400
         assert line.isprintable()
     if status == 2:
         assert out == ""
@@ -128,9 +125,6 @@ def false_workbooks(folder: Path) -> None:
 
 # Whatever comes
 
-LIGHT = ("depth", "sheet", "history", "claims")
-"""Commands that any arguments may be tried on: they end soon, and write nothing."""
-
 
 @cache
 def flags(command: str) -> list[str]:
@@ -168,10 +162,11 @@ def arguments(draw: st.DrawFn, command: str) -> list[str]:
     return own
 
 
-@pytest.mark.parametrize("command", LIGHT)
+@pytest.mark.parametrize("command", ["depth", "sheet", "history", "claims"])
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_any_arguments(command: str, folder: Path, data: st.DataObject) -> None:
+    """Of commands that end soon, and write nothing."""
     check(folder, *data.draw(arguments(command)))
 
 
@@ -230,8 +225,6 @@ def test_any_plan(folder: Path, document: bytes) -> None:
 
 # A disk that is full, a run that is killed
 
-PLAN = "[inputs]\nradius = {from=1e-6, to=2e-6, points=2000}\n"
-
 
 LIMITED = partial(resource.setrlimit, resource.RLIMIT_FSIZE, (20_000, 20_000))
 """No file of a process may grow beyond so many bytes: writing fails as on a full disk."""
@@ -248,7 +241,8 @@ LIMITED = partial(resource.setrlimit, resource.RLIMIT_FSIZE, (20_000, 20_000))
     ids=["workbook", "csv", "parquet", "audit"],
 )
 def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
-    (tmp_path / "plan.toml").write_text(PLAN)
+    plan = "[inputs]\nradius = {from=1e-6, to=2e-6, points=2000}\n"
+    (tmp_path / "plan.toml").write_text(plan)
     (tmp_path / target).write_text("as it was")
     before = state(tmp_path)
     command = [sys.executable, "-m", "replication", *arguments]

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction as F
 from hashlib import sha256
@@ -105,16 +104,13 @@ def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None
     assert beta.by_hand is None
 
 
-ELSEWHERE = (
-    {"PYTHONHASHSEED": "0", "TZ": "UTC", "LC_ALL": "C", "OMP_NUM_THREADS": "1"},
-    {"PYTHONHASHSEED": "7", "TZ": "Asia/Kathmandu", "LC_ALL": "C.UTF-8", "PYTHONOPTIMIZE": "1"},
-)
-
-
 @pytest.mark.slow
 def test_an_audit_elsewhere_has_the_same_bytes(tmp_path: Path) -> None:
     folders = []
-    for environment in ELSEWHERE:
+    for environment in (
+        {"PYTHONHASHSEED": "0", "TZ": "UTC", "LC_ALL": "C", "OMP_NUM_THREADS": "1"},
+        {"PYTHONHASHSEED": "7", "TZ": "Asia/Kathmandu", "LC_ALL": "C.UTF-8", "PYTHONOPTIMIZE": "1"},
+    ):
         folder = tmp_path / environment["PYTHONHASHSEED"]
         folder.mkdir()
         command = [sys.executable, "-m", "replication", "audit", "--quiet", "--out", "out"]
@@ -315,16 +311,13 @@ def test_the_page_in_the_documentation_is_what_the_audit_says(files: dict[str, b
     assert files["audit.md"].decode().partition("\n## Provenance")[0] == document
 
 
-def test_json_is_the_record(files: dict[str, bytes], record: Record) -> None:
+def test_json_is_the_record_and_each_claim_a_line_of_the_csv_with_all_digits(
+    files: dict[str, bytes], record: Record
+) -> None:
     document = json.loads(files["audit.json"])
     digest = document["provenance"]["sha256"].pop("workbook.xlsx")
     assert digest == sha256(BESIDE["workbook.xlsx"]).hexdigest()
     assert document == json.loads(msgspec.json.encode(record))
-
-
-def test_every_claim_is_a_line_of_the_csv_with_all_digits(
-    files: dict[str, bytes], record: Record
-) -> None:
     rows = list(csv.DictReader(io.StringIO(files["audit.csv"].decode())))
     for row, claim in zip(rows, record.claims, strict=True):
         assert row["id"] == claim.id
@@ -349,35 +342,27 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300$", text, re.MULTILINE)
 
 
-cells = st.text("ab c", max_size=12)
-
-
-@given(st.lists(st.tuples(cells, cells, cells), min_size=1, max_size=5), st.integers(12, 40))
+@given(st.lists(st.tuples(*3 * [st.text("ab c", max_size=12)]), min_size=1, max_size=5),
+       st.integers(12, 40))  # fmt: skip
 def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], width: int) -> None:
     text = texts.columns(rows, width)
     assert max(map(len, text.split("\n"))) <= width
     assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
 
 
-doubles = st.floats(-1e12, 1e12)
-
-
-def ends_of(text: str) -> Sequence[float]:
-    parts = [float(part) for part in text.split(" to ")]
-    return parts * 2 if len(parts) == 1 else parts
-
-
-@given(doubles, doubles, st.integers(3, 12))
+@given(st.floats(-1e12, 1e12), st.floats(-1e12, 1e12), st.integers(3, 12))
 def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
     low, high = sorted((first, another))
     slack = 1e-14 * max(abs(low), abs(high))
-    outer = ends_of(texts.between((low, high), digits))
+    outer, inner = (
+        [float(end) for end in texts.between((low, high), digits, inward=inward).split(" to ")]
+        for inward in (False, True)
+    )
     if low < high:
         assert outer[0] <= low + slack
-        assert outer[1] >= high - slack
-        inner = ends_of(texts.between((low, high), digits, inward=True))
+        assert outer[-1] >= high - slack
         assert inner[0] >= low - slack
-        assert inner[1] <= high + slack
+        assert inner[-1] <= high + slack
     assert texts.between((low, nextafter(low, inf)), 12).count(" to ") <= 1
 
 

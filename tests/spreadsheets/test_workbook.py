@@ -216,10 +216,6 @@ SHOWN = re.compile(
 COUNTED = re.compile(r".*\b(trust|steps|\w*unusable|\w*changed|\w*none|same\.\w+)")
 
 
-def number_or_text(text: str) -> float | str | None:
-    return float(text) if re.match(r"-?\d", text) else None if text == "nothing" else text
-
-
 FAILING = {"frank-zook-rha", "frank-zook-stainless"}
 """What is not as printed with the report's own inputs."""
 
@@ -266,10 +262,11 @@ def pages(
     names = list(TYPED) if request.param == "formualizer" else FOR_ALL
     paths = []
     for number, name in enumerate(names):
-        values = {
-            f"inputs.{n}" + ("" if over or n == "from" else ".typed"): number_or_text(text)
-            for over, n, text in re.findall(r"(over )?(\w+) = ?([^,]*)", name)
-        }
+        values: dict[str, float | str | None] = {}
+        for over, n, text in re.findall(r"(over )?(\w+) = ?([^,]*)", name):
+            key = f"inputs.{n}" if over or n == "from" else f"inputs.{n}.typed"
+            typed = float(text) if re.match(r"-?\d", text) else text
+            values[key] = None if text == "nothing" else typed
         paths.append(emitted.typed(values, folder / f"{number}.xlsx"))
     result = usable(request.param).recalculate_many(paths)
     return {name: Page(emitted, values) for name, values in zip(names, result, strict=True)}
