@@ -57,10 +57,7 @@ def clean(f: Foreign, path: Path) -> bool:
 @cache
 def to_spoil() -> list[tuple[Foreign, writers.Values]]:
     """The workbooks that faults are planted in, with the values of their formulas."""
-    return _with_values((*by_hand(BETA_5), *(drawn(seed, CASES[seed % 2]) for seed in DRAWN[:6])))
-
-
-def _with_values(books: Iterable[Foreign]) -> list[tuple[Foreign, writers.Values]]:
+    books = by_hand(BETA_5) + [drawn(seed, CASES[seed % 2]) for seed in DRAWN[:6]]
     return [(f, writers.calculated(f)) for f in books]
 
 
@@ -135,7 +132,7 @@ def main() -> None:
                     print(row(folder)[0], flush=True)
         books = [drawn(seed, CASES[seed % 2]) for seed in AFRESH]
         good = sum(clean(f, writers.with_openpyxl(f, folder / "drawn.xlsx")) for f in books)
-        some = _with_values(books[:10])
+        some = [(f, writers.calculated(f)) for f in books[:10]]
         result = [entry for fault in FAULTS for entry in planted(fault, folder, some)]
         print(f"\nDrawn afresh: {good} of {len(books)} clean, "
               f"{sum(entry[1] for entry in result)} of {len(result)} faults found")  # fmt: skip

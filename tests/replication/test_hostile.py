@@ -98,16 +98,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     os.mkfifo(own / "pipe.csv")
     with chdir(own):
         assert coldspray("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
-    false_workbooks(own)
-    return own
-
-
-def false_workbooks(folder: Path) -> None:
-    """Files that look like the workbook in the folder: cut, packed too well, nested too deep."""
-    whole = (folder / "own.xlsx").read_bytes()
-    (folder / "zero.xlsx").write_bytes(b"")
-    (folder / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
-    with zipfile.ZipFile(folder / "nothing.xlsx", "w"):
+    # What looks like that workbook: cut, packed too well, nested too deep.
+    whole = (own / "own.xlsx").read_bytes()
+    (own / "zero.xlsx").write_bytes(b"")
+    (own / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
+    with zipfile.ZipFile(own / "nothing.xlsx", "w"):
         pass
     entity = b'<!DOCTYPE a [<!ENTITY b "' + b"c" * 100 + b'">]><a>' + b"&b;" * 100 + b"</a>"
     parts = zipfile.ZipFile(io.BytesIO(whole))
@@ -116,11 +111,12 @@ def false_workbooks(folder: Path) -> None:
         ("deep.xlsx", 100_000 * b"<a>", 1),
         ("bomb.xlsx", b" " * 2**19, 1000),
     ):
-        with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        with zipfile.ZipFile(own / name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
             for part in parts.namelist():
                 sheet = part == "xl/worksheets/sheet1.xml"
                 with archive.open(part, "w") as file:
                     file.writelines([content] * times if sheet else [parts.read(part)])
+    return own
 
 
 # Whatever comes

@@ -286,7 +286,17 @@ def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path
 ) -> None:
-    process = started(tmp_path)
+    def listening() -> None:  # a shell's background jobs ignore the one, those of nohup the other
+        for ignored in (signal.SIGINT, signal.SIGHUP):
+            signal.signal(ignored, signal.SIG_DFL)
+
+    process = subprocess.Popen(
+        command(tmp_path, 4000 * sweep.BLOCK), stderr=-1, start_new_session=True,
+        preexec_fn=listening,
+    )  # fmt: skip
+    while not any(draft.stat().st_size > 100_000 for draft in tmp_path.glob(".out.csv.*.part")):
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
     send(process.pid, number)
     _, err = process.communicate(timeout=60)
     assert err == b"coldspray sweep: interrupted; no file is left in part\n"
@@ -302,24 +312,6 @@ def test_a_draft_is_on_the_disk_before_it_has_its_name(
     write_bytes(tmp_path / "out.csv", b"whole")
     assert synced == [[f".out.csv.{os.getpid()}.part"]]
     assert names(tmp_path) == ["out.csv"]
-
-
-def started(folder: Path) -> "subprocess.Popen[bytes]":
-    """A sweep of many blocks, once the first of them is in its draft."""
-
-    def listening() -> None:  # a shell's background jobs ignore the one, those of nohup the other
-        for number in (signal.SIGINT, signal.SIGHUP):
-            signal.signal(number, signal.SIG_DFL)
-
-    process = subprocess.Popen(
-        command(folder, 4000 * sweep.BLOCK), stderr=-1, start_new_session=True, preexec_fn=listening
-    )
-    for _ in range(6000):
-        if any(draft.stat().st_size > 100_000 for draft in folder.glob(".out.csv.*.part")):
-            return process
-        assert process.poll() is None, process.communicate()
-        time.sleep(0.01)
-    pytest.fail("the sweep has not begun within a minute")
 
 
 def test_dask_writes_the_same_cases(tmp_path: Path) -> None:

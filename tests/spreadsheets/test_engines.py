@@ -7,7 +7,7 @@ import json
 import math
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -121,44 +121,29 @@ def test_missing_engine_says_what_to_install(
         assert "install the system package" in (BY_NAME[name].missing() or "")
 
 
-@pytest.fixture
-def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], Engine]]:
-    """LibreOffice with a script in front of it as ``soffice``; it must leave no file behind."""
-    engine = usable("libreoffice")
-    (tmp_path / "bin").mkdir()
-    (tmp_path / "temporary").mkdir()
-    monkeypatch.setenv("PATH", str(tmp_path / "bin"), prepend=":")
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
-
-    def behind(script: str) -> Engine:
-        program = tmp_path / "bin" / "soffice"
-        program.write_text(f"#!/bin/sh\n{script}\n")
-        program.chmod(0o755)
-        return engine
-
-    yield behind
-    assert not list((tmp_path / "temporary").iterdir())
-
-
-def test_libreoffice_that_fails_or_hangs_is_an_error(
-    office: Callable[[str], Engine], workbook: Path, monkeypatch: pytest.MonkeyPatch
+def test_libreoffice_that_fails_or_hangs_is_an_error_and_it_may_want_a_restart(
+    workbook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """With a script in front of it as ``soffice``; it leaves no file behind."""
+    engine, real = usable("libreoffice"), shutil.which("soffice")
+    temporary, program, started = (tmp_path / name for name in ("temporary", "soffice", "started"))
+    temporary.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
     for script, limit, said in (
         ("echo chatter >&2; exit 3", 600, "soffice ended with status 3 before it answered"),
         # Returning before the sleep is over shows that it was killed: its end is waited for.
         ("sleep 600", 1, "no answer within 1 s"),
+        (f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81', 120, ""),
     ):
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
         monkeypatch.setattr(engines, "TIME_LIMIT_S", limit)
-        with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
-            office(script).recalculate(workbook)
-
-
-def test_libreoffice_may_want_a_restart(
-    office: Callable[[str], Engine], workbook: Path, tmp_path: Path
-) -> None:
-    real, started = shutil.which("soffice"), tmp_path / "started"
-    engine = office(f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81')
+        if said:
+            with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
+                engine.recalculate(workbook)
     assert engine.recalculate(workbook)["Formulas"]["B1"] == 0.1 + 0.2
+    assert not list(temporary.iterdir())
 
 
 # What they make of a workbook whose values are known
