@@ -1,7 +1,5 @@
 """The workbook against Python: every cell the same double, in real engines, whatever is typed."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterator
@@ -235,7 +233,7 @@ class Page:
         computed = [claim.id for claim in LEDGER.claims.values() if claim.workbook]
         return {name for name in computed if self[f"audit.{name}.verdict"] == verdict}
 
-    def told(self, usual: Page | None) -> str:
+    def told(self, usual: "Page | None") -> str:
         """Each text, and what it is told of; but for numbers, and what is as usual."""
         cells: dict[str, list[str]] = {}
         for key in filter(SHOWN.fullmatch, self.emitted.book.values):
