@@ -176,8 +176,9 @@ def test_quantiles_of_each_law(record: Record) -> None:
 
 
 def test_figure_5_is_drawn_from_end_to_end(record: Record) -> None:
+    drawn = record.velocity_curve.velocity
     ends = [float(LEDGER.value(f"figure-5-velocity-{end}")) for end in ("least", "greatest")]
-    assert record.velocity_curve.velocity[:: len(record.velocity_curve.velocity) - 1] == ends
+    assert [drawn[0], drawn[-1]] == ends
 
 
 # The files
