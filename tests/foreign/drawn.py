@@ -2,6 +2,7 @@
 
 import random
 import re
+import tomllib
 from dataclasses import asdict
 from pathlib import Path
 
@@ -22,17 +23,8 @@ from openpyxl.utils.cell import absolute_coordinate
 from replication.models.impact import Impact
 
 HELPERS = {"area": "A(x)", "energy": "E_kin", "n": "n"}
-DRAWN_FROM = {
-    block.partition("\n")[0]: {
-        line.split(" | ")[0]: line.split(" | ")[1:] for line in block.splitlines()[1:] if line
-    }
-    for block in Path(__file__).with_name("drawn.txt").read_text("utf-8").split("\n## ")[1:]
-}
-HEADS, LABELS = DRAWN_FROM["HEADS"], DRAWN_FROM["LABELS"]
-UNITS, INPUT_UNITS = (
-    {role: [text.partition(" ")[::2] for text in own] for role, own in DRAWN_FROM[table].items()}
-    for table in ("UNITS", "INPUT_UNITS")
-)
+TABLES = tomllib.loads(Path(__file__).with_name("drawn.toml").read_text("utf-8"))
+HEADS, UNITS, LABELS, INPUT_UNITS = TABLES.values()
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:
@@ -73,8 +65,7 @@ def drawn(seed: int, impact: Impact) -> Foreign:
         f.cells[table.place(sheet, line, -first)] = head.replace("UNIT", bracketed)
         if with_units == "row" and unit:
             f.cells[table.place(sheet, line, 1 - first)] = unit
-    negative = r.random() < 0.2 and BRAKE in order
-    for name, texts in _contents(lines, across, units, si, negative).items():
+    for name, texts in _contents(lines, across, units, si, negative=r.random() < 0.2).items():
         add_column(f, sheet, table, lines[name], "", name if name in order else "", *texts)
     return f
 
@@ -126,27 +117,26 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
     r.shuffle(order)
     values = asdict(f.impact) | {"resistance": f.impact.target_resistance}
     si = {}
+
+    def at(i: int) -> tuple[str, str]:
+        """The cells of a label and of what it is about."""
+        if flat:
+            return f"{letters(col + i)}{row}", f"{letters(col + i)}{row + 1}"
+        return f"{letters(col)}{row + i}", f"{letters(col + 1)}{row + i}"
+
     for i, name in enumerate(order):
         unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
         factor = float(conversion[1:] or 1)
         own = values[name] * factor if conversion[:1] == "/" else values[name] / factor
-        value = float(f"{own:.12g}")
-        label = r.choice(LABELS[name])
-        if flat:
-            f.put(sheet, f"{letters(col + i)}{row}", f"{label} [{unit}]")
-            here = f"{letters(col + i)}{row + 1}"
-        else:
-            bare = simple or beside
-            f.put(sheet, f"{letters(col)}{row + i}", label if bare else f"{label} [{unit}]")
-            here = f"{letters(col + 1)}{row + i}"
-            if beside and not simple:
-                f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
-        f.put(sheet, here, value)
+        (label, here), text = at(i), r.choice(LABELS[name])
+        f.put(sheet, label, text if simple or beside else f"{text} [{unit}]")
+        if beside and not simple:
+            f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
+        f.put(sheet, here, float(f"{own:.12g}"))
         f.inputs[name] = place(sheet, here)
         absolute = absolute_coordinate(here)
         si[name] = f"({absolute}{conversion})" if conversion else absolute
-    mass = f"{letters(col + (7 if flat else 1))}{row + (1 if flat else 7)}"
-    label = f"{letters(col + (7 if flat else 0))}{row + (0 if flat else 7)}"
+    label, mass = at(7)
     f.put(sheet, label, "mass [kg]")
     f.put(sheet, mass, f"={si['particle_density']}*4/3*PI()*{si['radius']}^3")
     return si | {"mass": absolute_coordinate(mass)}

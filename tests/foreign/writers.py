@@ -41,8 +41,8 @@ def calculated(f: Foreign) -> Values:
     }
 
 
-def with_xlsxwriter(f: Foreign, path: Path, values: Values, wrong: Values | None = None) -> Path:
-    """Formulas with their values, all 17 digits, as Excel stores them; some of them `wrong`."""
+def with_xlsxwriter(f: Foreign, path: Path, values: Values) -> Path:
+    """Formulas with their values, all 17 digits, as Excel stores them."""
     import xlsxwriter
 
     with xlsxwriter.Workbook(path) as book:
@@ -52,7 +52,7 @@ def with_xlsxwriter(f: Foreign, path: Path, values: Values, wrong: Values | None
                 sheets[sheet] = book.add_worksheet(sheet)
             place = sheets[sheet], row - 1, column - 1
             if isinstance(content, str) and content.startswith("="):
-                value = {**values, **(wrong or {})}.get((sheet, row, column), "")
+                value = values.get((sheet, row, column), "")
                 exact = Exact(value) if isinstance(value, float) else value
                 place[0].write_formula(place[1], place[2], content, value=exact)
             elif isinstance(content, str):
@@ -75,7 +75,7 @@ class Exact(float):
 
 def written(f: Foreign, path: Path, values: Values | None, wrong: Values | None) -> Path:
     """A file without stored values; with them, some of them `wrong`, where there are such."""
-    return with_xlsxwriter(f, path, values or {}, wrong) if wrong else with_openpyxl(f, path)
+    return with_xlsxwriter(f, path, (values or {}) | wrong) if wrong else with_openpyxl(f, path)
 
 
 def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
