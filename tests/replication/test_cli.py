@@ -203,11 +203,12 @@ def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(
         return run("--verify", *OWN, *options)
 
     right, absent, echo = Fake(), Fake(reason="Absent: install it."), Fake(told=lambda *_: 41.0)
+    broken = Fake(failure="out of luck")
     status, out, err = check([right, absent])
     assert (status, err) == (0, "")
     assert out.startswith("Written: workbook.xlsx\n\nengine ")
     assert out.endswith("1 of 1 engines on this machine give the values of the workbook\n")
-    status, more, _ = check([Fake(deeper), echo, Fake(failure="out of luck"), right])
+    status, more, _ = check([Fake(deeper), echo, broken, right])
     assert status == 1
     for line in (
         r"fake 1\.0 +verified +\d\.\d\d +\d{4} +\d+ +0",
@@ -227,4 +228,4 @@ def test_a_line_for_each_engine_and_status_1_for_differences_and_echoes(
     (result,) = json.loads(out)["engines"]
     assert (status, len(result["wrong"]) > 20) == (1, True)
     assert set(result["wrong"][0]) == {"sheet", "cell", "expected", "found"}
-    assert check([echo], "--quiet") == (1, "", "")
+    assert check([echo], "--quiet") == check([broken], "--quiet") == (1, "", "")
