@@ -49,7 +49,8 @@ class EngineError(Exception):
     """An engine is missing, failed, or could not read the workbook. Its message is one line."""
 
     def __init__(self, engine: str, reason: str) -> None:
-        super().__init__(f"{engine}: {' '.join(reason.split())}")
+        self.reason = " ".join(reason.split())
+        super().__init__(f"{engine}: {self.reason}")
 
 
 class Engine(ABC):
@@ -408,7 +409,7 @@ def verify(
         recalculated = engine.recalculate(path)
         seconds = time.perf_counter() - start
     except EngineError as error:
-        return EngineCheck(engine.name, known, "failed", str(error))
+        return EngineCheck(engine.name, known, "failed", error.reason)
     allowed = tolerances(plan, expected, long_doubles if engine.long_doubles else 0.0)
     wrong = compare(expected, recalculated, allowed)
     formulas = sum(bool(cell.formula) for _, cell in plan.cells())

@@ -237,9 +237,9 @@ def _texts_as_inputs(
     calculation: Calculation, examinations: Sequence[Examination], silent: Sequence[Difference]
 ) -> Iterator[Difference]:
     """Texts in the cells of inputs, where some tables are silent: one that reads a text is."""
-    lines = [line for f in examinations for line in f.table.every_line]
+    columns = [line for f in examinations for line in f.table.every_line]
     for place in sorted(_labelled_texts(calculation)) if silent else ():
-        if not any(line.is_headed_by(place) for line in lines):
+        if not any(line.is_headed_by(place) for line in columns):
             text = "it is a text, not a number: nothing that reads it can be checked"
             shown, rank = repr(calculation.values[place]), examinations[0].rank(place)
             yield Difference("typed number", (place,), None, shown, text, rank)
@@ -358,7 +358,7 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
     so has a cell that reads it.
     """
     tables = [f.table for f in examinations]
-    lines = [line for table in tables for line in table.every_line]
+    columns = [line for table in tables for line in table.every_line]
 
     def is_stale(place: Position) -> bool:
         stored, value = calculation.book[place].value, calculation.values.get(place)
@@ -369,7 +369,7 @@ def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Ite
         off = abs(stored - value)
         if off <= max(calculation.book.resolution, _STALE * abs(value)):
             return False
-        for line in lines:
+        for line in columns:
             ends = (line.place(at) for at in (line.first + 1, line.last))
             read = any(area.covers(end) for end in ends for area in calculation.areas(place))
             if (read or line.covers(place)) and off <= _STALE * max(map(abs, line.numbers)):

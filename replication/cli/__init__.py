@@ -12,10 +12,9 @@ import signal
 import sys
 import tomllib
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from importlib import resources
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 from replication.reading import one_line, quoted
 
@@ -42,14 +41,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        _discard_output()  # the reader of the pipe has seen enough; the status might have been 1
+        _discard(sys.stdout)  # the reader of the pipe has seen enough; the status might have been 1
         return 128 + 13  # as shells report a program that SIGPIPE ended
     except KeyboardInterrupt as interrupt:
         _complain(program, "interrupted; no file is left in part")
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except OSError as error:
         if error.filename is None:
-            _discard_output()  # its disk may be full
+            _discard(sys.stdout)  # its disk may be full
         name, reason = error.filename2 or error.filename, error.strerror or str(error)
         _complain(program, f"{name}: {reason}" if name else reason)
         return 2
@@ -63,15 +62,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _complain(program: str, message: str) -> None:
     """Tell the user, if anybody listens: the status says it, too."""
     if sys.stderr is not None:
-        with suppress(OSError):
+        try:
             print(f"{program}: {one_line(message)}", file=sys.stderr, flush=True)
+        except OSError:
+            _discard(sys.stderr)
 
 
-def _discard_output() -> None:
+def _discard(stream: TextIO | None) -> None:
     """Keep Python from trying again, when it ends, to write what could not be written."""
-    output = sys.__stdout__
-    if output and sys.stdout is output:  # nobody has put another in its place
-        os.dup2(os.open(os.devnull, os.O_WRONLY), output.fileno())
+    # Nobody has put another one in its place.
+    if stream is not None and stream in (sys.__stdout__, sys.__stderr__):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _end_as_interrupted() -> None:

@@ -67,7 +67,7 @@ def test_a_report_without_its_faults_has_none_and_one_fault_is_found_as_the_culp
     assert spoiled.culprit is not None
     assert (spoiled.culprit.entry, spoiled.culprit.text) == ("fz-kt", "1.046")
     assert set(spoiled.failing) == set(PAIR)
-    single = audit(repaired().misprint("a1-deceleration-4", "2.17E+09"))
+    single = audit(repaired.misprint("a1-deceleration-4", "2.17E+09"))
     assert single.headline == "1 number fails."
 
 
