@@ -107,13 +107,13 @@ def _calibrate(f: Examination) -> None:
         entries = [e for e in f.inputs.values() if e.place and e.role not in untold]
         powers = [sign * power for power in (3, 6, 9, 12, 1, 2) for sign in (-1, 1)]
         for entry, power in product(entries, powers):
-            if _is_taken(f, entry, power, Examination.agreement):
+            if _try_power(f, entry, power, Examination.agreement):
                 break
     step, times = f.inputs["step"], f.rows.columns.get("time", {})
     advance = partial(Examination.share, part="advance", rule=REPORT["advance"])
     slip = power_of_ten((times.get(3, math.nan) - times.get(2, math.nan)) / step.si)
     if step.unit and step.place and slip and advance(f) < 0.5:
-        _is_taken(f, step, slip, advance)
+        _try_power(f, step, slip, advance)
     entry = f.inputs["velocity"]
     if entry.place and entry.unit and entry.factor != (factor := to_si(entry.unit)):
         labelled = replace(entry, si=scaled(entry.si, factor / entry.factor), factor=factor)
@@ -122,10 +122,10 @@ def _calibrate(f: Examination) -> None:
         _taken(f, labelled, entry.si, power_of_ten(entry.si / labelled.si) or 0)
 
 
-def _is_taken(
+def _try_power(
     f: Examination, entry: Input, power: int, share: Callable[[Examination], float]
 ) -> bool:
-    """Whether rows follow with an input so many powers of ten off; they do from then on."""
+    """Take an input as so many powers of ten off, if the rows then follow; whether they do."""
     factor = Fraction(10) ** power
     value = scaled(entry.si, factor)
     changed = f.following(f.case.with_input(entry.role, value, float(factor)))
