@@ -71,7 +71,7 @@ def _complain(program: str, message: str) -> None:
 def _discard(stream: TextIO | None) -> None:
     """Keep Python from trying again, when it ends, to write what could not be written."""
     # Nobody has put another one in its place.
-    if stream is not None and stream in (sys.__stdout__, sys.__stderr__):
+    if stream in (sys.__stdout__, sys.__stderr__) and stream is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
