@@ -80,6 +80,12 @@ def judged(part: Table, target: Interval) -> Iterator[str]:
     low, high = between(part["enclosure"])[:2]  # doubles
     if not low <= proven.low <= proven.high <= high:
         yield f"{low} to {high} does not contain {proven.low} to {proven.high}"
+    if "computed" in part:
+        value = Fraction(part["computed"])
+        last = abs(value) / 10**15  # a double may be off in its last digits
+        if not proven.low - last <= value <= proven.high + last:
+            ends = f"{float(proven.low)} to {float(proven.high)}"
+            yield f"the computed {part['computed']} is not within {ends}"
 
 
 def without_a_range(claim: Table, claims: dict[str, Table], constants: Table) -> tuple[str, ...]:
@@ -134,6 +140,8 @@ def differences(audit: Table) -> Iterator[str]:
         said = audit["summary"].get(verdict, 0)
         if said != counts[verdict]:
             yield f"summary: {said} claims are said to be {verdict!r}, {counts[verdict]} are"
+    if audit["counts"]["reproduced"] != counts["reproduced"]:
+        yield f"counts: {audit['counts']['reproduced']} are said to be reproduced"
 
 
 def main() -> int:

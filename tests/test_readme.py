@@ -100,7 +100,7 @@ def test_what_is_changed_is_noticed(question: str, answer: str, audit: Audit) ->
     another = copy.deepcopy(audit)
     parts = {part: {entry["id"]: entry for entry in another[part]}
              for part in ("claims", "equations")}  # fmt: skip
-    exec(question, {**parts, "summary": another["summary"]})
+    exec(question, {**parts, "summary": another["summary"], "counts": another["counts"]})
     assert "; ".join(differences(another)) == answer
 
 

@@ -61,7 +61,9 @@ class Judged(_Part, frozen=True):
 
     `rounding` is how a value became the printed text; `choices` and `header` say whether what the
     author chose, and the header of Table A-1, are exact or rounded as printed; `scheme` is the
-    velocity at which the sheet takes the drag. `enclosure` is the range proven for the value.
+    velocity at which the sheet takes the drag. `enclosure` is the range proven for the value: of
+    the inputs as printed if it is reproduced, else of all that print like them; inferred ones as
+    far as the evidence admits them.
     """
 
     rounding: str

@@ -15,8 +15,9 @@ def normalized_depth(
 ) -> float:
     """Normalized depth at rest, y = X/R [1], exact for the differential equation (Eqs. 12-13).
 
-    It solves W(y) = (4 rho_p / 3 rho_t) ln(1 + rho_t V^2 / 2 R_t) and does not depend on the
-    particle's size. V [m/s], rho_p and rho_t [kg/m^3], R_t [Pa].
+    It solves W(y) = (4 rho_p / 3 rho_t) ln(1 + rho_t V^2 / 2 R_t), W(y) = y^2 - y^3/3 up to y = 1
+    and y - 1/3 beyond, and does not depend on the particle's size. V [m/s], rho_p and rho_t
+    [kg/m^3], R_t [Pa].
 
     >>> f"{normalized_depth(500.0, 8900.0, 7850.0, 3.5e9):.4f}"
     '0.6977'
@@ -45,7 +46,7 @@ def depth_at_velocity(
     """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s]; NaN above V.
 
     It solves W(x/R) = (4 rho_p / 3 rho_t) ln((rho_t V^2 + 2 R_t) / (rho_t v^2 + 2 R_t)), from
-    Eqs. 12-13.
+    Eqs. 12-13; W as for `normalized_depth`.
 
     >>> f"{depth_at_velocity(250.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e6:.4f}"
     '6.3777'
@@ -63,7 +64,8 @@ def velocity_at_depth(
 ) -> float:  # fmt: skip
     """Velocity [m/s] at a depth [m]; NaN beyond the final one.
 
-    v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13.
+    v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13; W as for `normalized_depth`,
+    b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t.
 
     Close to rest the velocity varies as the square root of the depth left, so that fewer digits of
     the result are right.

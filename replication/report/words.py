@@ -106,7 +106,7 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
         "public sources": "; ".join(sources),
         "workbook cell": claim.workbook and f"`{claim.workbook}`",
     }
-    return [(label, text) for label, text in told.items() if text]
+    return [(label, text.removesuffix(".")) for label, text in told.items() if text]
 
 
 def _values(values: Mapping[str, float]) -> str:
