@@ -239,9 +239,10 @@ class _Reader:
         self.columns: dict[str, str] = {}
 
     def book(self) -> Book:
-        main = dict(self.relations("").values()).get("officeDocument", "xl/workbook.xml")
+        mains = (to for kind, to in self.relations("").values() if kind == "officeDocument")
+        main = next(mains, "xl/workbook.xml")
         tree, related = self.tree(main), self.relations(main)
-        strings = dict(related.values()).get("sharedStrings")
+        strings = next((to for kind, to in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
         if strings in self.parts:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))

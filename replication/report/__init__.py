@@ -155,11 +155,13 @@ def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
     said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
     letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
     below = [cell for cell in cells if not in_header(cell)]
-    columns = sorted({cell[0] for cell in below})
-    rows = sorted({int(cell[1:]) for cell in below})
+    heads = {cell[0]: cells[cell].title.partition(",")[0] for cell in below}
+    columns, rows = sorted(heads), sorted({int(cell[1:]) for cell in below})
     return {
         "header": [claim for cell, claim in cells.items() if in_header(cell)],
-        "rows": [[cells.get(f"{column}{row}") for column in columns] for row in rows],
+        "heads": [heads[column] for column in columns],
+        # A cell without a claim here is blank, or fails and stands above.
+        "rows": [[cells.get(c + str(row), c + str(row)) for c in columns] for row in rows],
         "letters": letters,
         "marks": {name: letters[text] for name, text in said.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),

@@ -92,6 +92,12 @@ def test_what_no_source_has_or_more_than_one_is_refused_by_name() -> None:
             filled(Figure, *sources, means="depth", value=2.0)
 
 
+def test_a_cell_of_table_a_1_that_fails_is_not_called_blank() -> None:
+    page = contents(audit(LEDGER.misprint("a1-depth-1", "56.00E-08")), {})["audit.html"].decode()
+    table = page.partition("Rows of Table A-1")[2].partition("</table>")[0]
+    assert re.findall("<td>(.*?)</td>", table) == ["blank", "above"]
+
+
 def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None:
     """Eq. 11 alone gives alpha; beta takes two equations, so that no single one shows it."""
     spoiled = audit(LEDGER.misprint("yield-strength", "251"))

@@ -164,6 +164,14 @@ def test_a_sheet_that_names_no_part_is_damaged(plain: Path) -> None:
     assert "is damaged: 'r:id'" in refusal(nameless)
 
 
+def test_of_two_main_parts_the_first_is_read(plain: Path) -> None:
+    second = (
+        b'<Relationship Id="x" Type="http://x/officeDocument" Target="gone.xml"/></Relationships>'
+    )
+    twice = spoiled(plain, lambda data: data.replace(b"</Relationships>", second), "_rels/.rels")
+    assert read(twice).sheets == read(plain).sheets
+
+
 def test_shared_texts_and_all_digits_are_read(shared: Path) -> None:
     cells = read(shared).sheets["Sheet1"]
     assert [cells[row, 1].value for row in (1, 2, 3)] == ["text", "<b>&amp;</b>", 0.1 + 0.2]
