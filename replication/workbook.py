@@ -505,7 +505,8 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     """How far a run can be trusted (2; 1: all but its last velocity; 0: not), and what to say."""
     kinds = doubts_about(sheet).keys()
     trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
-    doubtful = "no_steps" if sheet.steps == 0 else "one_step" if sheet.steps == 1 else "doubtful"
+    doubtful = "coarse" if "coarse" in kinds else "doubtful"
+    doubtful = {0: "no_steps", 1: "one_step"}.get(sheet.steps, doubtful)
     message = (doubtful, "reversed", "early" if "short" in kinds else "complete")[trust]
     return trust, MESSAGES[message]
 

@@ -197,10 +197,11 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
 
 KEPT = Path(__file__).with_name("says.txt").read_text("utf-8").split("\n$ ")[1:]
 TYPED = {case.partition("\n")[0]: case.partition("\n")[2].strip("\n") for case in KEPT}
-"""What is typed, by the name of the input and in its unit, or over the cell in use -> what then
-stands where."""
+"""What is typed, by the name of the input and in its unit, or over the cell in use or one of a
+key -> what then stands where."""
 FOR_ALL = (
     "nothing", "V_impact = nothing", "R_p = eleven", "HB_ratio = nothing",
+    "over high.row.depth[40] = 3.9e-06",
     "dt_s = 0.05, dt_coarse = 0.05", "dt_s = 40.0", "V_impact = 0.5", "beta_high = 4.0",
     "over R_p = eleven", "from = report, over R_t_high = 2e9, over M_p = 5e-11",
     "from = report, V_impact = 600.0, rho_t = 0.0, beta_high = 4.0",
@@ -261,8 +262,9 @@ def pages(
     paths = []
     for number, name in enumerate(names):
         values: dict[str, float | str | None] = {}
-        for over, n, text in re.findall(r"(over )?(\w+) = ?([^,]*)", name):
+        for over, n, text in re.findall(r"(over )?(\S+) = ?([^,]*)", name):
             key = f"inputs.{n}" if over or n == "from" else f"inputs.{n}.typed"
+            key = n if "." in n else key
             typed = float(text) if re.match(r"-?\d", text) else text
             values[key] = None if text == "nothing" else typed
         paths.append(emitted.typed(values, folder / f"{number}.xlsx"))
