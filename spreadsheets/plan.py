@@ -78,11 +78,19 @@ def unit_text(unit: str) -> Cell:
     return Cell(written(unit) or "–", "unit")
 
 
+_SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥"}
+
+
 def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
-    """The text of a claim as the report prints it, with its unit where that is another."""
+    """The text of a claim as the report prints it, with its unit where that is another.
+
+    A bound has its sign before it; "several" is one by itself.
+    """
     claim = ledger.claims[name]
     claim_unit = "" if claim.unit == unit else f" {written(claim.unit)}"
-    return Cell(f"{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
+    bound = claim.kind == "bound" and "several" not in claim.text
+    sign = f"{_SIGNS[claim.relation]} " if bound and claim.relation else ""
+    return Cell(f"{sign}{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
 
 
 class Rule(NamedTuple):

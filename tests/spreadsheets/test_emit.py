@@ -79,7 +79,8 @@ def own(cell: Cell, ledger: Ledger) -> bool:
     """Whether what a cell shows is its claim's text, with or without its unit, or its number."""
     claim = ledger.claims[cell.claim]
     if cell.number is None:
-        return cell.text in (claim.shown, f"{claim.shown} {written(claim.unit)}".rstrip())
+        text = re.sub("^[<>≤≥] ", "", cell.text) if claim.kind == "bound" else cell.text
+        return text in (claim.shown, f"{claim.shown} {written(claim.unit)}".rstrip())
     interval = claim.interval()
     assert claim.printed is not None
     ends = [None if end is None else float(end) for end in (interval.lower, interval.upper)]
@@ -187,6 +188,13 @@ def test_the_front_sheet_tells_what_holds_and_links_to_it() -> None:
     for name, sheet in SHEETS.items():
         links = [cell.link for cell in sheet.cells.values() if cell.link]
         assert name == "Overview" or ("Overview", "A1") in links
+
+
+def beside(sheet: str, symbol: str) -> dict[str, str]:
+    """What a sheet shows as printed beside each quantity of a symbol."""
+    at = SHEETS[sheet].cells.get
+    lines = (tuple(at(f"{column}{row}", Cell()) for column in "ABCE") for row in range(1, 50))
+    return {b.text: e.text for a, b, c, e in lines if c.formula and a.text == symbol}
 
 
 test_what_the_workbooks_hold = calls(
