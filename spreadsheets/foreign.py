@@ -414,8 +414,8 @@ class _Sheet:
         if kind == "inlineStr":
             return (_text(parts["is"]) if "is" in parts else "") or None
         text = (parts["v"].text if "v" in parts else None) or ""
-        if not text:
-            return None
+        if not text:  # of a formula that gives an empty text this is its value
+            return "" if kind == "str" and parts.keys() >= {"f", "v"} else None
         match kind:
             case "s":
                 return self.texts[int(text)] or None

@@ -16,7 +16,7 @@ from reference.units import written
 from replication.check.diff import FOLLOWS, LAST, Comparison
 from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
-from replication.check.words import INPUTS, count, unit_text
+from replication.check.words import INPUTS, count, share, unit_text
 from replication.check.workbook import Check
 from replication.text import aligned, with_unit
 from spreadsheets.foreign import Position
@@ -70,11 +70,10 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     verdict = f"{verdict if differences else equal}."
     record = _record(calculations, verdict, differences, next(iter(differences), None))
     for c in calculations:
-        unstored = {place for place in c.formulas if c.book[place].value is None} - c.unknown
-        computed = {place for place in unstored if c.values.get(place, "") != ""}
+        computed = {place for place in c.formulas if c.book[place].value is None} - c.unknown
         for cells, what in ((computed, "are computed here"), (c.unknown, "are not compared")):
             if cells:
-                some = f"{len(cells):,} of {count(len(c.formulas), 'formula')}"
+                some = share(cells, c.formulas, "formula")
                 note = f"{c.book.path}: for {some} no value is stored: they {what}"
                 record["notes"].append(note)
     return record

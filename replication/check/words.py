@@ -9,7 +9,7 @@ import math
 import re
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sized
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
@@ -341,3 +341,14 @@ def count(number: int, what: str) -> str:
     ('1 cell', '2 cells')
     """
     return f"{number:,} {what}" if number == 1 else f"{number:,} {what}s"
+
+
+def share(some: Sized, of: Sized, what: str) -> str:
+    """How many things of how many.
+
+    >>> share("ab", "abcd", "formula"), share("ab", "ab", "formula"), share("a", "a", "formula")
+    ('2 of 4 formulas', 'all 2 formulas', '1 of 1 formula')
+    """
+    if len(some) == len(of) > 1:
+        return f"all {count(len(of), what)}"
+    return f"{len(some):,} of {count(len(of), what)}"

@@ -24,6 +24,7 @@ from replication.check.words import (
     input_roles,
     is_unit,
     number_in,
+    share,
 )
 from replication.reading import place as named
 from replication.reading import quoted
@@ -389,7 +390,7 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
     """Formulas without a stored value, and those that are not computed here."""
     reasons: dict[str, list[Position]] = {}
     for place in calculation.formulas:
-        if calculation.book[place].value is None and calculation.values.get(place) != "":
+        if calculation.book[place].value is None:
             reasons.setdefault("no value is stored; they are computed here", []).append(place)
     for place, why in calculation.uncomputed.items():
         stored = calculation.book[place].value is not None
@@ -398,5 +399,5 @@ def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
         reasons.setdefault(reason, []).append(place)
     for reason, places in reasons.items():
         formula = calculation.book[places[0]].formula
-        text = f"{len(places):,} of {count(len(calculation.formulas), 'formula')}: {reason}"
+        text = f"{share(places, calculation.formulas, 'formula')}: {reason}"
         yield Difference("not calculated", tuple(places), None, formula, text, (9,))

@@ -21,10 +21,10 @@ from workbooks import usable
 from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.check.diff import KINDS as KINDS_OF_DIFF
-from replication.check.diff import Tolerance
+from replication.check.diff import Tolerance, diff
 from replication.check.examination import KINDS
 from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
-from replication.check.show import check_record, text
+from replication.check.show import check_record, diff_record, text
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
@@ -96,6 +96,16 @@ def test_our_own_workbook_is_clean(saved_by: str, emitted: Path, tmp_path: Path)
         places = {name: value.place for name, value in sheets[sheet].inputs.items()}
         assert places.pop("resistance") is None
         assert {place and place[0] for place in places.values()} == {"Inputs"}
+
+
+def test_our_own_workbook_without_stored_values_has_none(emitted: Path, tmp_path: Path) -> None:
+    """Nor of the formulas that give an empty text, which ours stores."""
+    load_workbook(emitted).save(tmp_path / "saved.xlsx")
+    none, told = "formulas: no value is stored", check_record(check(tmp_path / "saved.xlsx"))
+    assert any(d["explanation"].startswith("all 13,") for d in told["differences"])
+    assert none not in text(check_record(check(emitted)))
+    notes = diff_record(diff(emitted, tmp_path / "saved.xlsx"))["notes"]
+    assert [": for all 13," in note for note in notes] == [True]
 
 
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
