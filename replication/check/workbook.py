@@ -103,7 +103,9 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         judge(f, repeating.get(number))
     misread(examinations)
     sheets = [f.table.sheet for f in examinations]
-    numbers = [number for f in examinations for number in _held(f, sheets)]
+    # Several tables may have the same cell for an input or a result.
+    held = (number for f in examinations for number in _held(f, sheets))
+    numbers = {(number.claim.id, number.place): number for number in held}.values()
     silent = list(_without_numbers(calculation))
     beside_tables = [
         *_stale(calculation, examinations),

@@ -108,6 +108,16 @@ def test_our_own_workbook_without_stored_values_has_none(emitted: Path, tmp_path
     assert [": for all 13," in note for note in notes] == [True]
 
 
+def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: Path) -> None:
+    book = load_workbook(emitted)
+    book["Inputs"]["F55"] = "=pi_*R_p^3*rho_p"  # which five tables read
+    book.save(emitted)
+    told = check_record(check(emitted))
+    claims = [(claim["id"], claim["cell"]) for claim in told["claims"]]
+    unmet = [(d["sheet"], d["cell"]) for d in told["differences"] if d["kind"] == "printed number"]
+    assert len(claims) == len(set(claims)) > len(unmet) == len(set(unmet)) > 10
+
+
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
     """Its formulas guard themselves: none gives an error, and there is no table."""
     book = load_workbook(emitted)
