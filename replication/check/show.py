@@ -197,6 +197,8 @@ def contents(difference: Record) -> str:
     'was 500.0, is blank'
     >>> contents({"kind": "value", "expected": 11.0, "found": "11"})
     "was 11.0, is '11'"
+    >>> contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
+    'holds 7.68e-06, the report prints 7.67 um'
     """
     values = difference["expected"], difference["found"]
     expected, found = ("blank" if value is None else safe(value, 120) for value in values)
@@ -209,6 +211,8 @@ def contents(difference: Record) -> str:
         if difference["kind"] in ("added", "removed"):
             return found if values[0] is None else expected
         return f"was {expected}, is {found}"
+    if difference["kind"] == "printed number":  # in the report's unit, not the cell's
+        return f"holds {found}, the report prints {expected}"
     if values[0] is not None and expected != found:
         return f"holds {found}, should hold {expected}"
     return "" if values[1] is None else f"holds {found}"
@@ -254,7 +258,7 @@ def _lines(record: Record) -> Iterator[str]:
         (
             f"  {with_unit(claim['printed'], claim['unit'])}",
             safe(claim["cell"], 40),
-            f"{claim['found']:.7g}",
+            with_unit(f"{claim['found']:.7g}", claim["unit"]),
             "as printed" if claim["met"] else f"not in {claim['interval']}",
             claim["title"],
         )

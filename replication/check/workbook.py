@@ -48,9 +48,13 @@ class HeldNumber:
     def unmet(self, f: Examination) -> Difference:
         """That it is not as printed."""
         claim, rank = self.claim, (3, *f.rank(self.place))
-        text = f"the report prints {with_unit(claim.shown, claim.unit)} for {claim.title} "
-        text += f"({claim.place}), which stands for values in {claim.interval()}"
-        return Difference("printed number", (self.place,), claim.text, self.found, text, rank)
+        printed, interval = (
+            with_unit(str(text), claim.unit) for text in (claim.shown, claim.interval())
+        )
+        text = f"the report prints {printed} for {claim.title} ({claim.place}), "
+        text += f"which stands for values in {interval}"
+        held = f.calculation.number(self.place)
+        return Difference("printed number", (self.place,), printed, held, text, rank)
 
 
 @dataclass(frozen=True)

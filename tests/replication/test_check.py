@@ -116,6 +116,11 @@ def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: P
     claims = [(claim["id"], claim["cell"]) for claim in told["claims"]]
     unmet = [(d["sheet"], d["cell"]) for d in told["differences"] if d["kind"] == "printed number"]
     assert len(claims) == len(set(claims)) > len(unmet) == len(set(unmet)) > 10
+    (depth,) = (
+        d for d in told["differences"] if (d["sheet"], d["cell"]) == ("Sheet beta 3", "K22")
+    )
+    assert depth["found"] == told["final_depths"][1]["found"]  # in m, as the cell has it
+    assert depth["expected"] == "10.0 um"
 
 
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
