@@ -786,8 +786,9 @@ def _effects(f: Examination) -> None:
             f.differing += k > steps if right is None else abs(value - right) > 1e-9 * abs(right)
     if not stops_elsewhere(f):
         steps = f.table.steps
-    with_effects = (replace(d, effect=_effect(f, d, steps)) for d in f.differences)
-    f.differences = sorted(with_effects, key=lambda d: d.rank)
+    if f.ends:  # an excerpt has no final depth
+        f.differences = [replace(d, effect=_effect(f, d, steps)) for d in f.differences]
+    f.differences.sort(key=lambda d: d.rank)
 
 
 def _effect(f: Examination, difference: Difference, steps: int) -> float | None:

@@ -121,7 +121,8 @@ def _verdict(check: Check) -> str:
     for f in check.examinations:
         if (depths := _apart(f)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
-            return f"{sentence}; the final depth is {reached}, and should be {right}."
+            which = _which(_depth(f), len(check.examinations))
+            return f"{sentence}; the final depth{which} is {reached}, and should be {right}."
     if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
         tables = "the table ends" if len(check.examinations) == 1 else "every table ends"
         return f"{sentence}; {tables} at the right depth all the same."
@@ -137,7 +138,10 @@ def _apart(f: Examination) -> tuple[float, float] | None:
 
 
 def _depth(f: Examination) -> Record:
-    """The final depth, what it should be, and the one difference that alone explains it, if any."""
+    """The final depth, what it should be, and the one difference that alone explains it, if any.
+
+    Of an excerpt none is found.
+    """
     explains = None
     if (depths := _apart(f)) is not None:
         reached, right = depths
@@ -145,8 +149,14 @@ def _depth(f: Examination) -> Record:
         off, nearest = min(effects, key=lambda entry: entry[0], default=(0.0, None))
         if nearest and off < 0.05 * abs(reached - right):
             explains = address(nearest.place, True)
-    return {"found": f.final_depth, "expected": f.right_depth, "explained_by": explains,
-            "differing": f.differing}  # fmt: skip
+    return {"sheet": f.table.sheet, "cells": f.table.area("depth"),
+            "found": f.final_depth if f.ends else None, "expected": f.right_depth,
+            "explained_by": explains, "differing": f.differing}  # fmt: skip
+
+
+def _which(depth: Record, of: int) -> str:
+    """Which table's final depth it is, of so many."""
+    return f" of {safe(depth['sheet'], 40)}!{depth['cells']}" if of > 1 else ""
 
 
 def _taken(f: Examination) -> Record:
@@ -237,7 +247,9 @@ def _lines(record: Record) -> Iterator[str]:
                 differ = "differs" if depth["differing"] == 1 else "differ"
                 cells = f"{count(depth['differing'], 'cell')} of its table {differ}"
                 cell = safe(depth["explained_by"], 60)
-                explains = f"{cell} alone explains the final depth; {cells} from the right run"
+                which = _which(depth, len(record["final_depths"]))
+                explains = f"{cell} alone explains the final depth{which}; {cells}"
+                explains += " from the right run"
                 yield _wrapped(explains, "    ")
     aside = {"other input": "Other inputs than the report's, which are no fault",
              "not calculated": "Not covered"}  # fmt: skip

@@ -121,6 +121,14 @@ def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: P
     )
     assert depth["found"] == told["final_depths"][1]["found"]  # in m, as the cell has it
     assert depth["expected"] == "10.0 um"
+    excerpt, *whole = told["final_depths"]
+    assert (excerpt["sheet"], excerpt["found"]) == ("Table A-1", None)
+    assert told["first"]["final_depth"] is None  # nor has the excerpt one by its cause
+    lines = " ".join(text(told).split())
+    for table in whole:
+        own = f"{table['sheet']}!{table['cells']}"
+        assert lines.count(f"Inputs!F55 alone explains the final depth of {own};") == 1
+    assert "the final depth of Sheet beta 3!D10:D157 is 8.391408 um, and should" in told["verdict"]
 
 
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
