@@ -118,6 +118,8 @@ def _verdict(check: Check) -> str:
     if all(d.kind == "operation order" for d in causes):
         return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
+    if unmet := len(faults) - len(causes):
+        sentence += f", {count(unmet, 'printed number')} not met"
     for f in check.examinations:
         if (depths := _apart(f)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
@@ -358,14 +360,34 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
     environment.filters |= {"safe": safe, "contents": contents, "unit": written}
     sheets = list(calculation.book.sheets)
     marked = {d.place[0] for d in differences}
-    anchors = [_anchor(d.place, sheets) for d in differences]
+    pairs = zip(differences, record["differences"], strict=True)
+    both = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered as they are listed
+    differences = [d for d, _ in both]
+    numbered = [(n, told, _anchor(d.place, sheets)) for n, (d, told) in enumerate(both, 1)]
     return environment.get_template("page.html.j2").render(
         record,
         style=Markup(style),  # noqa: S704  (our own file)
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-        numbered=list(zip(range(1, len(anchors) + 1), record["differences"], anchors, strict=True)),
+        lists=[
+            (*names, [entry for entry in numbered if _list_of(entry[1]) == k])
+            for k, names in enumerate(_LISTS)
+        ],
         sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
     )
+
+
+_LISTS = (
+    ("differences", "What differs"),
+    ("unmet", "Printed numbers that it does not meet"),
+    ("notes", "No fault by itself"),
+)
+"""The page's lists of differences: name and title."""
+
+
+def _list_of(difference: Record) -> int:
+    """In which of them a difference is."""
+    kind = difference["kind"]
+    return 2 if kind in NO_FAULT else int(kind == "printed number")
 
 
 def _anchor(place: Position, sheets: Sequence[str]) -> str:

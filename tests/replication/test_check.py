@@ -1,6 +1,7 @@
 """`coldspray check` and `diff`: what is taken for what, what is said, how well it is done."""
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +25,7 @@ from replication.check.diff import KINDS as KINDS_OF_DIFF
 from replication.check.diff import Tolerance, diff
 from replication.check.examination import KINDS
 from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
-from replication.check.show import check_record, diff_record, text
+from replication.check.show import check_record, diff_record, html, text
 from replication.check.words import COLUMNS, INPUTS
 from replication.check.workbook import check
 from replication.models import sheet as midpoint
@@ -112,7 +113,8 @@ def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: P
     book = load_workbook(emitted)
     book["Inputs"]["F55"] = "=pi_*R_p^3*rho_p"  # which five tables read
     book.save(emitted)
-    told = check_record(check(emitted))
+    checked = check(emitted)
+    told = check_record(checked)
     claims = [(claim["id"], claim["cell"]) for claim in told["claims"]]
     unmet = [(d["sheet"], d["cell"]) for d in told["differences"] if d["kind"] == "printed number"]
     assert len(claims) == len(set(claims)) > len(unmet) == len(set(unmet)) > 10
@@ -129,6 +131,14 @@ def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: P
         own = f"{table['sheet']}!{table['cells']}"
         assert lines.count(f"Inputs!F55 alone explains the final depth of {own};") == 1
     assert "the final depth of Sheet beta 3!D10:D157 is 8.391408 um, and should" in told["verdict"]
+    drawn_page = html(told, checked.differences, checked.calculation)
+    items = list(sound(drawn_page).iter(f"{HTML}li"))
+    assert [int(item.get("value", 0)) for item in items] == [*range(1, len(items) + 1)]
+    assert len(items) == len(told["differences"])
+    heads = re.findall("<h2 id=.*>(.*): ([0-9]+)</h2>", drawn_page)
+    assert [int(number) for _, number in heads] == [1, len(unmet), len(items) - 1 - len(unmet)]
+    said_first = f"1 difference from the report's sheet, {len(unmet)} printed numbers not met;"
+    assert told["verdict"].startswith(said_first)
 
 
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
