@@ -65,8 +65,9 @@ def wrong_beside(f: Examination) -> Wrong | None:
     area, pressure, force = (dict[int, tuple[float, float]]() for _ in range(3))
     for k in range(1, f.table.steps + 1):
         x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
-        if x and v is not None and a is not None:
-            taken, right = a * f.case.mass, math.pi * contact(f.case, x)
+        right = math.pi * contact(f.case, x or 0.0)  # 0 at touch, and at depths such as 5E-324 m
+        if right and v is not None and a is not None:
+            taken = a * f.case.mass
             stress = 0.5 * f.case.target_density * v * v + f.case.resistance
             area[k], pressure[k] = (taken / stress, right), (taken / right, stress)
             force[k] = taken, stress * right
