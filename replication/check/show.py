@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib import resources
+from itertools import groupby
 from textwrap import fill
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -123,7 +124,7 @@ def _verdict(check: Check) -> str:
     for f in check.examinations:
         if (depths := _apart(f)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
-            which = _which(_depth(f), len(check.examinations))
+            which = _which(f.table.sheet, f.table.area("depth"), len(check.examinations))
             return f"{sentence}; the final depth{which} is {reached}, and should be {right}."
     if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
         tables = "the table ends" if len(check.examinations) == 1 else "every table ends"
@@ -156,9 +157,9 @@ def _depth(f: Examination) -> Record:
             "explained_by": explains, "differing": f.differing}  # fmt: skip
 
 
-def _which(depth: Record, of: int) -> str:
+def _which(sheet: str, cells: str, of: int) -> str:
     """Which table's final depth it is, of so many."""
-    return f" of {safe(depth['sheet'], 40)}!{depth['cells']}" if of > 1 else ""
+    return f" of {safe(sheet, 40)}!{cells}" if of > 1 else ""
 
 
 def _taken(f: Examination) -> Record:
@@ -249,7 +250,8 @@ def _lines(record: Record) -> Iterator[str]:
                 differ = "differs" if depth["differing"] == 1 else "differ"
                 cells = f"{count(depth['differing'], 'cell')} of its table {differ}"
                 cell = safe(depth["explained_by"], 60)
-                which = _which(depth, len(record["final_depths"]))
+                of = len(record["final_depths"])
+                which = _which(depth["sheet"], depth["cells"], of)
                 explains = f"{cell} alone explains the final depth{which}; {cells}"
                 explains += " from the right run"
                 yield _wrapped(explains, "    ")
@@ -369,8 +371,8 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
         style=Markup(style),  # noqa: S704  (our own file)
         style_hash=b64encode(sha256(style.encode()).digest()).decode(),
         lists=[
-            (*names, [entry for entry in numbered if _list_of(entry[1]) == k])
-            for k, names in enumerate(_LISTS)
+            (*_LISTS[k], list(entries))
+            for k, entries in groupby(numbered, key=lambda entry: _list_of(entry[1]))
         ],
         sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
     )
