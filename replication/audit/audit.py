@@ -72,13 +72,15 @@ class Audit(Known):
     @staticmethod
     def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
-        calculations = {(c.computed_by or c.id, c.cell, str(c.rests_on)) for c in reproduced}
+        computed = [(c.reference, c.unit) for c in reproduced if c.reference is not None]
+        values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
         return r.Counts(
             numbers=len(claims) - remarks,
             remarks=remarks,
             reproduced=len(reproduced),
-            calculations=len(calculations),
+            computed=len(computed),
+            values=len(values),
             failing=sum(claim.verdict.is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),

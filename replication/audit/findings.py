@@ -20,12 +20,12 @@ from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose, solve
 from reference.equations import evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
-from reference.printed import Interval
+from reference.printed import Interval, Rounding
 from reference.units import same_dimension, to_si
 from replication.audit import record as r
 from replication.audit import wording
 from replication.audit.explain import Explainer
-from replication.audit.inference import Admission
+from replication.audit.inference import Admission, Inference
 from replication.audit.record import Verdict
 from replication.audit.verdict import Assessment, Judge, Reading, assess_equation
 from replication.models import depth, estimates, sheet
@@ -72,11 +72,11 @@ class Known:
         if sources := self.sources(claim.id):
             agrees = any(source.agrees for source in sources)
             verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
-            return Assessment(verdict, reason or wording.sources(sources))
+            return Assessment(verdict, reason or wording.sources(self.ledger, claim, sources))
         if claim.shown_by:
             shown = self.shown(claim)
             verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
-            return Assessment(verdict, reason or wording.chosen(self.ledger, shown))
+            return Assessment(verdict, reason or wording.fitting(self.ledger, claim, shown))
         undecided = f"Nothing in the report decides it: {claim.why}."
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
@@ -201,23 +201,29 @@ class Evidence:
                 constants = known.equation(ledger.claims[entry].within).constants
                 (value,) = constants[entry].needed
                 return Fraction(value)
-            case ("odd",):
-                return Fraction(len(known.judge.inference(entry).odd))
+            case (*how, "odd"):
+                return Fraction(len(self._inference(entry, *how).odd))
         raise KeyError(".".join((entry, *parts)))
 
-    def _range(self, entry: str, how: str = "") -> Interval:
+    def _range(self, entry: str, *how: str) -> Interval:
         """What prints like a claim, or what the evidence of an inferred input admits, SI.
 
-        With everything exactly as printed; `how` names a convention, the other scheme ("centered"),
-        or says that the mass is the printed one ("mass").
+        With everything exactly as printed; `how` names a convention, or what is otherwise: the drag
+        at the middle velocity ("centered"), digits cut off ("cut"), the printed mass ("mass").
         """
         judge = self.known.judge
         if entry in self.known.ledger.claims:
             return self.known.ledger.claims[entry].target()
-        if how in _CONVENTIONS:
-            return judge.rounded(entry, _CONVENTIONS[how])
-        inference = judge.inference(entry, centered=how == "centered")
-        return inference.with_mass if how == "mass" else inference.inner
+        for convention in how:
+            if convention in _CONVENTIONS:
+                return judge.rounded(entry, _CONVENTIONS[convention])
+        inference = self._inference(entry, *how)
+        return inference.with_mass if "mass" in how else inference.inner
+
+    def _inference(self, entry: str, *how: str) -> Inference:
+        rounding = Rounding.CUT if "cut" in how else Rounding.AWAY
+        inference = self.known.judge.inference
+        return inference(entry, centered="centered" in how, rounding=rounding)
 
     def calculated(self, formula: str, ar: Arithmetic | None = None, /, **numbers: Number) -> Any:
         """The value of a formula, exact until a logarithm or a root is taken.

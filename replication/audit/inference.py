@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
 from reference.ledger import INFERRED, Convention, Function, Ledger
-from reference.printed import Interval
+from reference.printed import Interval, Rounding
 
 
 class Admission(Enum):
@@ -26,17 +26,23 @@ class Inference:
     """The values (SI) of an input with which the numbers that are its evidence come out as printed.
 
     `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
-    sphere's. `each` has the values for every piece of evidence alone, with the other inputs exactly
-    as printed. `agreeing` is the largest set of evidence that one value can satisfy, of several
-    that of the least value; `odd` is the rest. Every value of `inner` is proven to satisfy the
-    agreeing evidence, and none outside `outer` does. Where no value satisfies any, all evidence is
-    odd, and the ledger's value stays.
+    sphere's; `rounding` is how the evidence was printed. `each` has the values for every piece of
+    evidence alone, with the other inputs exactly as printed. `agreeing` is the largest set of
+    evidence that one value can satisfy, of several that of the least value; `odd` is the rest.
+    Every value of `inner` is proven to satisfy the agreeing evidence, and none outside `outer`
+    does. Where no value satisfies any, all evidence is odd, and the ledger's value stays.
     """
 
     def __init__(
-        self, ledger: Ledger, name: str, *, centered: bool = False, by_mass: bool = False
+        self,
+        ledger: Ledger,
+        name: str,
+        *,
+        centered: bool = False,
+        rounding: Rounding = Rounding.AWAY,
+        by_mass: bool = False,
     ) -> None:
-        self.ledger, self.name, self.centered = ledger, name, centered
+        self.ledger, self.name, self.centered, self.rounding = ledger, name, centered, rounding
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
         self.rounded, self._admitted = cache(self._rounded), cache(self._bounds)
         self.each: dict[str, Solutions] = {}
@@ -44,7 +50,8 @@ class Inference:
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
             function, search = ledger.function(resting, centered=centered), self.entry.search
-            self.each[claim.id] = solve(function, name, search, claim.target(), others=printed)
+            target = claim.target(rounding)
+            self.each[claim.id] = solve(function, name, search, target, others=printed)
         values = sorted({low for solutions in self.each.values() for low, _ in solutions.inner})
         sets = (tuple(claim for claim, own in self.each.items() if own.admits(x)) for x in values)
         self.agreeing = max(sets, key=len, default=())
@@ -60,7 +67,9 @@ class Inference:
     @cached_property
     def with_mass(self) -> Interval:
         """As `inner`, where the particle mass is the printed one."""
-        return Inference(self.ledger, self.name, centered=self.centered, by_mass=True).inner
+        return Inference(
+            self.ledger, self.name, centered=self.centered, rounding=self.rounding, by_mass=True
+        ).inner
 
     def admitted(self, convention: Convention) -> Interval:
         """All values that can satisfy the evidence where inputs are rounded as a convention says.

@@ -371,14 +371,15 @@ class Level(_Part, frozen=True):
 class Counts(_Part, frozen=True):
     """How many there are: printed numbers, of them computed anew, equations.
 
-    `calculations` counts the distinct ones among the reproduced numbers: a value that the report
-    prints five times is one of them.
+    `computed` counts the reproduced numbers that are no constants of equations, `values` the
+    different values of these: one that the report prints five times is one of them.
     """
 
     numbers: int
     remarks: int
     reproduced: int
-    calculations: int
+    computed: int
+    values: int
     failing: int
     equations: int
     equations_derived: int

@@ -98,9 +98,11 @@ class Judge:
         self.ledger, self.every_convention = ledger, every_convention
         self._inferences = cache(partial(Inference, ledger))
 
-    def inference(self, name: str, *, centered: bool = False) -> Inference:
-        """What the evidence says of an input that is not printed, under one of the schemes."""
-        return self._inferences(name, centered=centered)
+    def inference(
+        self, name: str, *, centered: bool = False, rounding: Rounding = Rounding.AWAY
+    ) -> Inference:
+        """What the evidence, so rounded, says of an unprinted input, under one of the schemes."""
+        return self._inferences(name, centered=centered, rounding=rounding)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:
@@ -211,6 +213,14 @@ class Judge:
             wide and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
         )
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
+
+    def telling(self, claim: Claim) -> list[str]:
+        """The inferred inputs on which a claim's value, as printed, is not proven not to depend."""
+        inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
+        if not inferred:
+            return []
+        idle = enclose(self.ledger.function(claim), {**self.printed(claim), **inferred}).idle
+        return [entry for entry in claim.inferred if entry not in idle]
 
     def printed(self, claim: Claim) -> Box:
         """The inputs of a claim as printed, or as assumed where they are inferred."""

@@ -32,27 +32,33 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     sentences = [f"{what}: {value}, {inside}{relation} {shown}.", _reason(judge, claim, first)]
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
-        proven, but = between(reading.judgements[0].ends, 6), _exceptions(reading)
+        proven, but = between(reading.judgements[0].ends, 6), _exceptions(claim, reading)
         verdict = f"{reading.verdict}{f' ({but})' * bool(but)}"
         sentences.append(f"Read as {reading.name}: {value}, {verdict}; proven range {proven}.")
     return " ".join(filter(None, sentences))
 
 
-def chosen(ledger: Ledger, shown: Shown | None) -> str:
-    """What is known of a number that the author chose."""
+def origin(claim: Claim) -> str:
+    """Where a number comes from that nothing in the report computes, as a sentence."""
+    why = "the author's choice" if claim.given == "choice" else claim.why or ""
+    return f"{why[:1].upper()}{why[1:]}."
+
+
+def fitting(ledger: Ledger, claim: Claim, shown: Shown | None) -> str:
+    """What is known of a number that nothing computes, by what is computed from it."""
     if shown is None:
-        return "The author's choice; what is computed from it does not come out as printed."
+        return f"{origin(claim)} What is computed from it does not come out as printed."
     text = quantity(between(shown.interval, 4, inward=True), shown.unit)
     titles = "; ".join(map(ledger.title, shown.claims))
     come = "this comes" if len(shown.claims) == 1 else "these come"
-    return f"The author's choice. For {text} {come} out as printed: {titles}."
+    return f"{origin(claim)} For {text} {come} out as printed: {titles}."
 
 
 def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
     judgement, ledger = reading.judgements[0], judge.ledger
     proven = between(judgement.ends, 6)
     match judgement.verdict:
-        case Verdict.REPRODUCED if claim.inferred:
+        case Verdict.REPRODUCED if judge.telling(claim):
             return f"For the target densities that Table A-1 admits: {proven}."
         case Verdict.REPRODUCED:
             return ""
@@ -89,11 +95,11 @@ def holds(claim: Claim, reading: Reading) -> str:
     scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
     tried_under = f"{'As printed, tried' if claim.readings and not reading.name else 'Tried'} under"
-    but = _exceptions(reading)
+    but = _exceptions(claim, reading)
     return f"{tried_under} {scope}: the same{f', except: {but}' * bool(but)}."
 
 
-def _exceptions(reading: Reading) -> str:
+def _exceptions(claim: Claim, reading: Reading) -> str:
     """The verdicts that some conventions change it to, and which; empty if none does."""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
@@ -105,12 +111,13 @@ def _exceptions(reading: Reading) -> str:
         # A condition that contains another says nothing more.
         kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
         parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
-    return ", and ".join(parts)
+    # What its inferred inputs rest on is rounded under every convention.
+    return ", and ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
 
 
 _UNUSUAL = (
     ("rounding", Rounding.EVEN, "ties go to even"),
-    ("rounding", Rounding.CUT, "digits are cut off"),
+    ("rounding", Rounding.CUT, "digits {cut_off}are cut off"),
     ("choices_exact", False, "what the author chose is rounded, too"),
     ("header_exact", True, "the header of Table A-1 is exact"),
     ("centered", True, "the drag is taken at the middle velocity"),
@@ -121,12 +128,17 @@ _UNUSUAL = (
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     assumed = [] if claim.assumes is None else [claim.assumes]
-    for name in claim.inferred:
+    telling = claim.inferred if computed is None else judge.telling(claim)
+    for name in telling:
+        inference = judge.inference(name)
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
-        admitted = between(judge.inference(name).inner.ends, 6, inward=True)
+        admitted = between(inference.inner.ends, 6, inward=True)
         table = "Table A-1 as printed but the sphere's mass"
         assumed.append(f"{judge.ledger.title(name)} {value}, inferred: {table} admits {admitted}")
-    if claim.by_scheme:
+        if claim.id in inference.agreeing:
+            cells = f"the {len(inference.agreeing)} cells that it is inferred from"
+            assumed.append(f"{cells} show by themselves only that one value gives them all")
+    if claim.by_scheme and (telling or not claim.inferred):
         assumed.append("the drag at the velocity with which a row begins")
     values = [source.interval for source in judge.ledger.sources_of(claim.id)]
     if computed is not None:
@@ -150,16 +162,18 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
 
 
-def sources(records: Sequence[SourceRecord]) -> str:
-    """How a number stands to the public sources for it."""
+def sources(ledger: Ledger, claim: Claim, records: Sequence[SourceRecord]) -> str:
+    """Where a number comes from, and how it stands to the public sources for it."""
     agreeing, others = (
         "; ".join(f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees)
         for agrees in (True, False)
     )
     if not agreeing:
-        return f"The report names no source. No public source at hand prints it: {others}."
+        values = [source.value for source in ledger.sources_of(claim.id)]
+        between = " It lies between them." * (min(values) < claim.value < max(values))
+        return f"{origin(claim)} No public source at hand prints it: {others}.{between}"
     but = f", not with {others}" if others else ""
-    return f"The report names no source. It agrees with {agreeing}{but}."
+    return f"{origin(claim)} It agrees with {agreeing}{but}."
 
 
 # Equations

@@ -261,7 +261,7 @@ def test_the_answer_comes_first_everywhere(
     start = words(next(root.iter(f"{HTML}header"))).replace("’", "'").replace("\xa0", " ")
     for text in (start, files["audit.md"].decode(), report.summary(record, 1000)):
         assert record.headline in text[:400]
-        assert text.index(record.headline) < text.index(f"{record.counts.calculations} ")
+        assert text.index(record.headline) < text.index(f"{record.counts.reproduced} ")
 
 
 def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: Record) -> None:
