@@ -22,6 +22,8 @@ def check_target(path: Path) -> Path:
         raise IsADirectoryError(EISDIR, "is a folder; give a file", str(path))
     if target.exists() and not target.is_file():
         raise OSError(EINVAL, "is not a regular file", str(path))
+    if target.exists() and not os.access(target, os.W_OK):
+        raise PermissionError(EACCES, "is write-protected", str(path))
     if not target.parent.is_dir():
         raise FileNotFoundError(2, "the folder to write to does not exist", str(path.parent))
     return target

@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # Characters that a terminal's encoding lacks are escaped, as JSON allows.
+            # Characters that a terminal's encoding lacks are escaped.
             stream.reconfigure(errors="backslashreplace")
     program = "coldspray"
     try:
@@ -92,6 +92,11 @@ def _end_as_interrupted() -> None:
 
 class _Parser(argparse.ArgumentParser):
     """An argument parser that says what is wrong in one line."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        # A value such as -5m/s is no option, either: it is refused as what it is.
+        self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
@@ -194,7 +199,7 @@ def _share(text: str) -> float:
 
 def _whole(least: int = 0, most: int = 0) -> Callable[[str], int]:
     """A reader of whole numbers within bounds, if the command itself does not bound them."""
-    which = f"from {least:,} to {most:,}" if most else "of at most 20 digits"
+    which = f"from {least:,} to {most:,}" if most else "of at most 20 digits, without a sign"
 
     def read(text: str) -> int:
         if re.fullmatch(r"\s*[0-9]{1,20}\s*", text) and least <= int(text) <= (most or 10**20):

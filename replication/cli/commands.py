@@ -1,8 +1,11 @@
 """What the commands do, a function each, which returns the exit status; and how they print."""
 
 import argparse
+import codecs
 import gc
+import json
 import os
+import re
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -24,7 +27,7 @@ def run_audit(options: argparse.Namespace) -> int:
     if options.schema:
         from replication.audit.record import schema
 
-        sys.stdout.write(json_text(schema()))
+        _put_json(json_text(schema()))
         return 0
     gc.disable()  # looking for garbage would take a tenth of the time
     try:
@@ -50,7 +53,7 @@ def run_audit(options: argparse.Namespace) -> int:
         gc.freeze()  # what is left over ends with the process
         gc.enable()
     if options.json:
-        sys.stdout.write(written["audit.json"].decode())
+        _put_json(written["audit.json"].decode())
     elif not options.quiet:
         print(report.summary(record, _width(), _may_emphasize()), end="\n\n")
         print(f"Written to {one_line(str(options.out))}/; start with audit.html")
@@ -263,7 +266,15 @@ def run_converge(options: argparse.Namespace) -> int:
     warnings = (
         f"{level['step']!r} s: {doubt}" for level in record["levels"] for doubt in level["warnings"]
     )
-    return _put(options, record, lambda: text(record), warnings=warnings)
+    rows = [
+        {
+            key: x
+            for key, x in (level | level["budget"]).items()
+            if key not in ("budget", "warnings")
+        }
+        for level in record["levels"]
+    ]
+    return _put(options, record, lambda: text(record), rows, warnings)
 
 
 def run_stability(options: argparse.Namespace) -> int:
@@ -415,7 +426,7 @@ def _put(
     quietly: the text only tells what was done, so that `--quiet` silences it. The status is 0.
     """
     if options.json:
-        sys.stdout.write(json_text(record))
+        _put_json(json_text(record))
         return 0
     if "csv" in options and options.csv:
         sys.stdout.write(rows_csv(rows))
@@ -424,6 +435,14 @@ def _put(
     for warning in () if options.quiet else warnings:
         print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
     return 0
+
+
+def _put_json(text: str) -> None:
+    """Print JSON, which is read as UTF-8: where stdout is not, in characters that are alike."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    if codecs.lookup(encoding).name != "utf-8":
+        text = re.sub("[^\\x00-\\x7f]", lambda match: json.dumps(match[0])[1:-1], text)
+    sys.stdout.write(text)
 
 
 def _width(piped: int = 80) -> int:

@@ -149,7 +149,10 @@ def error_order(
 
 
 def regime(error: float, budget: Budget, time_step_order: float | None, order: int) -> str:
-    """What governs the error: a part of more than a tenth of it shows in the observed order."""
+    """What governs the error, as `GOVERNED_BY` explains it.
+
+    A part of more than a tenth of it shows in the observed order.
+    """
     time_step, stop_rule, half_step, rounding = (budget[part] or 0.0 for part in _PARTS)
     if budget["time_step"] is None:
         return "meaningless"
@@ -163,6 +166,18 @@ def regime(error: float, budget: Budget, time_step_order: float | None, order: i
     if stop > abs(time_step):
         return "stop-rule floor"
     return "stop rule shows" if stop > abs(time_step) / 10 else "asymptotic"
+
+
+GOVERNED_BY = {
+    "asymptotic": "the time step, of the order of the scheme (within 0.1)",
+    "stop rule shows": "the time step; where the last row falls adds more than a tenth of it",
+    "stop-rule floor": "where the last row falls adds more than the time step does",
+    "not yet asymptotic": "the time step, not yet of the order of the scheme",
+    "order unknown": "the first run, or one without an order of the time step's part",
+    "rounding floor": "rounding, with more than a tenth of it",
+    "meaningless": "the last velocity exceeds that of the impact in size",
+}
+"""What an error is governed by, and what that means."""
 
 
 def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) -> dict[str, Any]:
@@ -248,6 +263,12 @@ _WHY = {
 }
 
 
+_PARTS_IN_WORDS = """\
+The error is the sum of four parts: time step, the scheme against the exact depth at the velocity
+of the last row; stop rule, that depth against the one at rest; half step, by which x stands behind
+that velocity, -v dt/2; and rounding."""
+
+
 def _um(length: float | None, digits: int) -> str:
     return "-" if length is None else number(length * 1e6, digits)
 
@@ -276,14 +297,20 @@ def text(result: dict[str, Any]) -> str:
         f"{_um(result['limit'], 8)} um, observed order {result['observed_order']:.2f}, "
         f"grid convergence index {100 * result['gci']:.2g} %"
     )
+    order = result["nominal_order"]
+    if result["limit"] and abs(result["observed_order"] - order) > 0.1 * order:
+        limit += " (no bound: the order is not the scheme's)"
+    regimes = {level["regime"] for level in result["levels"]}
     lines = [
         *_table(result["levels"]),
         "",
         f"exact, at rest            {_um(result['exact'], 10)} um",
         f"exact, at stop velocity   {_um(result['exact_at_stop'], 10)} um",
         f"limit of the last three   {limit}",
-        "The error is the sum of the four parts: time step, stop rule, half step, rounding.",
+        _PARTS_IN_WORDS,
         _WHY[result["scheme"]],
+        "What governs an error:",
+        *(f"  {name}: {means}" for name, means in GOVERNED_BY.items() if name in regimes),
     ]
     if met := result["digits"]:
         digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"

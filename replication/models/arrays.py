@@ -52,6 +52,9 @@ def _for_anything(model: Model) -> Model:
         return _contained(compute, bound.arguments, (float,))
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
+    # It is not for floats only, as the model's annotations say.
+    of_anything = [p.replace(annotation=p.empty) for p in signature.parameters.values()]
+    function.__signature__ = inspect.Signature(of_anything)  # type: ignore[attr-defined]
     function.__module__ = __name__  # where pickle finds it
     return function
 
@@ -154,14 +157,7 @@ def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
     }
     compute = plain if set(map(type, numbers.values())) == {float} else many
     if compute is many:
-        import numpy as np
-
-        shapes = {name: np.shape(number) for name, number in numbers.items()}
-        try:
-            np.broadcast_shapes(*shapes.values())
-        except ValueError as error:
-            those = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
-            raise ValueError(f"arrays of these shapes do not broadcast: {those}") from error
+        _common_shape(numbers)
     for name, number in numbers.items():
         low, high = number, number
         if type(number) is not float:
@@ -175,6 +171,17 @@ def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
     if not finite:
         _refuse(numbers, first)
     return results
+
+
+def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
+    import numpy as np
+
+    shapes = {name: np.shape(array) for name, array in arrays.items()}
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError as error:
+        those = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
+        raise ValueError(f"arrays of these shapes do not broadcast: {those}") from error
 
 
 def _real(name: str, value: Any) -> Any:
@@ -285,6 +292,8 @@ def ufunc(model: Model) -> Any:
     from filelock import FileLock
     from numba import b1, f8, i8
 
+    if numba.config.DISABLE_JIT:
+        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
     root = FunctionType(model.__code__, model.__globals__, model.__name__)
     # Numba checks only whether this file has changed; the hash in the name covers what it calls.
@@ -378,9 +387,18 @@ def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
 
 def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
     import dask.array
+    import numpy as np
 
     da: Any = dask.array  # it is partly typed
-    arrays = [da.asarray(value) for value in inputs.values()]
+    labelled = _of("pandas", inputs)  # by labels that a dask array has not
+    arrays = [da.asarray(np.asarray(x) if name in labelled else x) for name, x in inputs.items()]
+    unknown = [name for name, x in zip(inputs, arrays, strict=True) if math.isnan(sum(x.shape))]
+    if unknown and sum(array.ndim > 0 for array in arrays) > 1:
+        raise ValueError(
+            f"{unknown[0]} has chunks of unknown length: take .to_dask_array(lengths=True)"
+        )
+    if not unknown:
+        _common_shape(dict(zip(inputs, arrays, strict=True)))
     # Axes are counted from the last, as they broadcast.
     pairs = [item for array in arrays for item in (array, range(array.ndim)[::-1])]
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
@@ -416,6 +434,8 @@ def _pandas(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
         numbers[name] = np.asarray(value)
     if index is None:
         return within(*numbers.values())
+    if (shape := _common_shape(numbers)) != index.shape:
+        raise ValueError(f"beside a Series of {len(index)} values arrays must not make it {shape}")
     try:
         results = within(*numbers.values())
     except InputError as error:

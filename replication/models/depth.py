@@ -43,7 +43,7 @@ def depth_at_velocity(
     at_velocity: float, velocity: float, radius: float, particle_density: float,
     target_density: float, resistance: float,
 ) -> float:  # fmt: skip
-    """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s]; NaN above V.
+    """Depth [m] at which the velocity has fallen from V to `at_velocity` [m/s], at most V.
 
     It solves W(x/R) = (4 rho_p / 3 rho_t) ln((rho_t V^2 + 2 R_t) / (rho_t v^2 + 2 R_t)), from
     Eqs. 12-13; W as for `normalized_depth`.
@@ -62,7 +62,7 @@ def velocity_at_depth(
     at_depth: float, velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float,
 ) -> float:  # fmt: skip
-    """Velocity [m/s] at a depth [m]; NaN beyond the final one.
+    """Velocity [m/s] at a depth [m], at most the final one.
 
     v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13; W as for `normalized_depth`,
     b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t.

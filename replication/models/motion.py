@@ -49,7 +49,8 @@ def history(
                 k += 1
             _states(y, w, s, at, dy, k - first)
             for i in range(k - first):
-                depth[first + i], speed[first + i] = R * min(at[i], final), V * (dy[i] / unit)
+                depth[first + i] = R * min(at[i], final)
+                speed[first + i] = V * max(dy[i] / unit, 0.0)
             k = max(k, first + 1)
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
@@ -62,7 +63,7 @@ def stop_time(
     velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float, stop_velocity: float = 0.0,
 ) -> float:  # fmt: skip
-    """Time [s] from touch until the velocity has fallen to `stop_velocity` [m/s]; NaN above V.
+    """Time [s] from touch until the velocity has fallen to `stop_velocity` [m/s], at most V.
 
     >>> f"{stop_time(500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.12f}"
     '26.079233782409'
@@ -75,7 +76,7 @@ def time_to_depth(
     at_depth: float, velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float,
 ) -> float:  # fmt: skip
-    """Time [s] from touch to a depth [m]; NaN beyond the final one.
+    """Time [s] from touch to a depth [m], at most the final one.
 
     Close to rest the time left varies as the square root of the depth left, so that fewer digits
     of the result are right.

@@ -80,15 +80,18 @@ class Sheet:
 def run(impact: Impact, scheme: str = "published") -> Sheet:
     """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
 
-    The scheme "published" takes a row's drag at its initial velocity, "centered" at its middle one
-    (appendix, Eqs. A-1 to A-3). Raises ValueError when more than `MAX_STEPS` rows are needed, or
-    the last row is beyond the range of doubles.
+    The scheme "published" takes a row's drag at its initial velocity v, "centered" at its middle
+    one, v - a dt/2 with the deceleration a at x and v (appendix, Eqs. A-1 to A-3). Raises
+    TypeError for what is no `Impact`; ValueError when more than `MAX_STEPS` rows are needed, or the
+    last row is beyond the range of doubles.
 
     >>> from replication.cases import BETA_5
     >>> sheet = run(BETA_5)
     >>> sheet.steps, f"{sheet.final_depth * 1e6:.2f}"
     (131, '7.67')
     """
+    if not isinstance(impact, Impact):
+        raise TypeError(f"give an Impact, such as BETA_5, not {impact!r}")
     check_scheme(scheme)
     dt, v_stop = impact.step, impact.stop_velocity
     inputs = *impact.motion.values(), dt, v_stop

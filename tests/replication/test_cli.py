@@ -44,6 +44,46 @@ def test_csv_is_the_json_with_all_digits() -> None:
         assert len(record[name]) == 5
     assert record["time"][-1] == record["stop_time"]
     assert record["velocity"][0] == 500.0
+    levels = json.loads(coldspray("converge", "--levels", 3, "--json")[1])["levels"]
+    lines = list(csv.DictReader(coldspray("converge", "--levels", 3, "--csv")[1].splitlines()))
+    assert [float(line["error"]) for line in lines] == [level["error"] for level in levels]
+    assert float(lines[0]["stop_rule"]) == levels[0]["budget"]["stop_rule"]
+
+
+@pytest.mark.parametrize(
+    ("setting", "arguments"),
+    [
+        ("PYTHONIOENCODING=cp1252", "claims a1-density --json"),
+        ("NUMBA_DISABLE_JIT=1", "sweep plan"),
+    ],
+)
+def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_path: Path) -> None:
+    """JSON is read as UTF-8, whatever the encoding; what cannot be computed is told in one line."""
+    (tmp_path / "plan").write_text("[inputs]\nvelocity = [400.0, 500.0]\n")
+    name, value = setting.split("=")
+    command = [sys.executable, "-m", "replication", *arguments.split()]
+    done = subprocess.run(
+        command, cwd=tmp_path, env=os.environ | {name: value}, capture_output=True, check=False
+    )
+    if arguments.startswith("claims"):
+        json.loads(done.stdout.decode("utf-8"))
+        assert b"\\u00" in done.stdout
+    else:
+        assert done.returncode == 2
+        assert done.stderr.decode() == (
+            "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
+        )
+
+
+def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would be replaced, not written to: only the folder must let that happen."""
+    plan, output = tmp_path / "plan.toml", tmp_path / "cases.csv"
+    plan.write_text("[inputs]\nvelocity = 500.0\n")
+    output.write_text("kept")
+    monkeypatch.setattr(os, "access", lambda path, _: Path(path) != output)  # root may do all
+    status, _, err = coldspray("sweep", plan, "-o", output)
+    assert (status, output.read_text()) == (2, "kept")
+    assert err == f"coldspray sweep: {output}: is write-protected\n"
 
 
 def test_claims_are_listed() -> None:
