@@ -7,12 +7,13 @@ what each entry must have and that its quote stands in the report once; that ent
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property, reduce
 from importlib import resources
 from operator import mul
+from string import ascii_uppercase
 from typing import Any, Literal
 
 import msgspec
@@ -173,6 +174,43 @@ class ClaimEntry(Entry, frozen=True):
     workbook: str | None = None
 
 
+class Column(Entry, frozen=True):
+    """What the claims in one column of Table A-1 have in common."""
+
+    id: str
+    title: str
+    unit: str
+    computed_by: str
+    rests_on: Mapping[str, str]
+
+
+class TimeSteps(Entry, frozen=True):
+    """The [time_steps]: the rows of Table A-1 as printed, by their numbers there; its columns."""
+
+    rows: Mapping[str, str]
+    columns: Mapping[str, Column]
+
+    @property
+    def claims(self) -> Iterator[ClaimEntry]:
+        """A claim for each cell that prints a number."""
+        for step, (row, printed) in enumerate(self.rows.items(), 1):
+            for letter, column in self.columns.items():
+                texts = printed.split("\t")
+                at = ascii_uppercase.index(letter)
+                texts[at] = f"⟦{texts[at]}⟧"
+                yield ClaimEntry(
+                    id=f"{column.id}-{step}",
+                    title=f"{column.title}, row {step}",
+                    quote="\t".join(texts),
+                    kind="result",
+                    unit=column.unit,
+                    computed_by=column.computed_by,
+                    rests_on=column.rests_on,
+                    cell=f"{letter}{row}",
+                    row=step,
+                )
+
+
 def in_header(cell: str | None) -> bool:
     """Whether a cell is one of those above the rows of Table A-1; they are all in column B."""
     return cell is not None and cell.startswith("B")
@@ -315,9 +353,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     inferred: dict[str, Inferred]
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
-    furniture: list[dict[Literal["pattern", "reason"], str]]
+    incidental: list[dict[Literal["pattern", "reason"], str]]
     equation: list[Equation]
     claim: list[ClaimEntry]
+    time_steps: TimeSteps
     slip: list[Slip]
     computation: list[Computation]
     misprinted: Mapping[str, str] = {}
@@ -364,7 +403,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def _claims(self) -> Mapping[str, Claim]:
         """The claims as the report prints them."""
-        placed = sorted(map(self._placed, self.claim), key=lambda claim: claim.place.start)
+        entries = (*self.claim, *self.time_steps.claims)
+        placed = sorted(map(self._placed, entries), key=lambda claim: claim.place.start)
         claims = {claim.id: claim for claim in placed}
         return {
             name: replace(claim, chosen=_is_chosen(claim, claims), bound=_bound(claim, claims))
@@ -372,6 +412,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         }
 
     def _placed(self, claim: ClaimEntry) -> Claim:
+        if claim.cell:  # our sheet of that name has it in the same cell
+            claim = replace(claim, workbook=f"Table A-1!{claim.cell}")
         readings = {"": claim.computed_by, **claim.readings}
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
