@@ -1,6 +1,5 @@
 """What the record holds besides verdicts: all approaches to X/R, sensitivity, scatter, curves."""
 
-import math
 from dataclasses import replace
 from itertools import product
 from statistics import NormalDist
@@ -68,8 +67,11 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     By derivatives, and over the uncertainty that the report or its evidence gives of each input.
     """
     impact = case(known, beta)
-    velocity, spread = impact.velocity, known["velocity-deviation"]
-    radius, size = impact.radius, known["diameter-deviation"] / 2
+    velocity, radius, *materials = impact.motion.values()
+    by_input = depth.elasticities(velocity, *materials)
+    # The resistance is the product of beta and the flow stress.
+    by_input |= dict.fromkeys(("beta", "flow_stress"), by_input.pop("resistance"))
+    spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
     printed = known.ledger.claims["a1-density"].target().ends
     chosen = (known.ledger.claims[name] for name in ("a1-initial-velocity", "a-step"))
     exact = ", ".join(with_unit(claim.shown, claim.unit) for claim in chosen)
@@ -92,27 +94,9 @@ def sensitivity(known: Known, beta: int) -> r.Sensitivity:
     return r.Sensitivity(
         beta=float(beta),
         depth=depth.final_depth(**impact.motion),
-        elasticities=_elasticities(impact),
+        elasticities=by_input,
         stated=stated,
     )
-
-
-def _elasticities(impact: Impact) -> dict[str, float]:
-    """d ln X / d ln input: by how many percent the depth changes for one percent of the input.
-
-    With c = (4 rho_p / 3 rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and y^2 - y^3/3 = c (beyond R
-    dy = dc): d ln y = s d ln c, where s = c / (y^2 (2 - y)), c/y beyond R; and
-    d ln ln(1 + p) = q d ln p, where q = p / ((1 + p) ln(1 + p)).
-    """
-    p = impact.target_density * impact.velocity**2 / (2 * impact.target_resistance)
-    c = 4 / 3 * impact.particle_density / impact.target_density * math.log1p(p)
-    y = exact_ratio(impact)
-    s = c / (y * y * (2 - y)) if y < 1 else c / y
-    q = p / ((1 + p) * math.log1p(p))
-    return {
-        "velocity": 2 * q * s, "radius": 1.0, "particle_density": s, "target_density": (q - 1) * s,
-        "beta": -q * s, "flow_stress": -q * s,
-    }  # fmt: skip
 
 
 # What scatter does

@@ -39,6 +39,32 @@ def final_depth(
     return radius * normalized_depth(velocity, particle_density, target_density, resistance)
 
 
+def elasticities(
+    velocity: float, particle_density: float, target_density: float, resistance: float
+) -> dict[str, float]:
+    """d ln X / d ln input [1], by input: the percent of depth at rest for one percent of the input.
+
+    With c = (4 rho_p / 3 rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and W(y) = c as for
+    `normalized_depth`: d ln y = s d ln c, where s = c / (y^2 (2 - y)), and c / y beyond y = 1; and
+    d ln ln(1 + p) = q d ln p, where q = p / ((1 + p) ln(1 + p)). V [m/s], rho_p and rho_t [kg/m^3],
+    R_t [Pa]; X is in proportion to the radius.
+
+    >>> by_input = elasticities(500.0, 8900.0, 7850.0, 3.5e9)
+    >>> f"{by_input['velocity']:.3f}", f"{by_input['resistance']:.3f}"
+    ('1.044', '-0.522')
+    """
+    V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
+    p = rho_t * V * V / (2 * R_t)
+    c = 4 / 3 * rho_p / rho_t * math.log1p(p)
+    y = normalized_depth(V, rho_p, rho_t, R_t)
+    s = c / (y * y * (2 - y)) if y < 1 else c / y
+    q = p / ((1 + p) * math.log1p(p))
+    return {
+        "velocity": 2 * q * s, "radius": 1.0, "particle_density": s,
+        "target_density": (q - 1) * s, "resistance": -q * s,
+    }  # fmt: skip
+
+
 def depth_at_velocity(
     at_velocity: float, velocity: float, radius: float, particle_density: float,
     target_density: float, resistance: float,

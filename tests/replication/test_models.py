@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 from unittest.mock import patch
 
 import pytest
@@ -20,6 +21,7 @@ from replication.error.ladder import exact_motion
 from replication.models import crater, motion
 from replication.models.depth import (
     depth_at_velocity,
+    elasticities,
     final_depth,
     normalized_depth,
     velocity_at_depth,
@@ -122,6 +124,26 @@ def history(times: list[float], *case: float) -> tuple[list[float], list[float]]
 def roundings(truth: Trajectory) -> float:
     """64 ulp, and those of the exponent k W of v^2, each of which is relative to all of it."""
     return (64 + 16 * float(truth.context.log1p(truth.drag / truth.push))) * ULP
+
+
+@given(CASES, st.sampled_from(list(BETA_5.motion)))
+def test_elasticities_are_the_slopes_of_the_reference(case: tuple[float, ...], name: str) -> None:
+    velocity, _, *materials = case
+    if abs(normalized_depth(velocity, *materials) - 1) < 1e-6:
+        return  # the second derivative jumps at y = 1, so that differences across it are coarser
+    h = Fraction(1, 10**12)
+
+    def log_depth(share: Fraction) -> Any:
+        inputs = dict(zip(BETA_5.motion, map(Fraction, case), strict=True))
+        inputs[name] *= 1 + share
+        truth = Trajectory(**inputs, digits=50)
+        return truth.context.log(truth.final_depth)
+
+    slope = (log_depth(h) - log_depth(-h)) / 2 * h.denominator
+    # The difference is off by its h^2, the closed form by rounding, most where q - 1 cancels.
+    assert elasticities(velocity, *materials)[name] == pytest.approx(
+        float(slope), rel=1e-9, abs=1e-12
+    )
 
 
 @given(case=CASES, share=st.floats(1e-6, 0.999))
