@@ -29,6 +29,7 @@ from spreadsheets import cases, emit, sheets
 from spreadsheets.cases import CaseSheet, Input
 from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
 from spreadsheets.sheets import Findings
+from spreadsheets.verify import rounding_bound
 
 
 @dataclass(frozen=True)
@@ -106,32 +107,10 @@ def build(
         if not page.coarse
         for doubt in doubts_about(sheet).values()
     ]
-    return Workbook(plan, values, warnings, max(map(rounding_bound, computed)))
-
-
-def rounding_bound(sheet: Sheet) -> float:
-    """How far a sheet in doubles may lie from exact arithmetic, relative to a column's largest.
-
-    For n rows, impact velocity V, final depth X, duration T, and u = 2^-53:
-
-    - the inputs are rounded: that changes the deceleration a by at most 26 u (16 by the mass);
-    - a row takes 12 operations to a dt, with a relative error of u each, and subtracts it from v.
-      As all a dt together make V, the velocity is off by at most (n + 38) u V;
-    - a row adds v dt to x: that is at most (n + 3) u X in all;
-    - an error in v changes x by T times as much, so relative to X by T V / X times what it is
-      relative to V; an error in x changes a, which rises with x by at most a/x, by the same
-      relative amount; the resistance damps both;
-    - a depends on the squared velocity and on the area, with factors of at most 4.
-
-    So no column is off by more than 4 (2n + 41) max(1, T V / X) u of its largest number. Results
-    take fewer than the 41 operations that are counted beside the rows.
-
-    >>> f"{rounding_bound(run(BETA_5)):.1e}"
-    '2.3e-13'
-    """
-    n, final = sheet.steps, sheet.rows[-1]
-    stretch = final.time * sheet.impact.velocity / final.depth if final.depth else 1.0
-    return 4 * (2 * n + 41) * max(1.0, stretch) * 2.0**-53
+    bounds = [
+        rounding_bound(s.steps, s.impact.velocity, s.rows[-1].time, s.final_depth) for s in computed
+    ]
+    return Workbook(plan, values, warnings, max(bounds))
 
 
 def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:

@@ -20,7 +20,7 @@ from replication.reading import one_line, place, quoted, read_number
 from replication.text import aligned, columns, json_text, number, numbers, quantity, rows_csv
 
 if TYPE_CHECKING:
-    from spreadsheets.engines import EngineCheck
+    from spreadsheets.verify import EngineCheck
 
 
 def run_audit(options: argparse.Namespace) -> int:
@@ -122,6 +122,7 @@ def run_workbook(options: argparse.Namespace) -> int:
     from replication import workbook
     from spreadsheets import emit, engines
     from spreadsheets.safely import write_bytes
+    from spreadsheets.verify import verify
 
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
@@ -131,7 +132,7 @@ def run_workbook(options: argparse.Namespace) -> int:
     book = workbook.build(case, options.scheme, options.rows)
     write_bytes(options.output, book.to_bytes())
     checks = [
-        engines.verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
+        verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
         for engine in (engines.ENGINES if options.verify else ())
     ]
     passed = all(check.passed for check in checks)

@@ -17,16 +17,9 @@ from kept import kept, pairs
 from workbooks import BY_NAME, Fake, usable
 
 from spreadsheets import emit, engines
-from spreadsheets.engines import (
-    Difference,
-    Engine,
-    EngineCheck,
-    EngineError,
-    Values,
-    compare,
-    verify,
-)
+from spreadsheets.engines import Engine, EngineError, Values
 from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
+from spreadsheets.verify import Difference, EngineCheck, compare, verify
 
 WRONG = 12345
 """Stored beside every formula: to come back, a right value must have been computed."""

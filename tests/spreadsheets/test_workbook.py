@@ -21,9 +21,10 @@ from replication.models.impact import Impact
 from replication.models.sheet import run
 from replication.workbook import Workbook, findings_of, live_verdicts
 from spreadsheets import emit
-from spreadsheets.engines import Engine, Values, compare, tolerances
+from spreadsheets.engines import Engine, Values
 from spreadsheets.plan import NOT_COMPUTED, Value, tables
 from spreadsheets.sheets import OTHERWISE
+from spreadsheets.verify import compare, tolerances
 
 LEDGER = load()
 GIVEN = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
