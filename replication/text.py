@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import zip_longest
-from math import isclose
 from textwrap import wrap
 from typing import Any, NamedTuple
 
@@ -86,7 +85,7 @@ def quantity(text: str, unit: str) -> str:
 def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: bool = False) -> str:
     """An interval as words, its ends rounded outward; or inward, so that all between lies inside.
 
-    An end that is a short decimal number but for a double's rounding is shown as that number.
+    An end that is a short decimal number but for the rounding of doubles is shown as that number.
 
     >>> between((0.12374472967338257, 0.13081477249718315))
     '0.1237447296 to 0.1308147725'
@@ -99,10 +98,15 @@ def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: b
     for end, up in zip(ends, (inward, not inward), strict=True):
         assert end is not None
         text = number(end + 0, digits)  # no sign on a zero
-        if not isclose(float(text), end, rel_tol=1e-14):
+        if abs(Fraction(text) - Fraction(end)) > _OFF * abs(Fraction(end)):
             text = rounded(Fraction(end), digits, ROUND_CEILING if up else ROUND_FLOOR)
         shown.append(text)
     return " to ".join(dict.fromkeys(shown))
+
+
+_OFF = Fraction(1, 2**51)
+"""By how much of itself a double may be off the exact end that it stands for: one that was rounded
+to a side by up to 2^-52, and in another unit by 2^-53 more."""
 
 
 def rounded(value: Fraction, digits: int, rounding: str) -> str:

@@ -321,20 +321,27 @@ def test_columns_keep_every_word_within_the_width(rows: list[tuple[str, ...]], w
     assert Counter("".join(text.split())) == Counter("".join("".join(map("".join, rows)).split()))
 
 
-@given(st.floats(-1e12, 1e12), st.floats(-1e12, 1e12), st.integers(3, 12))
+NEAR_DECIMALS = st.builds(
+    lambda whole, power, ulps: float(f"{whole}e{power}") * (1 + ulps * 2.0**-52),
+    st.integers(1, 10**6), st.integers(-9, 3), st.integers(-30, 30),
+)  # fmt: skip
+ENDS = st.floats(-1e12, 1e12) | NEAR_DECIMALS
+
+
+@given(ENDS, ENDS, st.integers(3, 12))
 def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
-    low, high = sorted((first, another))
-    slack = 1e-14 * max(abs(low), abs(high))
+    low, high = map(F, sorted((first, another)))
+    slack = F(1, 2**51)  # of an end that is a decimal but for the rounding of doubles
     outer, inner = (
-        [float(end) for end in texts.between((low, high), digits, inward=inward).split(" to ")]
+        [F(end) for end in texts.between((low, high), digits, inward=inward).split(" to ")]
         for inward in (False, True)
     )
     if low < high:
-        assert outer[0] <= low + slack
-        assert outer[-1] >= high - slack
-        assert inner[0] >= low - slack
-        assert inner[-1] <= high + slack
-    assert texts.between((low, nextafter(low, inf)), 12).count(" to ") <= 1
+        assert outer[0] <= low + slack * abs(low)
+        assert outer[-1] >= high - slack * abs(high)
+        assert inner[0] >= low - slack * abs(low)
+        assert inner[-1] <= high + slack * abs(high)
+    assert texts.between((first, nextafter(first, inf)), 12).count(" to ") <= 1
 
 
 @given(st.text())
