@@ -1,8 +1,8 @@
 """The kinds of numbers in which the report's formulas, each written once, can be computed.
 
 `Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
-`Duals` carry the derivatives along in either of them. `Ratios` are quotients of polynomials with
-rational coefficients, in which two forms of an equation are equal exactly or not at all.
+`Duals` carry the derivatives along in either of them. `RationalFunctions` are quotients of
+polynomials, in which two forms of an equation are equal exactly or not at all.
 """
 
 import math
@@ -10,7 +10,7 @@ import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import Any, Self
 
 Number = Any
 """A number of the arithmetic in use; all of them have the operators + - * /."""
@@ -132,6 +132,10 @@ class Operators:
 
     __slots__ = ()
 
+    def _alike(self, x: Any) -> Self:
+        """A number of this kind: x itself, or made of x."""
+        return x if isinstance(x, type(self)) else type(self)(x)  # type: ignore[call-arg]
+
     def __radd__(self, other: Any) -> Any:
         return self + other
 
@@ -145,7 +149,7 @@ class Operators:
         return self * other
 
     def __rtruediv__(self: Any, other: Any) -> Any:
-        return type(self)(other) / self
+        return self._alike(other) / self
 
 
 class Dual(Operators):
@@ -164,7 +168,7 @@ class Dual(Operators):
         return Dual(-self.value, {name: -slope for name, slope in self.slopes.items()})
 
     def __add__(self, other: Any) -> "Dual":
-        other = other if isinstance(other, Dual) else Dual(other)
+        other = self._alike(other)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __mul__(self, other: Any) -> "Dual":
@@ -175,7 +179,7 @@ class Dual(Operators):
         return Dual(self.value * other.value, _added(mine, others))
 
     def __truediv__(self, other: Any) -> "Dual":
-        other = other if isinstance(other, Dual) else Dual(other)
+        other = self._alike(other)
         quotient = self.value / other.value
         slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
@@ -246,45 +250,46 @@ class Duals(Arithmetic):
         return below
 
 
-class Ratio(Operators):
+class RationalFunction(Operators):
     """A quotient of two polynomials with rational coefficients."""
 
-    __slots__ = ("over", "under")
+    __slots__ = ("denominator", "numerator")
 
-    def __init__(self, over: Any, under: Any = 1) -> None:
-        self.over, self.under = over, under
+    def __init__(self, numerator: Any, denominator: Any = 1) -> None:
+        self.numerator, self.denominator = numerator, denominator
 
-    def __neg__(self) -> "Ratio":
-        return Ratio(-self.over, self.under)
+    def __neg__(self) -> Self:
+        return type(self)(-self.numerator, self.denominator)
 
-    def __add__(self, other: Any) -> "Ratio":
-        other = other if isinstance(other, Ratio) else Ratio(other)
-        over = self.over * other.under + other.over * self.under
-        return Ratio(over, self.under * other.under)
+    def __add__(self, other: Any) -> Self:
+        other = self._alike(other)
+        sum_ = self.numerator * other.denominator + other.numerator * self.denominator
+        return type(self)(sum_, self.denominator * other.denominator)
 
-    def __mul__(self, other: Any) -> "Ratio":
-        other = other if isinstance(other, Ratio) else Ratio(other)
-        return Ratio(self.over * other.over, self.under * other.under)
+    def __mul__(self, other: Any) -> Self:
+        other = self._alike(other)
+        numerator = self.numerator * other.numerator
+        return type(self)(numerator, self.denominator * other.denominator)
 
-    def __truediv__(self, other: Any) -> "Ratio":
-        other = other if isinstance(other, Ratio) else Ratio(other)
-        if other.over == 0:
+    def __truediv__(self, other: Any) -> Self:
+        other = self._alike(other)
+        if other.numerator == 0:
             raise ZeroDivisionError("division by a polynomial that is zero")
-        return Ratio(self.over * other.under, self.under * other.over)
+        return self * type(self)(other.denominator, other.numerator)
 
-    def __pow__(self, exponent: int) -> "Ratio":
-        base: Ratio = self if exponent >= 0 else 1 / self
-        return Ratio(base.over ** abs(exponent), base.under ** abs(exponent))
+    def __pow__(self, exponent: int) -> Self:
+        base, size = (self if exponent >= 0 else 1 / self), abs(exponent)
+        return type(self)(base.numerator**size, base.denominator**size)
 
     def __eq__(self, other: object) -> bool:
-        other = other if isinstance(other, Ratio) else Ratio(other)
-        return bool(self.over * other.under == other.over * self.under)
+        other = self._alike(other)
+        return bool(self.numerator * other.denominator == other.numerator * self.denominator)
 
 
-class Ratios:
+class RationalFunctions:
     """Quotients of polynomials in some symbols; a root or a logarithm gets a symbol of its own.
 
-    >>> ar = Ratios(["x", "y"])
+    >>> ar = RationalFunctions(["x", "y"])
     >>> x, y = ar.symbols["x"], ar.symbols["y"]
     >>> (x * x - y * y) / (x - y) == x + y
     True
@@ -295,32 +300,33 @@ class Ratios:
 
         all_names = (*names, "pi", *(f"other_{k}" for k in range(8)))
         context = fmpq_mpoly_ctx.get(all_names, Ordering.lex)
-        ratios = [Ratio(symbol, context.constant(1)) for symbol in context.gens()]
-        self.symbols: Mapping[str, Ratio] = dict(zip(names, ratios, strict=False))
-        self.pi, *self._free = ratios[len(names) :]
-        self._others: list[tuple[Fraction | None, Ratio]] = []
+        self._one = context.constant(1)
+        symbols = [RationalFunction(symbol, self._one) for symbol in context.gens()]
+        self.symbols: Mapping[str, RationalFunction] = dict(zip(names, symbols, strict=False))
+        self.pi, *self._free = symbols[len(names) :]
+        self._others: list[tuple[Fraction | None, RationalFunction]] = []
 
-    def number(self, value: Fraction | int) -> Ratio:
-        return Ratio(self.pi.under * value.numerator, self.pi.under * value.denominator)
+    def number(self, value: Fraction | int) -> RationalFunction:
+        return RationalFunction(self._one * value.numerator, self._one * value.denominator)
 
-    def log(self, x: Ratio) -> Ratio:
+    def log(self, x: RationalFunction) -> RationalFunction:
         return self.number(0) if x == 1 else self._other(None, x)
 
-    def power(self, x: Ratio, exponent: Fraction) -> Ratio:
+    def power(self, x: RationalFunction, exponent: Fraction) -> RationalFunction:
         if exponent.denominator == 1:
             return x ** int(exponent)
         return x if x == 1 else self._other(exponent, x)
 
-    def _other(self, *known: Any) -> Ratio:
+    def _other(self, *known: Any) -> RationalFunction:
         """A symbol for a power of x, or for its logarithm: the same for the same x."""
         if known not in self._others:
             self._others.append(known)
         return self._free[self._others.index(known)]
 
     @staticmethod
-    def constant(x: Ratio) -> Fraction | None:
+    def constant(x: RationalFunction) -> Fraction | None:
         """The number that x is whatever the symbols stand for, or None if it varies with them."""
-        if x.over == 0:
+        if x.numerator == 0:
             return Fraction(0)
-        value = x.over.leading_coefficient() / x.under.leading_coefficient()
-        return Fraction(int(value.p), int(value.q)) if x.over == x.under * value else None
+        value = x.numerator.leading_coefficient() / x.denominator.leading_coefficient()
+        return Fraction(int(value.p), int(value.q)) if x == value else None

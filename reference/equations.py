@@ -29,8 +29,8 @@ class EquationError(ValueError):
 class Node(msgspec.Struct, frozen=True):
     """A part of an equation.
 
-    `kind` is "number" (with `value`), "symbol" (with `name`), or what is done with `parts`: "sum",
-    "negative", "product", "quotient", "power", "ln", "log".
+    `kind` is "number" (with `value`, and its text as `name`), "symbol" (with `name`), or what is
+    done with `parts`: "sum", "negative", "product", "quotient", "power", "ln", "log".
     """
 
     kind: str
@@ -132,7 +132,7 @@ class _Reader:
             raise self.error()
         self.at += 1
         if kind == "number":
-            return Node("number", value=Fraction(text))
+            return Node("number", name=text, value=Fraction(text))
         if kind == "symbol":
             return Node("symbol", name=self.symbols[text])
         if kind == "function":
@@ -294,8 +294,8 @@ _TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
 def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -> str:
     """The expression as text; `shown` gives what stands for a symbol.
 
-    >>> rendered(read_expression("x/(D + 2)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
-    'X/(8 + 2)'
+    >>> rendered(read_expression("x/(D + 0.5)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
+    'X/(8 + 0.5)'
     """
 
     def part(child: Node, least: int) -> str:
@@ -311,7 +311,7 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
     parts = node.parts
     match node.kind:
         case "number" | "symbol":
-            return notation.symbol(shown[node.name] if node.name else str(node.value))
+            return notation.symbol(node.name if node.kind == "number" else shown[node.name])
         case "negative":
             return notation.row(notation.minus + part(parts[0], 2))
         case "sum":

@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, Ratios
+from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, RationalFunctions
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
@@ -163,7 +163,7 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
     `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
     or EquationError where what is printed makes no sense as a quotient of polynomials.
     """
-    ar = Ratios(sorted({*written.values()} - {"pi"}))
+    ar = RationalFunctions(sorted({*written.values()} - {"pi"}))
     names = {**written, **{key: key for key in equation.premises}}
     for check in equation.checks:
         relation, bound = check.equals[0], check.equals[1:]

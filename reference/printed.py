@@ -173,17 +173,20 @@ class Printed(msgspec.Struct, frozen=True):
         """The values that an author may call "about" this: the fewest digits the text allows.
 
         Exact text stands for the values that are nearer to it than to its neighbors among the
-        whole numbers, or among the unit fractions.
+        whole numbers, or among the unit fractions. Raises ValueError for any other fraction.
 
         >>> print(parse("700").about(), parse("third").about(), parse("twice").about())
         [650, 750) [7/24, 5/12] [1.5, 2.5)
         """
         if self.quantum or self.value == 0:
             return self.interval(quantum=self.quanta[-1])
-        if self.value >= 1:
+        whole, parts = self.value.as_integer_ratio()
+        if parts == 1:
             return self.interval(quantum=Fraction(1))
-        n = 1 / self.value
-        return Interval((1 / n + 1 / (n + 1)) / 2, (1 / n + 1 / (n - 1)) / 2)
+        if whole != 1:
+            raise ValueError(f"{self.text!r} is no whole number and no unit fraction")
+        below, above = (Fraction(1, n) for n in (parts + 1, parts - 1))
+        return Interval((below + self.value) / 2, (self.value + above) / 2)
 
 
 _WORDS = {

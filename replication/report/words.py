@@ -346,7 +346,7 @@ class Prose:
         longest_first = sorted(spelled, key=lambda name: (-len(name), name))
         self._spelled = spelled
         self._pattern = re.compile(
-            rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?!\w)"
+            rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?![A-Za-z_\d])"
         )
 
     def __call__(self, sentence: str) -> str:

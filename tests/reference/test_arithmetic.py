@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from kept import calls
 
-from reference.arithmetic import Duals, Floats, Rationals, Ratios, Reals
+from reference.arithmetic import Duals, Floats, RationalFunctions, Rationals, Reals
 from reference.intervals import Intervals
 
 OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {
@@ -132,7 +132,7 @@ def test_a_root_that_is_off_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
             ar.cap_root(ar.number(F(1, 3)))
 
 
-RATIOS = Ratios(["x", "y"])
+RATIOS = RationalFunctions(["x", "y"])
 test_what_single_calls_give = calls(
     "reference/kept.txt",
     "Arithmetic: what it gives, or why there is no such number",

@@ -22,7 +22,7 @@ def test_text_is_a_value_and_the_places_that_its_last_digit_may_have(
         printed = parse(question)
         assert printed.text == question
         places = " or ".join(map(decimal_text, printed.quanta)) if any(printed.quanta) else "exact"
-        return f"{decimal_text(printed.value)}, {places}, {printed.about()}"
+        return f"{decimal_text(printed.value)}, {places}, {said(printed.about)}"
 
     assert said(shown) == answer
 
