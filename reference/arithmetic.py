@@ -15,6 +15,9 @@ from typing import Any, Self
 Number = Any
 """A number of the arithmetic in use; all of them have the operators + - * /."""
 
+Function = Callable[..., Number | Fraction]
+"""Takes an arithmetic and inputs by name; gives a Fraction where the value is known exactly."""
+
 
 class Arithmetic:
     """The functions that the formulas need beyond the operators; the defaults are for points.

@@ -13,9 +13,8 @@ from math import inf, isinf
 
 import msgspec
 
-from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats
+from reference.arithmetic import DiscontinuityError, Dual, Duals, Floats, Function
 from reference.intervals import Intervals
-from reference.ledger import Function
 from reference.printed import Interval
 
 Ends = tuple[Fraction, Fraction]

@@ -2,7 +2,7 @@
 
 A finding is a text of `report/findings.toml`. Every number in it is a claim's printed text, a piece
 of evidence that the audit computes anew, or a step of arithmetic that is calculated again: if one
-no longer agrees, the finding says so.
+no longer agrees, the finding says so. The head of the file says what each key means.
 """
 
 import operator
@@ -30,12 +30,7 @@ _RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 
 
 class Assertion(Entry, frozen=True):
-    """One piece of evidence: what its number is and how the computed one must stand to the text.
-
-    `says` is a printed number, which the computed one must print like, or a relation (= >= <= > <)
-    before one. Where it is "yes" or "no", a proof must have had that outcome. The other keys say
-    how it is computed; the head of the file explains them.
-    """
+    """One piece of evidence: what its number is and how the computed one must stand to the text."""
 
     says: str
     means: str
@@ -79,9 +74,7 @@ class Assertion(Entry, frozen=True):
 class Finding(Entry, frozen=True, kw_only=True):
     """One finding as asserted, its texts with the printed and the asserted numbers in them.
 
-    `by_hand`: how to check it with a pocket calculator; `settle`: what would settle what it leaves
-    open; `where`: formulas of values that are no evidence themselves; `steps`: the lines of
-    arithmetic in its texts, and whether they hold.
+    `steps` are the lines of arithmetic in its texts, and whether they hold.
     """
 
     id: str

@@ -11,7 +11,7 @@ cuts a sphere), Newton's law, Bernoulli's, and earlier equations of the report w
 uses them.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial, reduce
 from itertools import islice
@@ -19,7 +19,15 @@ from typing import Any, Literal
 
 import msgspec
 
-from reference.arithmetic import Arithmetic, Dual, Duals, Floats, Number, RationalFunctions
+from reference.arithmetic import (
+    Arithmetic,
+    Dual,
+    Duals,
+    Floats,
+    Function,
+    Number,
+    RationalFunctions,
+)
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
@@ -68,13 +76,7 @@ class Equation(Entry, frozen=True, eq=False):
 
 
 class Computation(Entry, frozen=True, eq=False):
-    """A [[computation]]: what it computes, and its formula in the report's notation.
-
-    Without a formula it is the function of its name in reference/formulas.py. `restates`: it only
-    repeats or counts what the report prints elsewhere. `by_row`: it takes the number of a row of
-    the sheet (1 is the first time step); `by_scheme`: it runs the sheet, in either of the two
-    schemes that fit the report's words.
-    """
+    """A [[computation]]: what it computes, and its formula or, without one, that of FUNCTIONS."""
 
     name: str
     summary: str
@@ -108,9 +110,7 @@ def _side(
 # Computations
 
 
-def computing(
-    computation: Computation, sides: Sides, names: Iterable[str]
-) -> Callable[..., Number | Fraction]:
+def function_of(computation: Computation, sides: Sides, names: Iterable[str]) -> Function:
     """A computation, given the sides of all equations, as a function of inputs with these names."""
     if computation.formula is None:
         return FUNCTIONS[computation.name]
@@ -131,7 +131,7 @@ def _cell(column: str, ar: Arithmetic, row: int, centered: bool, **inputs: Numbe
     return getattr(next(islice(rows, row - 1, None)), column)
 
 
-FUNCTIONS: Mapping[str, Callable[..., Number | Fraction]] = {
+FUNCTIONS: Mapping[str, Function] = {
     "count": lambda _, **values: Fraction(len(values)),
     "force_power": lambda _: (unit_dimension("N") / unit_dimension("Pa")).powers[1],
     "least_beta": lambda ar, **betas: reduce(ar.least, betas.values()),

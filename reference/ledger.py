@@ -7,7 +7,7 @@ what each entry must have and that its quote stands in the report once; that ent
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property, reduce
@@ -19,17 +19,14 @@ from typing import Any, Literal
 import msgspec
 from msgspec.structs import replace
 
-from reference.arithmetic import Arithmetic, Number
+from reference.arithmetic import Arithmetic, Function, Number
 from reference.equations import EquationError, Node, Sides, read_equation
-from reference.formulas import Computation, Entry, Equation, computing
+from reference.formulas import Computation, Entry, Equation, function_of
 from reference.printed import Interval, Place, Printed, Rounding, parse, place_of
 from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
 """What stands before the id of an input that the report does not print."""
-
-Function = Callable[..., Number | Fraction]
-"""Takes an arithmetic and inputs by name; gives a Fraction where the value is known exactly."""
 
 Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
@@ -540,7 +537,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         inputs = dict(claim.inputs)
         if "power" in inputs:  # an exponent stays exact
             settings["power"] = self.value(*inputs.pop("power"))
-        compute = computing(computation, self.sides, (*inputs, *settings))
+        compute = function_of(computation, self.sides, (*inputs, *settings))
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__

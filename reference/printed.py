@@ -194,14 +194,12 @@ _WORDS = {
     "several times": "2",  # in a bound: more than two
     "half": "1/2", "third": "1/3", "one-fifth": "1/5", "one-sixth": "1/6",
 }  # fmt: skip
+_TEN = r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})"
 _DECIMAL = re.compile(
-    r"""(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?
-        (?:[Ee](?P<e>[-+]?\d{1,4})
-        |\s*(?:×|x|\\times)\s*10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\}))?""",
-    re.VERBOSE,
+    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?"
+    rf"(?:[Ee](?P<e>[-+]?\d{{1,4}})|\s*(?:×|x|\\times)\s*{_TEN})?"
 )
 _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
-_POWER = re.compile(r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})")
 
 
 @lru_cache(4096)
@@ -222,7 +220,7 @@ def parse(text: str) -> Printed:
         return Printed(text, Fraction(word))
     if match := _FRACTION.fullmatch(bare):
         return Printed(text, Fraction(*(int(part) for part in match.groups() if part)))
-    if match := _POWER.fullmatch(bare):
+    if match := re.fullmatch(_TEN, bare):
         return Printed(text, Fraction(10) ** int(match["power"].strip("{}")))
     match = _DECIMAL.fullmatch(bare)
     if match is None:

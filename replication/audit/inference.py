@@ -5,9 +5,9 @@ from enum import Enum
 from fractions import Fraction
 from functools import cache, cached_property
 
-from reference.arithmetic import Arithmetic, Number
+from reference.arithmetic import Arithmetic, Function, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
-from reference.ledger import INFERRED, Convention, Function, Ledger
+from reference.ledger import INFERRED, Convention, Ledger
 from reference.printed import Interval, Rounding
 
 
