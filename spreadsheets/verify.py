@@ -108,7 +108,7 @@ def rounding_bound(steps: int, velocity: float, duration: float, depth: float) -
     So no column is off by more than 4 (2n + 41) max(1, T V / X) u of its largest number. Results
     take fewer than the 41 operations that are counted beside the rows.
 
-    >>> f"{rounding_bound(130, 500.0, 2.6e-8, 7.669557e-6):.1e}"
+    >>> f"{rounding_bound(131, 500.0, 2.62e-8, 7.669557e-6):.1e}"
     '2.3e-13'
     """
     stretch = duration * velocity / depth if depth else 1.0
