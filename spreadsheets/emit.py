@@ -17,7 +17,7 @@ from typing import Any
 
 from reference.units import written
 from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, tables
-from spreadsheets.safely import check_target
+from spreadsheets.safely import UNREADABLE, check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
@@ -80,9 +80,10 @@ def is_own(path: Path) -> bool:
     """
     content = path.read_bytes()
     try:
-        return _sealed(_parts(content)) == content
-    except Exception:  # what a damaged archive raises, and one that is not ours
+        parts = _parts(content)
+    except UNREADABLE:
         return False
+    return _SEALED in parts and _sealed(parts) == content
 
 
 def _parts(content: bytes) -> dict[str, bytes]:

@@ -11,10 +11,8 @@ import re
 import shutil
 import subprocess
 import zipfile
-import zlib
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -29,6 +27,7 @@ from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
 from spreadsheets.engines import office, run_program
+from spreadsheets.safely import UNREADABLE
 
 Position = tuple[str, int, int]
 """Sheet, row and column, both counted from 1."""
@@ -44,6 +43,8 @@ MAX_FORMULAS = 60_000
 """A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
 MAX_ELEMENTS = 4_000_000
 """Elements of a part's XML: a sheet has four for a cell with a formula, at most."""
+MAX_DEPTH = 100
+"""Levels of a part's XML: a sheet has six."""
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 MAX_TEXT = 32_767
 """Characters of a cell in Excel."""
@@ -59,10 +60,16 @@ _SEALED = bytes.fromhex("D0CF11E0A1B11AE1")
 
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
 _TOO_MUCH = f"is refused: it unpacks to too many bytes; {_LIMITS}"
+_WANTED = "give an .xlsx or .xlsm file without a password"
 
 
 class WorkbookError(ValueError):
     """A file cannot be read as a workbook, or is refused. Its message is one line."""
+
+
+def _damaged(what: str) -> WorkbookError:
+    """Of a file that breaks the rules of its format: what is wrong, and where."""
+    return WorkbookError(f"is damaged: {what}; a spreadsheet program may be able to repair it")
 
 
 class Cell(NamedTuple):
@@ -135,10 +142,6 @@ def read(path: Path) -> Book:
         return _read(path)
     except WorkbookError as error:
         raise WorkbookError(f"{path}: {error}") from error
-    except (ET.ParseError, LookupError, ValueError, EOFError, RecursionError) as error:
-        raise WorkbookError(f"{path}: is damaged: {error}") from error
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
-        raise WorkbookError(f"{path}: cannot be unpacked: {error}") from error
 
 
 def _read(path: Path) -> Book:
@@ -154,10 +157,13 @@ def _read(path: Path) -> Book:
             return _Reader(archive, path).book()
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
-            sealed = file.read(len(_SEALED)) == _SEALED
-        named = "has a password, or is an .xls file by another name"
-        fault = named if sealed else "is not a workbook"
-        raise WorkbookError(f"{fault}; give an .xlsx or .xlsm file without a password")
+            start = file.read(len(_SEALED))
+        fault = "is not a workbook"
+        if start == _SEALED:
+            fault = "has a password, or is an .xls file by another name"
+        elif start.startswith(b"PK") and not zipfile.is_zipfile(path):
+            raise _damaged("its end is cut off or changed")
+        raise WorkbookError(f"{fault}; {_WANTED}")
     with (
         TemporaryDirectory(prefix="coldspray-") as folder,
         zipfile.ZipFile(_converted(path, Path(folder))) as archive,
@@ -169,9 +175,11 @@ def _read(path: Path) -> Book:
 
 
 def _is_xlsx(path: Path) -> bool:
-    with suppress(zipfile.BadZipFile, zlib.error, ValueError), zipfile.ZipFile(path) as archive:
-        return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
-    return False
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
+    except UNREADABLE:
+        return False
 
 
 def _converted(path: Path, folder: Path) -> Path:
@@ -232,6 +240,8 @@ class _Reader:
     def __init__(self, archive: zipfile.ZipFile, path: Path) -> None:
         if len(archive.namelist()) > MAX_ENTRIES:
             raise WorkbookError(f"is refused: it holds more than {MAX_ENTRIES:,} parts")
+        if any(part.flag_bits & 1 for part in archive.infolist()):
+            raise WorkbookError(f"has parts with a password; {_WANTED}")
         self.archive, self.path = archive, path
         self.parts = {name.lstrip("/"): name for name in archive.namelist()}
         self.left = MAX_UNPACKED
@@ -244,16 +254,20 @@ class _Reader:
         tree, related = self.tree(main), self.relations(main)
         strings = next((to for kind, to in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
-        if strings in self.parts:
+        if strings is not None:
             self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
         listed = tree.findall("{*}sheets/{*}sheet")
-        names = [sheet.attrib["name"] for sheet in listed]
+        names = [_given(sheet, "name", main) for sheet in listed]
+        if len({name.upper() for name in names}) < len(names):
+            raise _damaged("two of its sheets have the same name")
         for sheet, name in zip(listed, names, strict=True):
             identity = (value for key, value in sheet.attrib.items() if key.endswith("}id"))
-            kind, part = related[next(identity, "r:id")]
+            kind, part = related.get(next(identity, ""), ("", ""))
+            if not part:
+                raise _damaged(f"its sheet {name!r} has no part of the file")
             if kind == "worksheet":
-                cells = _Sheet(self, texts, self.tables(name, part))
+                cells = _Sheet(self, name, texts, self.tables(name, part))
                 self.tree(part, _Tree(row=cells.take))
                 sheets[name] = cells.filled()
         if not sheets:
@@ -261,11 +275,12 @@ class _Reader:
         notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
         meanings: dict[str, str] = {}
         for entry in tree.iterfind("{*}definedNames/{*}definedName"):
-            name, scope = entry.attrib["name"], entry.get("localSheetId")
+            name, scope = _given(entry, "name", main), entry.get("localSheetId")
             if entry.text and not name.startswith("_xlnm."):
-                # Those of one sheet stand as 'Sheet'!name.
-                local = name if scope is None else f"'{names[int(scope)]}'!{name}"
-                meanings[local] = entry.text[:MAX_FORMULA]
+                if scope is not None:  # those of one sheet stand as 'Sheet'!name
+                    number = _whole(scope, f"the sheet of the name {name!r}", len(names))
+                    name = f"'{names[number]}'!{name}"
+                meanings[name] = entry.text[:MAX_FORMULA]
         return Book(self.path, sheets, meanings, tuple(notes), columns=self.columns)
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:
@@ -273,11 +288,15 @@ class _Reader:
         for kind, part in self.relations(sheet_part).values():
             if kind == "table" and part in self.parts:
                 tree = self.tree(part)
-                name, heads = tree.attrib["displayName"], tree.iterfind("{*}tableColumns/*")
-                left, top, _, bottom = (end or 1 for end in range_boundaries(tree.attrib["ref"]))
-                first = top + int(tree.get("headerRowCount", 1))
-                last = bottom - int(tree.get("totalsRowCount", 0))
-                columns = {head.attrib["name"]: column for column, head in enumerate(heads, left)}
+                name, ref = (_given(tree, key, part) for key in ("displayName", "ref"))
+                left, top, _, bottom = _ends(ref, f"the table {name!r}")
+                heads = _whole(tree.get("headerRowCount", "1"), f"headerRowCount of {name!r}")
+                totals = _whole(tree.get("totalsRowCount", "0"), f"totalsRowCount of {name!r}")
+                first, last = top + heads, bottom - totals
+                columns = {
+                    _given(column, "name", part): number
+                    for number, column in enumerate(tree.iterfind("{*}tableColumns/*"), left)
+                }
                 tables.append((name.lower(), columns))
                 for head, letter in ((h, get_column_letter(c)) for h, c in columns.items()):
                     escaped = re.sub(r"[\[\]#'@]", r"'\g<0>", head)
@@ -292,27 +311,41 @@ class _Reader:
         if rels not in self.parts:
             return {}
         related = {}
-        for relation in (entry.attrib for entry in self.tree(rels)):
+        for relation in self.tree(rels):
             if relation.get("TargetMode") != "External":
+                keys = ("Id", "Type", "Target")
+                identity, kind, target = (_given(relation, key, rels) for key in keys)
                 # The part meant: "/" starts at the root, ".." goes up.
-                target = normpath(join("/", path.parent, relation["Target"])).lstrip("/")
-                related[relation["Id"]] = relation["Type"].rpartition("/")[2], target
+                meant = normpath(join("/", path.parent, target)).lstrip("/")
+                related[identity] = kind.rpartition("/")[2], meant
         return related
 
     def tree(self, part: str, tree: "_Tree | None" = None) -> ET.Element:
+        if part not in self.parts:
+            raise _damaged(f"it refers to its part {part}, which is not there")
         parser = ET.XMLParser(target=tree or _Tree())
-        for chunk in self.chunks(part):
-            parser.feed(chunk)
-        return parser.close()
+        try:
+            for chunk in self.chunks(part):
+                parser.feed(chunk)
+            return parser.close()
+        except WorkbookError:
+            raise
+        except (ET.ParseError, LookupError, ValueError) as error:  # the last two of encodings
+            raise _damaged(f"its part {part} is not valid XML: {error}") from error
 
     def chunks(self, part: str) -> Iterator[bytes]:
         """What a part unpacks to, counting what comes out of the archive, not what it says."""
-        with self.archive.open(self.parts[part]) as stream:
-            while chunk := stream.read(2**16):
-                self.left -= len(chunk)
-                if self.left < 0:
-                    raise WorkbookError(_TOO_MUCH)
-                yield chunk
+        try:
+            with self.archive.open(self.parts[part]) as stream:
+                while chunk := stream.read(2**16):
+                    self.left -= len(chunk)
+                    if self.left < 0:
+                        raise WorkbookError(_TOO_MUCH)
+                    yield chunk
+        except WorkbookError:
+            raise
+        except UNREADABLE as error:
+            raise _damaged(f"its part {part} cannot be unpacked: {error}") from error
 
 
 class _Tree(ET.TreeBuilder):
@@ -320,18 +353,22 @@ class _Tree(ET.TreeBuilder):
 
     def __init__(self, **takers: Callable[[ET.Element], object]) -> None:
         super().__init__()
-        self.takers, self.elements = takers, 0
+        self.takers, self.elements, self.depth = takers, 0, 0
 
     def doctype(self, *_: object) -> None:
         raise WorkbookError("is refused: its XML declares a document type, which no workbook needs")
 
     def start(self, tag: Any, attributes: Any) -> ET.Element:
         self.elements += 1
+        self.depth += 1
         if self.elements > MAX_ELEMENTS:
             raise WorkbookError(_TOO_MUCH)
+        if self.depth > MAX_DEPTH:
+            raise _damaged(f"its XML is nested more than {MAX_DEPTH} levels deep")
         return super().start(tag, attributes)
 
     def end(self, tag: Any) -> ET.Element:
+        self.depth -= 1
         element = super().end(tag)
         if taker := self.takers.get(_name(element)):
             taker(element)
@@ -343,6 +380,28 @@ def _name(element: ET.Element) -> str:
     return element.tag.rpartition("}")[2]
 
 
+def _given(element: ET.Element, attribute: str, part: str) -> str:
+    """An attribute that an element of a part must have."""
+    if (value := element.get(attribute)) is None:
+        raise _damaged(f"a <{_name(element)}> of its part {part} has no {attribute!r}")
+    return value
+
+
+def _whole(text: str, what: str, below: int = LAST_ROW + 1) -> int:
+    """A whole number that says `what`, from 0 on and less than `below`."""
+    if not (re.fullmatch(r"\s*\d{1,9}\s*", text) and int(text) < below):
+        raise _damaged(f"{what} is {text[:20]!r} and must be a whole number below {below}")
+    return int(text)
+
+
+def _ends(cells: str, what: str) -> tuple[int, ...]:
+    """The first column and row, and the last, of a range that says where `what` stands."""
+    try:
+        return tuple(end or 1 for end in range_boundaries(cells))
+    except ValueError as error:
+        raise _damaged(f"{what} stands in {cells[:20]!r}, which is no range of cells") from error
+
+
 def _text(string: ET.Element) -> str:
     """A string of one or several pieces, without the guides to their pronunciation."""
     pieces = (piece for part in string if _name(part) != "rPh" for piece in part.iter())
@@ -352,21 +411,30 @@ def _text(string: ET.Element) -> str:
 class _Sheet:
     """Collects the cells of a worksheet, row by row."""
 
-    def __init__(self, reader: _Reader, texts: list[str], tables: _Tables) -> None:
-        self.reader, self.texts, self.tables = reader, texts, tables
+    def __init__(self, reader: _Reader, name: str, texts: list[str], tables: _Tables) -> None:
+        self.reader, self.name, self.texts, self.tables = reader, name, texts, tables
         self.cells: dict[tuple[int, int], Cell] = {}
         self.masters: dict[str, tuple[str, str]] = {}
-        self.arrays: list[tuple[str, str]] = []
+        self.arrays: list[tuple[tuple[int, ...], str]] = []
         self.row = self.column = 0
 
+    @property
+    def here(self) -> str:
+        """The address of the cell that is read."""
+        return f"{get_column_letter(self.column)}{self.row}"
+
     def take(self, row: ET.Element) -> None:
-        self.row, self.column = int(row.get("r", self.row + 1)), 0
+        number = row.get("r", str(self.row + 1))
+        self.row, self.column = _whole(number, f"the number of a row of {self.name!r}"), 0
         for cell in row:
             self.column += 1
             if address := cell.get("r", "")[:20]:
-                self.row, self.column = coordinate_to_tuple(address)
+                try:
+                    self.row, self.column = coordinate_to_tuple(address)
+                except ValueError:
+                    self.column = 0
             if not (0 < self.row <= LAST_ROW and 0 < self.column <= LAST_COLUMN):
-                raise WorkbookError(f"is damaged: no cell can be at {address!r}")
+                raise _damaged(f"no cell of {self.name!r} can be at {address!r}")
             kind, parts = cell.get("t", "n"), {_name(part): part for part in cell}
             element = parts.get("f")
             formula = None if element is None else self.formula(element)
@@ -384,19 +452,21 @@ class _Sheet:
     def formula(self, element: ET.Element) -> str | None:
         """A cell's formula; one that it shares with others is filled into this cell."""
         text = (element.text or "")[: MAX_FORMULA + 1]
-        kind, here = element.get("t"), f"{get_column_letter(self.column)}{self.row}"
+        kind = element.get("t")
         if kind == "shared":
             index = element.get("si", "")
             if text:
-                self.masters[index] = text, here
+                self.masters[index] = text, self.here
             elif index in self.masters:
                 master, origin = self.masters[index]
                 try:
-                    return str(Translator(f"={master}", origin).translate_formula(here))
+                    return str(Translator(f"={master}", origin).translate_formula(self.here))
                 except (TokenizerError, TranslatorError) as error:
-                    raise WorkbookError(f"is damaged: {error} at {here}") from error
+                    where = f"the formula that {self.name}!{self.here} shares with {origin}"
+                    raise _damaged(f"{where} cannot be read") from error
         if kind == "array" and text:
-            self.arrays.append((element.get("ref", here), f"={text}"))
+            cells = element.get("ref", self.here)
+            self.arrays.append((_ends(cells, f"an array formula of {self.name!r}"), f"={text}"))
         return f"={text}" if text else None
 
     def in_this_row(self, match: re.Match[str]) -> str:
@@ -418,20 +488,24 @@ class _Sheet:
             return "" if kind == "str" and parts.keys() >= {"f", "v"} else None
         match kind:
             case "s":
-                return self.texts[int(text)] or None
+                what = f"the number of the shared text in {self.name}!{self.here}"
+                return self.texts[_whole(text, what, len(self.texts))] or None
             case "b":
                 return text.strip() not in ("0", "false")
             case "e" | "str" | "d":
                 return text[:MAX_TEXT]
-        number = float(text)
+        try:
+            number = float(text)
+        except ValueError as error:
+            reason = f"{self.name}!{self.here} holds {text[:20]!r}, which is no number"
+            raise _damaged(reason) from error
         # A writer that stores nan or inf stores what no engine reads: the same as nothing.
         return number if math.isfinite(number) else None
 
     def filled(self) -> dict[tuple[int, int], Cell]:
         """The cells, with the text of an array formula in each cell that it fills."""
         last_row, last_column = (max(each) for each in zip((1, 1), *self.cells, strict=True))
-        for ref, text in self.arrays:
-            left, top, right, bottom = (end or 1 for end in range_boundaries(ref))
+        for (left, top, right, bottom), text in self.arrays:
             rows = range(top, min(bottom, last_row) + 1)
             columns = range(left, min(right, last_column) + 1)
             self.reader.filled += len(rows) * len(columns)

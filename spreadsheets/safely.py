@@ -1,13 +1,21 @@
-"""Files that are written whole or not at all, each by itself."""
+"""Files that are written whole or not at all, each by itself; and archives that may be damaged."""
 
 import os
 import re
 import signal
+import zipfile
+import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
+from lzma import LZMAError
 from pathlib import Path
 from threading import current_thread, main_thread
+
+UNREADABLE = (
+    zipfile.BadZipFile, zlib.error, LZMAError, EOFError, OSError, RuntimeError, ValueError,
+)  # fmt: skip
+"""What `zipfile` raises for an archive that is damaged, or packed in a way it does not know."""
 
 
 def check_target(path: Path) -> Path:
