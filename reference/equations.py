@@ -64,12 +64,12 @@ class _Reader:
         longest_first = sorted(symbols, key=len, reverse=True)  # "k_t" before "k"
         token = (
             r"(?P<space>(?:\s|\\quad|&)*)(?:"
-            r"(?P<number>\d+(?:\.\d+)?)"
+            rf"(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})"
+            r"|(?P<number>\d+(?:\.\d+)?)"
             rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
             r"|(?P<fraction>\\frac(?![a-zA-Z]))"
             r"|(?P<sign>[-+/^(){}])"
-            r"|(?P<end>\Z)"
-            rf"|(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})|(?P<other>.))"
+            r"|(?P<end>\Z)|(?P<other>.))"
         )
         self.tokens = list(re.finditer(token, text))
 

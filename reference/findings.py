@@ -10,7 +10,6 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
-from string import ascii_uppercase
 from typing import Literal
 
 import msgspec
@@ -142,13 +141,7 @@ def expression(text: str) -> tuple[Node, set[str]]:
     >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
     ['a1-radius', 'cth.diameter']
     """
-    names: dict[str, str] = {}
-
-    def written(match: re.Match[str]) -> str:  # by letters, the same ones in every line
-        if match[0] in NAMED_FUNCTIONS:
-            return f"\\{match[0]}"
-        return names.setdefault(match[0], ascii_uppercase[len(names)])
-
-    line = re.sub(r"(?<![\w.-])(?:\d+-)?[a-z][\w:.-]*", written, text).replace("*", " ").strip()
-    symbols = {letter: name for name, letter in names.items()}
-    return read_expression(line, dict.fromkeys(ascii_uppercase, "") | symbols), {*names} - {"pi"}
+    calls = rf"(?<![\w.-])(?=(?:{'|'.join(NAMED_FUNCTIONS)})\()"
+    line = re.sub(calls, r"\\", text).replace("*", " ").strip()
+    names = sorted({*re.findall(r"(?<![\w.\\-])(?:\d+-)?[a-z][\w:.-]*", line)})
+    return read_expression(line, dict(zip(names, names, strict=True))), {*names} - {"pi"}

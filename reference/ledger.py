@@ -191,18 +191,14 @@ class TimeSteps(Entry, frozen=True):
     def claims(self) -> Iterator[ClaimEntry]:
         """A claim for each cell that prints a number."""
         for step, (row, printed) in enumerate(self.rows.items(), 1):
+            cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
             for letter, column in self.columns.items():
-                texts = printed.split("\t")
-                at = ascii_uppercase.index(letter)
-                texts[at] = f"⟦{texts[at]}⟧"
+                own = {"id": f"{column.id}-{step}", "title": f"{column.title}, row {step}"}
+                marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
                 yield ClaimEntry(
-                    id=f"{column.id}-{step}",
-                    title=f"{column.title}, row {step}",
-                    quote="\t".join(texts),
+                    **msgspec.structs.asdict(column) | own,
+                    quote="\t".join(marked.values()),
                     kind="result",
-                    unit=column.unit,
-                    computed_by=column.computed_by,
-                    rests_on=column.rests_on,
                     cell=f"{letter}{row}",
                     row=step,
                 )
@@ -415,8 +411,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
         inputs = {**self.groups[group], **rests_on} if group else rests_on
-        wholes = {name: equation.place for name, equation in self.equations.items()}
-        around = (name for name, at in wholes.items() if at.start <= place.start < at.end)
+        places = ((equation.id, equation.place) for equation in self.equations.values())
+        around = (name for name, at in places if at.start <= place.start < at.end)
         return Claim(
             **msgspec.structs.asdict(claim),
             why=claim.given and self.reasons[claim.given],
@@ -457,12 +453,11 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             return self.misprinted[name]
         place = self.equations[name].place
         at, text = place.start, ""
-        for claim in map(self.claims.__getitem__, self.constants_of(name)):
-            text += self.text[at : claim.place.start]
-            if (value := constants.get(claim.id)) is None:
-                text += claim.text
-            else:
-                text += rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
+        for constant in self.constants_of(name):
+            claim, own = self.claims[constant], self.claims[constant].text
+            if (value := constants.get(constant)) is not None:
+                own = rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
+            text += self.text[at : claim.place.start] + own
             at = claim.place.end
         return text + self.text[at : place.end]
 
