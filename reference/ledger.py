@@ -159,6 +159,7 @@ class ClaimEntry(Entry, frozen=True):
     computed_by: str | None = None
     rests_on: Mapping[str, str] = {}
     readings: Mapping[str, str] = {}
+    same_as: str | None = None
     given: str | None = None
     shown_by: Sequence[str] = ()
     relation: Literal["<", "<=", ">", ">="] | None = None
@@ -407,6 +408,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     def _placed(self, claim: ClaimEntry) -> Claim:
         if claim.cell:  # our sheet of that name has it in the same cell
             claim = replace(claim, workbook=f"Table A-1!{claim.cell}")
+        if claim.same_as:
+            claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
         readings = {"": claim.computed_by, **claim.readings}
         place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
         group = rests_on.pop("group", None)
@@ -560,8 +563,9 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
 def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
     """Whether the author set the number, here or where this claim repeats it."""
-    repeated = claim.stated if claim.computed_by == "same_as" else []
-    return claim.given == "choice" or any(_is_chosen(claims[name], claims) for name in repeated)
+    if claim.same_as:
+        return _is_chosen(claims[claim.same_as], claims)
+    return claim.given == "choice"
 
 
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
