@@ -8,7 +8,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from decimal import ROUND_HALF_UP, Decimal
+from decimal import MAX_PREC, ROUND_HALF_UP, Context, Decimal
 from fractions import Fraction
 from itertools import chain
 from typing import Any
@@ -174,7 +174,7 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     beta, name, label = impact.beta, "Sheet", MESSAGES["as_given"]
     if beta is not None:
         # As spreadsheet programs round, the decimal that is shown, and join a number to a text.
-        rounded = Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP)
+        rounded = Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP, Context(MAX_PREC))
         name, label = f"Sheet beta {beta:.4g}", f"β = {float(rounded):.15g}"
     return CaseSheet(
         name=name,
