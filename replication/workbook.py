@@ -383,9 +383,8 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
             "volume_um3": volume * 1e6 * 1e6 * 1e6,
             "ratio": crater.volume_ratio(y),
         }
-    sizes = {"smallest": si["d_min"], "average": impact.diameter, "largest": si["d_max"]}
-    for which, size in sizes.items():
-        mass = particle_mass(size / 2, impact.particle_density)
+    for which, size in (("smallest", "d_min"), ("largest", "d_max")):
+        mass = particle_mass(si[size] / 2, impact.particle_density)
         velocity = estimates.particle_velocity(impact.velocity, mass, impact.mass)
         values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
     return values

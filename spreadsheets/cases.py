@@ -178,7 +178,8 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     after = page.row
     page.lines(ledger, "inputs", derived, words, "ABFGIJ", headed=False)
     for row in range(after, page.row):
-        page.cells[f"E{row}"] = _check(page.cells[f"F{row}"], row, '""')
+        in_use = page.cells[f"F{row}"]
+        page.cells[f"E{row}"] = _check(in_use, row, '""', asked=bool(in_use.name))
     checks = f"E{first}:E{page.row}"
     page.single_cells(checks=checks)
     page.row += 1
@@ -198,10 +199,13 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     return page
 
 
-def _check(in_use: Cell, row: int, words: str) -> Cell:
-    """What column E says of a cell in use: a formula's `words`, while it holds its own formula."""
+def _check(in_use: Cell, row: int, words: str, asked: bool) -> Cell:
+    """What column E says of a cell in use: a formula's `words`, while it holds its own formula.
+
+    asked: the sheets of the cases ask for it by name.
+    """
     check = f'=IF(F{row}={in_use.formula[1:]},{words},"typed over")'
-    name = in_use.name and f"{in_use.name}_check"
+    name = f"{in_use.name}_check" if asked else ""
     return formula(f"{in_use.key}.check", check, "text", name=name)
 
 
@@ -221,7 +225,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
         "B": Cell(entry.meaning or ledger.title(entry.source)),
         "C": Cell(key=f"{key}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
-        "E": _check(in_use, row, texts["check"]),
+        "E": _check(in_use, row, texts["check"], asked=entry.attribute == "resistance"),
         "F": in_use,
         "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
