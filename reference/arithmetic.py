@@ -29,13 +29,20 @@ class Arithmetic:
     pi: Number
     number: Callable[[Any], Number]
     log: Callable[[Any], Number]
+    sqrt: Callable[[Any], Number]
+    sin: Callable[[Any], Number]
+    asin: Callable[[Any], Number]
     power: Callable[[Any, Fraction], Number]
-    cap_root: Callable[[Any], Number]
     least: Callable[[Any, Any], Number] = staticmethod(min)
     below: Callable[[Any, Any], bool | None] = staticmethod(operator.lt)
 
     def greatest(self, x: Number, bound: Number) -> Number:
         return -self.least(-x, -bound)
+
+    def cap_root(self, c: Number) -> Number:
+        # By the triple angle of 1 - y, without cancellation.
+        third = self.asin(self.sqrt(3 * c) / 2) / 3
+        return 2 * self.sin(third) ** 2 + self.sqrt(self.number(3)) * self.sin(2 * third)
 
     def crater(self, volume_ratio: Number) -> Number:
         """X/R of a crater: CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3)."""
@@ -110,7 +117,7 @@ class Rationals(Arithmetic):
     def _inexact(self, *_: Number) -> Number:
         raise InexactError("it is no fraction, or not known to be one")
 
-    log = cap_root = _inexact
+    log = sqrt = _inexact
     pi = property(_inexact)
 
 
@@ -119,11 +126,8 @@ class Floats(Arithmetic):
 
     pi = math.pi
     number: Callable[[Any], Number] = float
-    log, power = staticmethod(math.log), staticmethod(math.pow)
-
-    def cap_root(self, c: Number) -> Number:
-        third = math.asin(math.sqrt(3 * c) / 2) / 3
-        return 2 * math.sin(third) ** 2 + math.sqrt(3) * math.sin(2 * third)
+    log, power, sqrt = staticmethod(math.log), staticmethod(math.pow), staticmethod(math.sqrt)
+    sin, asin = staticmethod(math.sin), staticmethod(math.asin)
 
 
 class DiscontinuityError(ArithmeticError):
@@ -301,30 +305,30 @@ class RationalFunctions:
     def __init__(self, names: Sequence[str]) -> None:
         from flint import Ordering, fmpq_mpoly_ctx
 
-        all_names = (*names, "pi", *(f"other_{k}" for k in range(8)))
+        all_names = (*names, "pi", *(f"irrational_{k}" for k in range(8)))
         context = fmpq_mpoly_ctx.get(all_names, Ordering.lex)
         self._one = context.constant(1)
         symbols = [RationalFunction(symbol, self._one) for symbol in context.gens()]
         self.symbols: Mapping[str, RationalFunction] = dict(zip(names, symbols, strict=False))
         self.pi, *self._free = symbols[len(names) :]
-        self._others: list[tuple[Fraction | None, RationalFunction]] = []
+        self._known: list[tuple[Fraction | None, RationalFunction]] = []
 
     def number(self, value: Fraction | int) -> RationalFunction:
         return RationalFunction(self._one * value.numerator, self._one * value.denominator)
 
     def log(self, x: RationalFunction) -> RationalFunction:
-        return self.number(0) if x == 1 else self._other(None, x)
+        return self.number(0) if x == 1 else self._symbol(None, x)
 
     def power(self, x: RationalFunction, exponent: Fraction) -> RationalFunction:
         if exponent.denominator == 1:
             return x ** int(exponent)
-        return x if x == 1 else self._other(exponent, x)
+        return x if x == 1 else self._symbol(exponent, x)
 
-    def _other(self, *known: Any) -> RationalFunction:
+    def _symbol(self, *irrational: Any) -> RationalFunction:
         """A symbol for a power of x, or for its logarithm: the same for the same x."""
-        if known not in self._others:
-            self._others.append(known)
-        return self._free[self._others.index(known)]
+        if irrational not in self._known:
+            self._known.append(irrational)
+        return self._free[self._known.index(irrational)]
 
     @staticmethod
     def constant(x: RationalFunction) -> Fraction | None:

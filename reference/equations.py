@@ -69,7 +69,7 @@ class _Reader:
             rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
             r"|(?P<fraction>\\frac(?![a-zA-Z]))"
             r"|(?P<sign>[-+/^(){}])"
-            r"|(?P<end>\Z)|(?P<other>.))"
+            r"|(?P<end>\Z)|(?P<unreadable>.))"
         )
         self.tokens = list(re.finditer(token, text))
 

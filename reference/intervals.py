@@ -93,6 +93,8 @@ class Intervals(Arithmetic):
     (Fraction(-7, 2), Fraction(1, 1))
     """
 
+    sqrt, sin, asin = staticmethod(arb.sqrt), staticmethod(arb.sin), staticmethod(arb.asin)
+
     def __init__(self, digits: int = 50) -> None:
         with ctx.workdps(digits):
             self._bits = ctx.prec  # set in half the time that the digits take
@@ -144,8 +146,8 @@ class Intervals(Arithmetic):
         """The roots for both ends, moved outwards and then verified by the residual's sign."""
         with self.working():
             (least, greatest), margin = _bounded(c), arb(2) ** (20 - ctx.prec)
-            low = (_cap_root(least) * (1 - margin)).lower()
-            high = (_cap_root(greatest) * (1 + margin)).upper()
+            low = (super().cap_root(least) * (1 - margin)).lower()
+            high = (super().cap_root(greatest) * (1 + margin)).upper()
             if not (low**2 - low**3 / 3 <= least and high**2 - high**3 / 3 >= greatest):
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
@@ -179,9 +181,3 @@ def _bounded(x: Number) -> tuple[arb, arb]:
     if not (low.is_finite() and high.is_finite()):
         raise ArithmeticError(f"an enclosure is unbounded or undefined: {x}")
     return low, high
-
-
-def _cap_root(c: arb) -> arb:
-    """The root of y^2 - y^3/3 = c by the triple angle of 1 - y, without cancellation."""
-    third = ((3 * c).sqrt() / 2).asin() / 3
-    return 2 * third.sin() ** 2 + arb(3).sqrt() * (2 * third).sin()
