@@ -117,7 +117,7 @@ class Rationals(Arithmetic):
     def _inexact(self, *_: Number) -> Number:
         raise InexactError("it is no fraction, or not known to be one")
 
-    log = sqrt = _inexact
+    log = sqrt = asin = _inexact
     pi = property(_inexact)
 
 
