@@ -19,15 +19,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from reference.arithmetic import (
-    Arithmetic,
-    Dual,
-    Duals,
-    Floats,
-    Function,
-    Number,
-    RationalFunctions,
-)
+from reference.arithmetic import Dual, Duals, Floats, Function, Number, RationalFunctions
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
@@ -118,7 +110,7 @@ def function_of(computation: Computation, sides: Sides, names: Iterable[str]) ->
     written = {r"\pi": "pi", **{key: key for key in (*names, *premises)}}
     formula = read_expression(computation.formula, written)
 
-    def value(ar: Arithmetic, **known: Any) -> Number | Fraction:
+    def value(ar: Any, **known: Any) -> Number | Fraction:
         for key, premise in premises.items():
             known[key] = _side(premise, sides[premise.equation], written, ar, known)
         return evaluate(formula, ar, known)
@@ -126,7 +118,7 @@ def function_of(computation: Computation, sides: Sides, names: Iterable[str]) ->
     return value
 
 
-def _cell(column: str, ar: Arithmetic, row: int, centered: bool, **inputs: Number) -> Number:
+def _cell(column: str, ar: Any, row: int, centered: bool, **inputs: Number) -> Number:
     rows = sheet_rows(ar, centered=centered, **inputs)
     return getattr(next(islice(rows, row - 1, None)), column)
 

@@ -172,21 +172,11 @@ class ClaimEntry(Entry, frozen=True):
     workbook: str | None = None
 
 
-class Column(Entry, frozen=True):
-    """What the claims in one column of Table A-1 have in common."""
-
-    id: str
-    title: str
-    unit: str
-    computed_by: str
-    rests_on: Mapping[str, str]
-
-
 class TimeSteps(Entry, frozen=True):
-    """The [time_steps]: the rows of Table A-1 as printed, by their numbers there; its columns."""
+    """The [time_steps]: rows of Table A-1 as printed, and what the claims in a column share."""
 
     rows: Mapping[str, str]
-    columns: Mapping[str, Column]
+    columns: Mapping[str, Mapping[str, Any]]
 
     @property
     def claims(self) -> Iterator[ClaimEntry]:
@@ -194,15 +184,12 @@ class TimeSteps(Entry, frozen=True):
         for step, (row, printed) in enumerate(self.rows.items(), 1):
             cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
             for letter, column in self.columns.items():
-                own = {"id": f"{column.id}-{step}", "title": f"{column.title}, row {step}"}
                 marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
-                yield ClaimEntry(
-                    **msgspec.structs.asdict(column) | own,
-                    quote="\t".join(marked.values()),
-                    kind="result",
-                    cell=f"{letter}{row}",
-                    row=step,
-                )
+                own = {
+                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
+                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
+                }  # fmt: skip
+                yield msgspec.convert({**column, **own}, ClaimEntry)
 
 
 def in_header(cell: str | None) -> bool:
