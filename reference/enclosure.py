@@ -229,7 +229,10 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     """
     outer = list(box[name])
     for function, target in constraints:
-        range_ = enclose(function, box)
+        try:
+            range_ = enclose(function, box)
+        except ArithmeticError:  # no value, or no bounded one, on some of it: it bounds nothing
+            continue
         for top in (0, 1) if range_.is_monotone else ():
             # To let this input go far up, those that act like it must be low, the others high.
             alike = {key: range_.signs.get(key, 1) == range_.signs.get(name, 1) for key in box}
@@ -305,9 +308,13 @@ def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] 
     """The constraints not proven to hold all over the box; None if one fails all over it."""
     undecided = []
     for function, target in constraints:
-        ends = _plain(function, box)  # what it decides needs no derivatives
-        if not target.decides(*ends):
-            ends = enclose(function, box).ends
+        try:
+            ends = _plain(function, box)  # what it decides needs no derivatives
+            if not target.decides(*ends):
+                ends = enclose(function, box).ends
+        except ArithmeticError:  # no value, or no bounded one, on some of it
+            undecided.append((function, target))
+            continue
         if target.excludes(*ends):
             return None
         if not target.encloses(*ends):

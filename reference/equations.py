@@ -26,6 +26,10 @@ class EquationError(ValueError):
     """Text that cannot be read as an equation; says from where on it makes no sense."""
 
 
+class NoValueError(EquationError, ArithmeticError):
+    """What an equation has where one of its symbols has no value."""
+
+
 class Node(msgspec.Struct, frozen=True):
     """A part of an equation.
 
@@ -186,7 +190,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     if node.kind == "symbol":
         known = ar.pi if node.name == "pi" else values.get(node.name)
         if known is None:
-            raise EquationError(f"the symbol {node.name} has no value here")
+            raise NoValueError(f"the symbol {node.name} has no value here")
         return ar.number(known) if type(known) is Fraction else known
     if node.kind == "number":
         return ar.number(node.value)

@@ -15,16 +15,15 @@ from msgspec.structs import replace
 from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
-from reference.equations import MATHML, PLAIN, EquationError, evaluate, rendered
+from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Known, case
+from replication.audit.findings import Evidence, Known
 from replication.audit.record import Verdict
 from replication.audit.verdict import Judgement, Reading
-from replication.models import sheet
-from replication.text import number, powers_of_ten, quantity
+from replication.text import number, powers_of_ten
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
@@ -59,7 +58,7 @@ class Audit(Known):
             findings=[finding for finding in findings if finding is not headline],
             inferred=[self._inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
-            sensitivity=[comparison.sensitivity(self, beta) for beta in comparison.BETAS],
+            sensitivity=comparison.sensitivity(self),
             scatter=comparison.scatter(self),
             curves=comparison.curves(self),
             velocity_curve=comparison.velocity_curve(self),
@@ -117,7 +116,7 @@ class Audit(Known):
             **self._worked(claim, read.computed),
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
-            figures=self._figures() if claim.kind == "remark" else [],
+            figures=comparison.figures(self) if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
             slips=self.explainer.slips(claim) if is_open and readings else [],
@@ -160,7 +159,7 @@ class Audit(Known):
         try:
             if not isclose(worth(right), computed, rel_tol=1e-9):
                 return nothing
-        except EquationError:
+        except NoValueError:
             return nothing
         put = self._shown | {key: _short(value) for key, value in values.items()}
         numbers = partial(rendered, shown=put, notation=_NUMBERS)
@@ -183,19 +182,6 @@ class Audit(Known):
     def _mathml(self, equation: str) -> str:
         sides = (rendered(side, self._shown, MATHML) for side in self.ledger.sides[equation])
         return f'<math display="block">{"<mo>=</mo>".join(sides)}</math>'
-
-    def _figures(self) -> list[r.Figure]:
-        """For a remark: the final depths at both steps, in both schemes."""
-        figures = []
-        for beta, (name, scheme) in product(comparison.BETAS, sheet.SCHEMES.items()):
-            what, depths = f"beta = {beta}, drag at the {scheme.drag_at} velocity", []
-            for step in ("a-step", "coarse-step"):
-                depths.append(sheet.run(case(self, beta, step=self[step]), name).final_depth)
-                means = f"final depth at {quantity(self.ledger.claims[step].shown, 'ns')}, {what}"
-                figures.append(r.Figure(means=means, value=depths[-1] * 1e6, unit="um"))
-            change = 100 * (depths[1] / depths[0] - 1)
-            figures.append(r.Figure(means=f"change, {what}", value=change, unit="percent"))
-        return figures
 
     # Equations and inferred inputs
 

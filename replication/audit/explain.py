@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise, product
@@ -116,7 +117,7 @@ class Explainer:
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
         function = self.ledger.function(claim, reading=reading)
         low, high, _ = self.ledger.search(name)
-        budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
+        budget = SHEET_BUDGET if claim.by_whole_sheet else _BUDGET
         return solve(function, name, (low, high), claim.target(), budget, others)
 
     def shown(self, chosen: Claim) -> Shown | None:
@@ -272,12 +273,14 @@ class Explainer:
             inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
             changed = claim.resting_on(**inputs)
             function = ledger.function(changed)
-            at_print = enclose(function, self.judge.printed(changed)).ends
-            everywhere = enclose(function, self.judge.box(changed, rounded)).ends
-            fits = "" if target.excludes(*everywhere) else "not excluded within rounding"
-            if target.encloses(*at_print):
-                fits = "as printed"
-            value = float(at_print[0] / claim.si)
+            value, fits = None, ""
+            with suppress(ArithmeticError):  # no value, or no bounded one, of misprinted inputs
+                at_print = enclose(function, self.judge.printed(changed)).ends
+                value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
+                if target.encloses(*at_print):
+                    fits = "as printed"
+                elif target.excludes(*enclose(function, self.judge.box(changed, rounded)).ends):
+                    fits = ""
             records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
         return records
 
@@ -286,10 +289,10 @@ _BISECTIONS = 40
 """They narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
-"""Most parts of a search: k_t, on which the depth hardly depends, takes some 200 of them.
+"""Most parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
 
-A tenth of it for whole sheets, each of which takes 10 ms, or 100 ms where it takes long to stop.
-"""
+SHEET_BUDGET = 25
+"""The same for whole sheets, each of which takes 10 ms, or 100 ms where it takes long to stop."""
 
 _SHOWN = 20
 """So many repairs of one claim are kept, the likeliest first."""

@@ -24,7 +24,7 @@ from reference.printed import Interval, Rounding
 from reference.units import same_dimension, to_si
 from replication.audit import record as r
 from replication.audit import wording
-from replication.audit.explain import Explainer
+from replication.audit.explain import SHEET_BUDGET, Explainer
 from replication.audit.inference import Admission, Inference
 from replication.audit.record import Verdict
 from replication.audit.verdict import Assessment, Judge, Reading, assess_equation
@@ -334,7 +334,7 @@ def _middle_density(evidence: Evidence) -> Fraction:
     printed = {name: ledger.value(name) for name in claim.stated}
     function = ledger.function(claim, centered=True)
     admitted = evidence.known.judge.inference(DENSITY, centered=True).outer.ends
-    return solve(function, DENSITY, admitted, claim.target(), others=printed).outer[0][0]
+    return solve(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[0][0]
 
 
 def _added(evidence: Evidence) -> float:

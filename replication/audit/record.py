@@ -136,11 +136,11 @@ class RepairRecord(_Part, frozen=True):
 
 
 class SlipRecord(_Part, frozen=True):
-    """What a slip of the author's would make of the claim."""
+    """What a slip of the author's would make of the claim; null where it has no value."""
 
     name: str
     reason: str
-    value: float
+    value: float | None
     fits: str
 
 
@@ -159,10 +159,10 @@ class SourceRecord(_Part, frozen=True):
 
 
 class Figure(_Part, frozen=True):
-    """A number that helps to judge a remark."""
+    """A number that helps to judge a remark; null where the inputs have no meaning."""
 
     means: str
-    value: float
+    value: float | None
     unit: str
 
 

@@ -132,7 +132,7 @@ class Judge:
             return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
-        except (ArithmeticError, EquationError) as error:
+        except ArithmeticError as error:
             return Assessment(Verdict.NOT_REPRODUCED, str(error))
         return Assessment(readings[0].verdict, readings=readings)
 

@@ -23,15 +23,18 @@ Points = Iterable[tuple[float, float]]
 
 
 def draw(record: Record) -> dict[str, str]:
-    """Every figure of the record as SVG, by name; in a file of its own it stands on white paper."""
+    """Every figure of the record as SVG, by name; in a file of its own it stands on white paper.
+
+    Only those of which the record has something to show: of a report with a misprint it may not.
+    """
     figures = {
-        "comparison": _comparison,
-        "sensitivity": _sensitivity,
-        "figure-3": _figure_3,
-        "figure-5": _figure_5,
-        "convergence": _convergence,
+        "comparison": (_comparison, _observed(record)),
+        "sensitivity": (_sensitivity, record.sensitivity),
+        "figure-3": (_figure_3, record.curves),
+        "figure-5": (_figure_5, record.velocity_curve.velocity),
+        "convergence": (_convergence, record.ladders),
     }
-    return {name: figure(record).svg(name) for name, figure in figures.items()}
+    return {name: figure(record).svg(name) for name, (figure, shown) in figures.items() if shown}
 
 
 @dataclass
@@ -157,9 +160,14 @@ def _n(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
 
 
+def _observed(record: Record) -> list[float]:
+    """X/R as it follows from what was observed."""
+    return [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
+
+
 def _comparison(record: Record) -> _Plot:
     """A row for each approach: what is computed filled, what is printed or quoted hollow."""
-    observed = [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
+    observed = _observed(record)
     shown = [a for a in record.approaches if a.kind != "observed"]
     title = "Normalized depth by every approach of the report"
     height = 30 * len(shown)
@@ -223,7 +231,7 @@ def _figure_3(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
     legend, words, looks = {"exact": ("line", INK)}, [], (("circle", VERMILION), ("square", BLUE))
-    for curve, look in zip(record.curves, looks, strict=True):
+    for curve, look in zip(record.curves, looks, strict=False):
         exact, sheet = (
             [(time * 1e9, depth * 1e6) for time, depth in zip(*columns, strict=True)]
             for columns in ((curve.exact_time, curve.exact_depth),

@@ -29,6 +29,10 @@ class Named(NamedTuple):
     value: str = ""
 
 
+NO_VALUE = "no value"
+"""Of what misprinted inputs leave without a meaning."""
+
+
 def printed(claim: r.ClaimRecord) -> str:
     """What the report prints, with its unit; the words of a remark as they are."""
     return quantity(shown(claim.printed), claim.unit)
@@ -145,8 +149,11 @@ def significant(text: str) -> int:
 
 def tried(claim: r.ClaimRecord) -> list[Table]:
     """The explanations tried of a claim that fails, and the figures that a remark is judged by."""
-    figures = [(f.means, measured(f.value, f.unit, 5)) for f in claim.figures]
-    slips = [(s.name, s.reason, number(s.value, 3), s.fits or "no") for s in claim.slips]
+    figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in claim.figures]
+    slips = [
+        (s.name, s.reason, measured(s.value, "1", 3) or NO_VALUE, s.fits or "no")
+        for s in claim.slips
+    ]
     inputs = []
     for entry in dict.fromkeys(solved.entry for solved in claim.back_solved):
         by_reading = [solved for solved in claim.back_solved if solved.entry == entry]
@@ -208,7 +215,7 @@ def computed(piece: r.EvidenceRecord) -> str:
     '1.14756'
     """
     if piece.computed is None:
-        return "no value"
+        return NO_VALUE
     if isinstance(piece.computed, bool):
         return "yes" if piece.computed else "no"
     safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)

@@ -30,7 +30,7 @@ from reference.ledger import load
 from reference.printed import Interval, parse
 from replication import report
 from replication import text as texts
-from replication.audit.audit import audit
+from replication.audit.audit import Audit, audit
 from replication.audit.record import Figure, Record, Verdict, filled, schema
 from replication.cases import BETA_5
 from replication.models import depth
@@ -93,6 +93,32 @@ def test_a_cell_of_table_a_1_that_fails_is_not_called_blank() -> None:
     page = contents(audit(LEDGER.misprint("a1-depth-1", "56.00E-08")), {})["audit.html"].decode()
     table = page.partition("Rows of Table A-1")[2].partition("</table>")[0]
     assert re.findall("<td>(.*?)</td>", table) == ["blank", "above"]
+
+
+def shown_of(record: Record) -> Counter[str]:
+    """How much a record has of what is computed beside the verdicts."""
+    remarks = (figure for claim in record.claims for figure in claim.figures)
+    return Counter({
+        "approaches": sum(approach.computed is not None for approach in record.approaches),
+        "figures": sum(figure.value is not None for figure in remarks),
+        "effects": sum(len(case.stated) for case in record.sensitivity),
+        "scatter": len(record.scatter),
+        "curves": len(record.curves),
+        "velocities": len(record.velocity_curve.velocity),
+        "ladders": len(record.ladders),
+        "drawings": len(draw(record)),
+    })  # fmt: skip
+
+
+@kept("replication/kept.txt", "Misprints without a meaning, and what cannot be computed with them")
+def test_inputs_without_a_meaning_end_no_audit(record: Record, question: str, answer: str) -> None:
+    ledger = LEDGER.misprint(*question.split(": "))
+    spoiled = Audit(ledger, every_convention=False).record()
+    lacking = shown_of(record) - shown_of(spoiled)
+    assert ", ".join(f"{count} {name}" for name, count in lacking.items()) == answer
+    files = contents(spoiled, {})
+    sound(files["audit.html"].decode())
+    jsonschema.validate(json.loads(files["audit.json"]), schema())
 
 
 def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None:
