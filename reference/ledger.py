@@ -261,11 +261,7 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
         """`interval` in SI."""
-        return self._targets[rounding]
-
-    @cached_property
-    def _targets(self) -> Mapping[Rounding, Interval]:
-        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
+        return self.interval(rounding).scaled(self.si)
 
     def as_input(self, convention: Convention) -> Interval:
         """The values, in SI, that this number may stand for where another claim rests on it."""

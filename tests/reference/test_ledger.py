@@ -196,7 +196,7 @@ REFERENCE = re.compile(
 """What a digit may belong to: a place in the report, an alloy, a standard, the name of a case."""
 FORMULA = re.compile(
     r"""\^\(?-?\d(?:/\d)?\)? | (?<=[(/])\d(?=[\ /)a-zA-Z]) | \d(?=/\d) | (?<=/)\d
-    | \d(?=\ [-+]\ | \ (?:k_t|R_t|rho_|ln)) | (?<=[a-z])_\d | d2x/dt2""",
+    | \d(?=\ [-+]\ | \ (?:k_t|R_t|rho_|ln)) | (?<=[a-z])_\d""",
     re.VERBOSE,
 )
 """Coefficients and powers of a formula in symbols."""
