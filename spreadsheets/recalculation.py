@@ -100,7 +100,10 @@ class Area(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """One token: its kind, its text, the area that it refers to, and that in R1C1 notation."""
+    """One token: its kind, its text, the area that it refers to, and that in R1C1 notation.
+
+    Of a number that a name stands for, `shape` is the name.
+    """
 
     kind: str
     text: str
@@ -128,8 +131,19 @@ class Formula:
 
     @cached_property
     def literals(self) -> tuple[float, ...]:
-        """The numbers that are typed into it."""
+        """The numbers in it, typed or by a name that is a number."""
         return tuple(float(piece.text) for piece in self.pieces if piece.kind == "number")
+
+    @cached_property
+    def typed(self) -> tuple[float, ...]:
+        """The numbers that are typed into it."""
+        numbers = (piece for piece in self.pieces if piece.kind == "number" and not piece.shape)
+        return tuple(float(piece.text) for piece in numbers)
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The names in it that are numbers, in capitals."""
+        return frozenset(p.shape for p in self.pieces if p.kind == "number" and p.shape)
 
     def reads(self, place: Position) -> bool:
         """Whether a cell is among what it refers to."""
@@ -224,6 +238,8 @@ class _Reader:
             return
         self.expansions += 1
         inner = tuple(self.read(f"={meaning.removeprefix('=')}"))
+        if len(inner) == 1 and inner[0].kind == "number":
+            inner = (inner[0]._replace(shape=inner[0].shape or value.rpartition("!")[2].upper()),)
         yield from inner if len(inner) == 1 else (Piece("sign", "("), *inner, Piece("sign", ")"))
 
     def area(self, match: re.Match[str]) -> Piece | None:

@@ -225,10 +225,12 @@ def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[
     """Whether a formula unlike its column has a number where the others have a reference."""
     text = calculation.book[formula.place].formula
     usual = _filled(pattern, formula.place, calculation)
-    typed = Counter(formula.literals) - Counter(pattern.literals)
-    if typed and len(formula.areas) < len(pattern.areas):
+    typed = Counter(formula.typed) - Counter(pattern.typed)
+    cells, names = (len(pattern.areas) - len(formula.areas), len(pattern.names - formula.names))
+    if typed and (cells > 0 or names):
         numbers = " and ".join(f"{number:g}" for number in typed)
-        return "typed constant", f"{text} has {numbers} where its column reads a cell: {usual}"
+        read = "reads a cell" if cells > 0 else "has a name"
+        return "typed constant", f"{text} has {numbers} where its column {read}: {usual}"
     return "odd formula", f"{text} is unlike its column, where {usual} would stand"
 
 

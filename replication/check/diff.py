@@ -48,19 +48,28 @@ class Tolerance:
 
         >>> Tolerance(digits=3).equal(7.6696, 7.6701), Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
         (True, True)
+        >>> Tolerance(digits=3).equal(0.0, 0.004), Tolerance(digits=17).equal(1.0, 1.0 + 2**-52)
+        (False, False)
         """
         if a == b or abs(a - b) <= self.relative * max(abs(a), abs(b)):
             return True
         if self.ulp and abs(a - b) <= self.ulp * math.ulp(max(abs(a), abs(b))):
             return True
-        if self.digits is None:
+        if self.digits is None or 0 in (a, b):  # zero is no other number to so many digits
             return False
         texts = [f"{number:.{self.digits - 1}e}" for number in (a, b)]
-        # One may be the other rounded, ties either way; that may itself differ in its last bits.
-        half = Decimal(f"0.5e{int(texts[0].partition('e')[2]) + 1 - self.digits}")
-        near = abs(Decimal(repr(a)) - Decimal(repr(b))) <= half + 4 * Decimal(math.ulp(a))
-        rounded = float(texts[0]) == a or float(texts[1]) == b
-        return texts[0] == texts[1] or (rounded and near)
+        return texts[0] == texts[1] or self._rounds(a, b) or self._rounds(b, a)
+
+    def _rounds(self, exact: float, rounded: float) -> bool:
+        """Whether a number is another one rounded, ties either way.
+
+        The other may itself differ in its last bits.
+        """
+        digits = self.digits or 1
+        half = Decimal(f"5e{Decimal(exact).adjusted() - digits}")
+        near = abs(Decimal(repr(exact)) - Decimal(repr(rounded)))
+        is_rounded = float(f"{rounded:.{digits - 1}e}") == rounded
+        return is_rounded and near <= half + min(4 * Decimal(math.ulp(exact)), half / 10)
 
 
 def diff(

@@ -78,7 +78,12 @@ def find(
     rows do not decide.
     """
     calculation = table.calculation
-    reads = [cell for cell in candidates if cell.place is None or not read or cell.place in read]
+    names = {name for formula in calculation.formulas.values() for name in formula.names}
+
+    def is_read(cell: Input) -> bool:
+        return cell.place in read if cell.place else cell.label.upper() in names
+
+    reads = [cell for cell in candidates if not (read or names) or is_read(cell)]
     reads = _told_by_mass(_not_made_of(reads, calculation), calculation)
     nearest = {
         role: _nearest(cells, read, calculation)
@@ -87,7 +92,8 @@ def find(
     nearest |= _either_density(reads, calculation)
     choices = _typed_first(nearest, reads, calculation) | _as_mapped(mapped, candidates, table)
     seen = {*read, *calculation.formulas}
-    unread = _by_role([c for c in candidates if read and c.label and c.place not in seen], True)
+    idle = [c for c in candidates if c.label and c.place not in seen and c not in reads]
+    unread = _by_role(idle, True)
     # Whoever ends the rows by hand reads the stop velocity with his eyes; a wrong formula for the
     # mass need not read the density; and where decelerations are typed, nothing reads an input.
     brake = table.lines.get("deceleration")
@@ -95,9 +101,9 @@ def find(
     given = {*choices, *unread}
     free = [role for role in unread if not given.issuperset(RESTS_ON.get(role, ("",)))]
     for role in free if is_typed else ("stop_velocity", "particle_density"):
-        idle = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
-        if role not in choices and len(idle) == 1:
-            choices[role] = idle
+        lone = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
+        if role not in choices and len(lone) == 1:
+            choices[role] = lone
             del unread[role]
     if not {*choices, *unread}.issuperset(RESTS_ON["resistance"]):
         called = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
@@ -304,7 +310,8 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
         except ValueError:
             continue
         if math.isfinite(value):
-            yield Input("", value, None, "name", name, roles=input_roles(name, None))
+            label = name.rpartition("!")[2]
+            yield Input("", value, None, "name", label, roles=input_roles(label, None))
 
 
 def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None]:
@@ -321,8 +328,13 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
-        if any(left) and calculation.number((sheet, row, column - i)) is not None:
-            break  # what stands beyond another number is that number's label
+        number = calculation.number((sheet, row, column - i))
+        made = unit is None and calculation.source((sheet, row, column - i)) == place
+        ratio = (calculation.number(place) or 0.0) / number if made and number else 1.0
+        # What stands beyond another number is that number's label, and so is that of a number which
+        # is computed from this one, as beta from a hardness: but not if it is this in another unit.
+        if number is not None and (any(left) or power_of_ten(ratio) is None):
+            break
         left.append(text(0, -i))
     for cells in (left, [text(-1, 0), text(-2, 0)], [text(0, 1), text(0, 2)]):
         words = [cell for cell in cells if cell and not is_unit(cell)]

@@ -268,18 +268,19 @@ def _judge_radius(f: Examination, cells: Sequence[Position]) -> None:
 
 def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
     """A target resistance that the rows take, though the cells of its factors give another."""
-    used = f.inputs["resistance"]
+    used, cell = f.inputs["resistance"], f.derived.get("resistance")
+    if cell and _typed_factor(f, cell, cell.si, stated, (beta, flow_stress)):
+        return  # the rows take it from its cell, whose formula is judged
     cells = _typing(f, used.si) or f.cells(*f.rows.shows("brake", 1))
     if math.isclose(used.si, stated, rel_tol=1e-6):
         if used.how == "formulas" and beta.place:
-            _lost(f, "resistance", cells, beta.place)
+            _lost(f, "resistance", cells, beta)
         return
     if used.how not in ("rows", "formulas", "report"):
         return
     taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
-    where = address(beta.place, beta.place[0] != cells[0][0]) if beta.place else "its name"
     text = f"the rows take {taken} for the target resistance, {times} times the flow stress; "
-    text += f"beta is {beta.si:g} in {where}"
+    text += f"beta is {beta.si:g} in {_where(beta, cells[0])}"
     change = _changed("resistance", used.si, 1.0)
     f.intended = f.intended.with_input("resistance", stated)
     f.add("typed constant", cells, None, text, f.calculation.book[cells[0]].formula, change)
@@ -295,14 +296,22 @@ def _typing(f: Examination, value: float) -> list[Position]:
     return []
 
 
-def _lost(f: Examination, role: str, cells: Sequence[Position], source: Position) -> None:
+def _lost(f: Examination, role: str, cells: Sequence[Position], source: Input) -> None:
     """That an input's value is typed into cells, and a change of the cell that has it is lost."""
     role_there, _ = f.table.places.get(cells[0], ("", 0))
-    where = address(source, with_sheet=source[0] != cells[0][0])
+    where, named = _where(source, cells[0]), source.place is None
     column = f"{'the column of ' * (len(cells) > 1)}{address(cells[0])}"
     into = title(role_there) if role_there else column
     text = f"{title(role)} is typed into {into}: a change of {where} is lost"
-    f.add("typed constant", cells, where, text, f.calculation.book[cells[0]].formula)
+    expected = source.label if named else where
+    f.add("typed constant", cells, expected, text, f.calculation.book[cells[0]].formula)
+
+
+def _where(source: Input, beside: Position) -> str:
+    """The cell of an input, with its sheet if that is another, or its name."""
+    if source.place is None:
+        return f"the name {source.label}"
+    return address(source.place, source.place[0] != beside[0])
 
 
 def _repeated(f: Examination, role: str, value: float, told: str) -> None:
@@ -345,6 +354,8 @@ def _fault_of_derived(
     """The kind of what is wrong with a value that rests on others, and its text; None if right."""
     role, place = cell.role, cell.place
     assert place is not None
+    if factor := _typed_factor(f, cell, in_si, wanted, sources):
+        return factor
     # What the formula has for pi, or for the factor of a unit such as ksi.
     constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
     typed = [
@@ -374,6 +385,23 @@ def _fault_of_derived(
         return "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
     says = f"does not follow from {rests}" if in_si else "is 0; the report's is assumed"
     return "odd formula", says
+
+
+def _typed_factor(
+    f: Examination, cell: Input, in_si: float, wanted: float, sources: Sequence[Input]
+) -> tuple[str, str] | None:
+    """The fault of a formula that has a number for an input, whose own cell nothing reads."""
+    assert cell.place is not None
+    formula = f.calculation.formulas.get(cell.place)
+    if formula is None or cell.role != "resistance":
+        return None
+    for source in sources:
+        typed = source.si * in_si / wanted
+        if source in f.unread and any(near(number, typed) for number in formula.typed):
+            where = f"{source.si:.6g} in {_where(source, cell.place)}"
+            says = f"takes {typed:.6g} for {title(source.role)}, which is {where}"
+            return "typed constant", f"{says}: a change there is lost"
+    return None
 
 
 def _as_typed(f: Examination, place: Position, constant: float) -> Iterator[float]:
@@ -437,15 +465,16 @@ def _taken_otherwise(f: Examination) -> None:
     """Inputs whose cells the rows do not read, and for which they take another value."""
     for entry in f.unread:
         used = f.inputs.get(entry.role)
-        if used is None or used.place or used.how == "follows":
+        if used is None or used.place or used.how in ("follows", "name"):
             continue  # its cell, or those that it follows from, are known
         if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
         unlike = not math.isclose(used.si, entry.si, rel_tol=1e-6)
-        if entry.place is None or min(used.si, entry.si) <= 0 or not unlike:
+        cells = [f.start] if entry.role == "velocity" else _typing(f, used.si)
+        cells = cells or [entry.place or f.table.place("depth", 1)]
+        if min(used.si, entry.si) <= 0 or not unlike:
             continue
-        cells = [f.start] if entry.role == "velocity" else _typing(f, used.si) or [entry.place]
-        where = address(entry.place, entry.place[0] != cells[0][0])
+        where = _where(entry, cells[0])
         here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
         text = f"{title(entry.role)} is {here} in {where}, but the rows take {there}"
         change = _changed(entry.role, used.si, used.si / entry.si)
@@ -461,7 +490,7 @@ def _typed_inputs(f: Examination) -> None:
     columns += [("", line.cells) for line in f.table.helpers]
     columns += [("", [r.place]) for r in f.table.results if f.table.gives_depth(r.place)]
     for entry, (role, places) in product((*f.inputs.values(), *f.unread), columns):
-        if entry.place is None:
+        if entry.place is None and entry.how != "name":
             continue
         cells = [place for k, place in enumerate(places)
                  if place not in accused and _typed_in(f, entry, role, k, place)]  # fmt: skip
@@ -469,7 +498,7 @@ def _typed_inputs(f: Examination) -> None:
         often = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
         if often and (entry.role, cells[0]) not in told:
             told.add((entry.role, cells[0]))
-            _lost(f, entry.role, cells, entry.place)
+            _lost(f, entry.role, cells, entry)
 
 
 def _typed_numbers(f: Examination) -> None:
@@ -520,7 +549,7 @@ def _blanks(f: Examination) -> None:
 
 def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) -> bool:
     """Whether a cell has an input's value as a number, and does not read the input's cell."""
-    formula, value = f.calculation.formulas.get(place), f.calculation.number(entry.place)
+    formula, value = f.calculation.formulas.get(place), scaled(entry.si, 1 / entry.factor)
     if role and k == 0 and 0 not in f.rows.columns[role]:
         return False  # a head above the first row
     if formula is None:
@@ -528,7 +557,7 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
         first = entry.role == "velocity" and role.startswith("velocity") and k <= 1
         number = f.rows.columns[role].get(k) if first else None
         return entry in f.unread and number is not None and near(number, entry.si)
-    if not formula.literals or value is None or entry.role == "beta":
+    if not formula.typed or entry.role == "beta" or entry.label.upper() in formula.names:
         return False
     if entry.role == "stop_velocity":
         pairs = pairwise(piece.text for piece in formula.pieces)
@@ -540,7 +569,7 @@ def _typed_in(f: Examination, entry: Input, role: str, k: int, place: Position) 
             # The first row takes half of it, be it 1e-10 s, which lies between no units of time.
             odd = {h for h in halves if not between_units(power_of_ten(h) or 0, "step", True)}
             values |= {h for h in halves if not _plain(h) or (is_first and h in odd)}
-        typed = any(near(*pair) for pair in product(values, formula.literals))
+        typed = any(near(*pair) for pair in product(values, formula.typed))
     read = (f.calculation.source(area.corner) for area in formula.areas if area.cells == 1)
     return typed and all(cell != entry.place for cell in read)
 
@@ -661,7 +690,8 @@ def _ratio(f: Examination, part: str, k: int) -> float | None:
     actual, wanted = rows(role, at), rows.wanted(role, at)
     if start is None or actual is None or wanted is None or wanted == start:
         return None
-    return (actual - start) / (wanted - start)
+    ratio = (actual - start) / (wanted - start)
+    return ratio if math.isfinite(ratio) else None
 
 
 def _as_rounded(f: Examination) -> None:

@@ -288,11 +288,14 @@ def _left_out(
     for before, here in pairwise(used):
         if here - before == 1:
             continue
-        along = (replace(line, number=number) for number in numbers[before])
+        along = [replace(line, number=number) for number in numbers[before]]
         going = [each for each in along if each.reads_cell(before, before - 1)]
-        # Below, a table goes on in all of them, and does not only show its last row again.
-        goes_on = any(each.reads_cell(here + 1, here) for each in going)
-        if goes_on and all(each.reads_cell(here, before) for each in going):
+        over = [each for each in along if each.reads_cell(here, before)]
+        # Below, a table goes on in all of them, and does not only show its last row again. The
+        # row of the impact reads none before; time and depth go on from it, or other two.
+        goes_on = [each for each in going or over if each.reads_cell(here + 1, here)]
+        is_blank = not any(map(numbers.get, range(before + 1, here)))
+        if set(going) <= set(over) and goes_on and (going or (is_blank and len(goes_on) > 1)):
             stepped += range(before + 1, here)
     return tuple(stepped)
 
@@ -388,10 +391,12 @@ class Table:
             kind = result_of(text) if isinstance(text, str) else None
             if kind == "any depth" and str(text)[0] == (self.lines["depth"].head or "")[:1] == "X":
                 continue  # where the column is called X, it may be that of any row
-            for down, right in ((0, 1), (0, 2), (1, 0)) if kind else ():
+            for down, right in ((0, 1), (0, 2), (1, 0), (0, -1)) if kind else ():
                 along = ((k, 0) if down else (0, k) for k in range(FEW))
                 places = ((sheet, row + down + k, column + right + n) for k, n in along)
                 cells = list(takewhile(self._is_beside, places))
+                if right < 0 and cells and not self.gives_depth(cells[0]):
+                    break  # a label at its right
                 is_list = down and self.calculation.number((sheet, row + 2, column)) is not None
                 for cell in cells:
                     where = "listed" if is_list else "first" if cell == cells[0] else "beyond"

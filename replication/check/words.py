@@ -177,7 +177,7 @@ def result_of(label: str) -> str | None:
     """
     beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
     bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
-    plain = re.sub(r"(?<=\w)-(?=\w)", " ", re.sub(_QUANTITY, "", _plain(bare)))
+    plain = re.sub(_BETWEEN_WORDS, " ", re.sub(_QUANTITY, "", _plain(bare)))
     spoken = re.findall(r"[^\W\d]\w*|\d[\d.]*|[^\s\w.,:()\[\]]", plain)
     words = [_words("results", word, re.fullmatch) for word in spoken]
     units = [same_dimension(is_unit(word) or "1", "m") for word in spoken]
@@ -199,6 +199,7 @@ def result_of(label: str) -> str | None:
 
 
 _BETA = r"(?:(?:\bb[eê]ta|[βΒ])[\s_]*[=:]?|\bb\s*=)\s*"
+_BETWEEN_WORDS = r"(?<=\w)-(?=\w)|(?<=[^\W\d_]{3})_(?=\w)|(?<=\w)_(?=[^\W\d_]{3})"
 _NUMBER = r"\d+(?:[.,]\d+)?"
 _QUANTITY = rf"(?:\b(?:v_?0?|[dδ∆]t|(?:time )?step) ?)?{_NUMBER} ?(?:[kmcµu]?m/s|[pnµum]?s)\b"
 
