@@ -234,9 +234,14 @@ def _inputs(
 ) -> Tree:
     first = runs[0][1].impact
     changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
-    values: Tree = {
+    constants = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
+        "travel_most": COARSE,
+        "excess_most": DIGITS,
+        "off_stop_most": OFF_STOP,
+    }
+    values: Tree = constants | {
         "from": "yours",
         "taken": "yours",
         "choice": "",
@@ -247,10 +252,9 @@ def _inputs(
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
-        "travel_most": COARSE,
-        "excess_most": DIGITS,
-        "off_stop_most": OFF_STOP,
     }
+    for name, number in constants.items():
+        values[f"{name}.written"] = number
     for entry, number in typed.items():
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
@@ -258,7 +262,8 @@ def _inputs(
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
     for page, sheet in runs:
         values[f"R_t{page.of}"] = sheet.impact.target_resistance
-    followed = "D_p", "M_p", "half_step", "mean_radius", *(f"R_t{page.of}" for page, _ in runs)
+    followed = [*constants, "D_p", "M_p", "half_step", "mean_radius"]
+    followed += [f"R_t{page.of}" for page, _ in runs]
     return {f"{name}.check": "" for name in followed} | values
 
 

@@ -180,14 +180,22 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     for row in range(after, page.row):
         in_use = page.cells[f"F{row}"]
         page.cells[f"E{row}"] = _check(in_use, row, '""', asked=bool(in_use.name))
+    page.row += 1
+    page.put(A=Cell("Constants", "block"), H=Cell("as written", "recorded"))
+    for name, entry in tables()["constants"].items():
+        key, unit, named = f"inputs.{name}", entry["unit"], Cell(name, "unit")
+        check = f'=IF(F{page.row}=H{page.row},"","typed over")'
+        page.put(
+            B=Cell(entry["meaning"]),
+            E=formula(f"{key}.check", check, "text"),
+            F=recorded(key, name=name, unit=unit),
+            G=unit_text(unit),
+            H=recorded(f"{key}.written"),
+            J=named,
+            M=named,
+        )
     checks = f"E{first}:E{page.row}"
     page.single_cells(checks=checks)
-    page.row += 1
-    page.put(A=Cell("Constants", "block"))
-    for name, entry in tables()["constants"].items():
-        number = recorded(f"inputs.{name}", name=name, unit=entry["unit"])
-        named = Cell(name, "unit")
-        page.put(B=Cell(entry["meaning"]), F=number, G=unit_text(entry["unit"]), J=named, M=named)
     page.print_area = f"A1:J{page.row - 1}"
     wrong = "too small", "too large", "no number", "typed over"
     bad = ",".join(f'$E{first}="{word}"' for word in wrong)
