@@ -34,9 +34,18 @@ def one_line(message: str, longest: int = 340) -> str:
     ('no file\\x07 of this name', 'no xxxxxxxxxx...xx: choose one')
     """
     text = " ".join(message.split())
-    safe = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    safe = printable(text)
     kept = (longest - 3) // 2
     return safe if len(safe) <= longest else f"{safe[:kept]}...{safe[-kept - 1 :]}"
+
+
+def printable(text: str) -> str:
+    r"""Text in which Python's escapes stand for all that moves a terminal, or is not seen.
+
+    >>> printable("a\nb\x1b[31m")
+    'a\\nb\\x1b[31m'
+    """
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 @contextmanager

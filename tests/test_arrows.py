@@ -15,7 +15,7 @@ EVERY = sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py"))
 
 FLOORS: tuple[set[str], ...] = (
     {"reference", "models"},
-    {"spreadsheets", "reading", "text"},
+    {"spreadsheets", "page", "reading", "text"},
     {"cases"},
     {"error"},
     {"audit"},

@@ -1,11 +1,8 @@
 """What `check` and `diff` found: one JSON document, and text, page and JUnit file that show it."""
 
 import re
-from base64 import b64encode
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from hashlib import sha256
-from importlib import resources
 from itertools import groupby
 from textwrap import fill
 from typing import Any
@@ -14,11 +11,13 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
+from replication import page
 from replication.check.diff import FOLLOWS, LAST, Comparison
 from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
 from replication.check.words import INPUTS, count, share, unit_text
 from replication.check.workbook import Check
+from replication.reading import printable
 from replication.text import aligned, with_unit
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
@@ -195,7 +194,7 @@ def safe(text: object, limit: int = 90) -> str:
     ('a\\nb\\x1b[31m', 'ab...', 'abcde')
     """
     cut = str(text)[: limit + 1]
-    plain = "".join(c if c.isprintable() else repr(c)[1:-1] for c in cut)
+    plain = printable(cut)
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 
@@ -346,36 +345,27 @@ def _list(title: str, lines: Sequence[str], of: int = 0) -> Iterator[str]:
 
 
 def html(record: Record, differences: Sequence[Difference], calculation: Calculation) -> str:
-    """The page of a record: no script, nothing from outside, its style named by hash.
+    """The page of a record; without scripts, and with nothing from outside.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-    from markupsafe import Markup
-
-    rooms = ("replication.report", "replication.check")
-    style = "".join((resources.files(room) / "page.css").read_text("utf-8") for room in rooms)
-    environment = Environment(
-        loader=PackageLoader("replication.check", "."), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True,
-    )  # fmt: skip
-    environment.filters |= {"safe": safe, "contents": contents, "unit": written}
     sheets = list(calculation.book.sheets)
     marked = {d.place[0] for d in differences}
     pairs = zip(differences, record["differences"], strict=True)
     both = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered as they are listed
     differences = [d for d, _ in both]
     numbered = [(n, told, _anchor(d.place, sheets)) for n, (d, told) in enumerate(both, 1)]
-    return environment.get_template("page.html.j2").render(
-        record,
-        style=Markup(style),  # noqa: S704  (our own file)
-        style_hash=b64encode(sha256(style.encode()).digest()).decode(),
-        lists=[
+    parts = {
+        **record,
+        "head": page.head("replication.report", "replication.check"),
+        "lists": [
             (*_LISTS[k], list(entries))
             for k, entries in groupby(numbered, key=lambda entry: _list_of(entry[1]))
         ],
-        sheets=[_drawn(name, differences, calculation) for name in sheets if name in marked],
-    )
+        "sheets": [_drawn(name, differences, calculation) for name in sheets if name in marked],
+    }
+    filters = {"safe": safe, "contents": contents, "unit": written}
+    return page.filled("replication.check", "page.html.j2", parts, filters)
 
 
 _LISTS = (

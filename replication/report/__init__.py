@@ -4,11 +4,9 @@ Nothing is computed here.
 """
 
 import re
-from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from functools import cache
 from hashlib import sha256
-from importlib import resources
 from string import ascii_lowercase
 from textwrap import fill
 from typing import Any
@@ -17,6 +15,7 @@ import msgspec
 
 from reference import findings as asserted
 from reference.ledger import INFERRED, Ledger, in_header
+from replication import page
 from replication.audit.record import ClaimRecord, Record, Verdict
 from replication.power import measured
 from replication.report import words as told
@@ -38,7 +37,7 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     record = msgspec.structs.replace(record, provenance=provenance)
     drawings = draw(record)
     texts = {
-        "audit.html": page(record, drawings),
+        "audit.html": html(record, drawings),
         "audit.md": markdown(record),
         "audit.csv": _csv(record),
         **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
@@ -65,12 +64,9 @@ def _csv(record: Record) -> str:
     return rows_csv(rows)
 
 
-def page(record: Record, drawings: Mapping[str, str]) -> str:
-    """The page: no script, nothing from outside, its style named in its content policy by hash."""
-    style = (resources.files("replication.report") / "page.css").read_text("utf-8")
-    digest = b64encode(sha256(style.encode()).digest()).decode()
-    parts = _arranged(record)
-    parts |= {"drawings": drawings, "style": style, "style_hash": digest}
+def html(record: Record, drawings: Mapping[str, str]) -> str:
+    """The page; without scripts, and with nothing from outside."""
+    parts = _arranged(record) | {"drawings": drawings, "head": page.head("replication.report")}
     return _filled("page.html.j2", Prose(HTML, record.symbols, parts["names"]), parts)
 
 
@@ -82,19 +78,10 @@ def markdown(record: Record) -> str:
 
 def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     """One of the templates beside this file, filled; outside HTML no two empty lines in a row."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
     finished = Markup if prose.form is HTML else str  # every part of it is escaped
-    environment = Environment(
-        loader=PackageLoader("replication.report", ""),
-        autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (all HTML there is)
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        optimized=False,  # the templates hold no constant expressions that this could compute
-    )
-    environment.filters |= {
+    filters = {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
         "printed": told.printed,
@@ -103,8 +90,8 @@ def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    text = environment.get_template(name).render(parts).lstrip()
-    return text if name.endswith(".html.j2") else re.sub(r"\n{3,}", "\n\n", text)
+    text = page.filled("replication.report", name, parts, filters).lstrip()
+    return text if prose.form is HTML else re.sub(r"\n{3,}", "\n\n", text)
 
 
 def _arranged(record: Record) -> dict[str, Any]:

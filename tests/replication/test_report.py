@@ -35,7 +35,7 @@ from replication.audit.record import Figure, Record, Verdict, filled, schema
 from replication.cases import BETA_5
 from replication.models import depth
 from replication.models.impact import Impact
-from replication.report import contents, page
+from replication.report import contents, html
 from replication.report.figures import draw
 from replication.report.words import HTML as PAGE
 from replication.report.words import TERMINAL, Named, Prose
@@ -268,7 +268,7 @@ def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: 
 def test_a_text_of_the_ledger_cannot_become_markup(record: Record) -> None:
     hostile = "<script>alert(1)</script>"
     claims = [msgspec.structs.replace(claim, title=hostile) for claim in record.claims]
-    assert hostile not in page(msgspec.structs.replace(record, claims=claims), draw(record))
+    assert hostile not in html(msgspec.structs.replace(record, claims=claims), draw(record))
 
 
 def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None:
