@@ -23,6 +23,7 @@ from replication.audit import record as r
 from replication.audit.findings import Evidence, Known
 from replication.audit.record import Verdict
 from replication.audit.verdict import Judgement, Reading
+from replication.models import sheet
 from replication.text import number, powers_of_ten
 
 
@@ -44,7 +45,7 @@ class Audit(Known):
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
         fail = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
-        inferred = product(self.ledger.inferred, (False, True))
+        inferred = product(self.ledger.inferred, sheet.SCHEMES)
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else fail,
@@ -201,7 +202,8 @@ class Audit(Known):
             repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
-    def _inferred(self, name: str, centered: bool) -> r.InferredRecord:
+    def _inferred(self, name: str, scheme: str) -> r.InferredRecord:
+        centered = scheme == "centered"
         inference = self.judge.inference(INFERRED + name, centered=centered)
         entry, si = inference.entry, 1 / to_si(inference.entry.unit)
         inner = inference.inner.scaled(si).ends
@@ -210,7 +212,7 @@ class Audit(Known):
             r.InferredRecord,
             entry,
             id=name,
-            scheme="centered" if centered else "published",
+            scheme=scheme,
             assumed=float(self.judge.value(INFERRED + name) * si),
             interval=_doubles(*inner, inward=True),
             interval_exact=(str(inner[0]), str(inner[1])),

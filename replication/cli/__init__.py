@@ -20,6 +20,7 @@ from replication.reading import one_line, quoted
 
 COMMANDS = tomllib.loads((resources.files(__name__) / "options.toml").read_text("utf-8"))
 """What each does and takes, in the order in which `coldspray --help` lists them."""
+_EVERY = COMMANDS.pop("every")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -123,7 +124,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         if name in arguments:
             from replication.cli import commands as home
 
-            _declare(command, takes)
+            _declare(command, takes | _EVERY | takes)  # its own first
             command.set_defaults(run=getattr(home, f"run_{name}"))
     for argument in arguments:
         if _DASHES.fullmatch(argument):

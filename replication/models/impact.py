@@ -5,6 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
+STEP, STOP_VELOCITY = 2e-10, 1.0
+"""The report's time step [s], and the velocity [m/s] below which its sheet stops."""
+
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 
@@ -48,8 +51,8 @@ class Impact:
     beta: float | None = None
     flow_stress: float | None = None
     resistance: float | None = None
-    step: float = 2e-10
-    stop_velocity: float = 1.0
+    step: float = STEP
+    stop_velocity: float = STOP_VELOCITY
 
     def __post_init__(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)
