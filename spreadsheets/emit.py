@@ -117,9 +117,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     book = xlsxwriter.Workbook(file, options)
 
     @cache
-    def style(name: str, number_format: str) -> Any:
+    def style(name: str, number_format: str, wrap: bool) -> Any:
         name, sample, _ = name.partition(" sample")
-        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name]}
+        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
         look |= {"align": "center"} if sample else {}
         return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
@@ -131,8 +131,11 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         page._prepare_formula = lambda formula: formula[1:]
         _set_up(page, sheet)
         for address, cell in sheet.cells.items():
-            look = style(cell.style, cell.shown)
+            look = style(cell.style, cell.shown, cell.wrap)
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
+            # Widths are counted in digits; most letters are narrower.
+            if cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]:
+                page.set_row(int(address[1:]) - 1, 30)
             if cell.name:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.name, named) == -1:

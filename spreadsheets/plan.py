@@ -42,7 +42,7 @@ class Cell(NamedTuple):
     ledger. claim: the claim whose printed text, or number, it shows. like: names a set of cells of
     like size; their rounding errors are as large as the largest of them allows. link: where a click
     on the text leads. limits, choices: what may be typed, the least and the greatest number in its
-    unit, or one of these texts.
+    unit, or one of these texts. wrap: long text takes two lines.
     """
 
     text: str = ""
@@ -58,6 +58,7 @@ class Cell(NamedTuple):
     link: Place | None = None
     limits: tuple[float, float] | None = None
     choices: Sequence[str] = ()
+    wrap: bool = False
 
 
 def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:

@@ -254,10 +254,10 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
     """A claim; where a cell computes it, the live verdict and the ends of what prints so, too."""
     cells = {
         "A": Cell(claim.id),
-        "B": Cell(claim.title),
-        "C": printed(ledger, claim.id, claim.unit),
+        "B": Cell(claim.title, wrap=True),
+        "C": printed(ledger, claim.id, claim.unit, wrap=True),
         "D": unit_text(claim.unit),
-        "G": Cell(findings.verdicts[claim.id], "text"),
+        "G": Cell(findings.verdicts[claim.id], "text", wrap=True),
         "J": Cell(str(claim.place), "unit"),
         "L": Cell(findings.explanations[claim.id], "unit"),
     }
