@@ -76,14 +76,17 @@ class Audit(Known):
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
         remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
         return r.Counts(
+            entries=len(claims),
             numbers=len(claims) - remarks,
             remarks=remarks,
             reproduced=len(reproduced),
+            constants=len(reproduced) - len(computed),
             computed=len(computed),
             values=len(values),
             failing=sum(claim.verdict.is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
+            equations_failing=sum(e.verdict.is_failure for e in equations),
         )
 
     # Claims

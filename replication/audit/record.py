@@ -369,20 +369,25 @@ class Level(_Part, frozen=True):
 
 
 class Counts(_Part, frozen=True):
-    """How many there are: printed numbers, of them computed anew, equations.
+    """How many there are.
 
-    `computed` counts the reproduced numbers that are no constants of equations, `values` the
-    different values of these: one that the report prints five times is one of them.
+    `entries`: claims, of which `numbers` are printed numbers and `remarks` comparisons in words. Of
+    the `reproduced` numbers `constants` stand in equations, and `computed` are computed anew, with
+    `values` different values: one that the report prints five times is one of them. `failing`, of
+    numbers and of `equations`: those that contradict what the report prints.
     """
 
+    entries: int
     numbers: int
     remarks: int
     reproduced: int
+    constants: int
     computed: int
     values: int
     failing: int
     equations: int
     equations_derived: int
+    equations_failing: int
 
 
 class Record(_Part, frozen=True):
