@@ -19,9 +19,12 @@ import numpy as np
 import pytest
 from running import coldspray
 
-from replication import BETA_5, bench, history
-from replication.bench import DIGITS, Case, Point, Task, tasks
+from replication import BETA_5, history
+from replication.bench import measure
+from replication.bench.measure import DIGITS, Point
 from replication.bench.peers import SOLVERS
+from replication.bench.show import figure, texts
+from replication.bench.tasks import MEASURES, STEPS, Case, Task, build, tasks
 
 
 def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
@@ -32,7 +35,7 @@ def point(error: float, seconds: float, method: str = "closed form", **more: Any
 
 @pytest.fixture(scope="module")
 def beta_5() -> Case:
-    return bench.build("beta-5")
+    return build("beta-5")
 
 
 def errors(case: Case, method: str, measure: str) -> list[float]:
@@ -48,7 +51,7 @@ def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(
     name = f"sheet, {scheme}"
     depth, many = (errors(beta_5, method, "depth") for method in (name, f"{name}, many"))
     for ladder in (depth, errors(beta_5, name, "history")):
-        assert len(ladder) == len(bench.STEPS)
+        assert len(ladder) == len(STEPS)
         # To within its stopping rule: a step more or less.
         assert ladder[-1] < bound < 1e-3 < ladder[0]
     assert many == sorted(many, reverse=True)
@@ -92,8 +95,8 @@ INTERPRETED = (
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.POINTS", 11)
-    case = bench.build(name)
+    monkeypatch.setattr("replication.bench.tasks.POINTS", 11)
+    case = build(name)
     # Nothing smooths the kink of Eq. 13 at x = R for a method that steps over it.
     kink = 1.0 if name == "beta-5" else 1e4
     met = set()
@@ -106,8 +109,8 @@ def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPat
     assert met == {*EXACT, *FINE}
 
 
-def measure(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
-    point, *_ = bench.trial(case, task, repeat, limit)
+def tried(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
+    point, *_ = measure.trial(case, task, repeat, limit)
     return point
 
 
@@ -120,17 +123,17 @@ def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason(
     def fail() -> float:
         raise ArithmeticError("never at rest")
 
-    assert measure(beta_5, replace(TASK, run=fail))["gap"] == "never at rest"
-    assert measure(beta_5, replace(TASK, run=lambda: math.nan))["gap"] == "the answer is not finite"
-    slow = measure(beta_5, replace(TASK, run=lambda: time.sleep(0.02) or 0.0), limit=0.01)
+    assert tried(beta_5, replace(TASK, run=fail))["gap"] == "never at rest"
+    assert tried(beta_5, replace(TASK, run=lambda: math.nan))["gap"] == "the answer is not finite"
+    slow = tried(beta_5, replace(TASK, run=lambda: time.sleep(0.02) or 0.0), limit=0.01)
     assert slow["gap"].startswith("takes 0.02")
     assert slow["gap"].endswith("s, more than 0.01 s")
-    assert (slow["best"], slow["error"], bench.met(slow)) == (None, None, math.inf)
+    assert (slow["best"], slow["error"], measure.met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
-    case = bench.build("beta-3")  # for which no integrator is kept
+    case = build("beta-3")  # for which no integrator is kept
     task = next(task for task in tasks(case) if task.method == "heyoka")
     reason = "not installed: python -m pip install 'coldspray[bench]'"
-    assert measure(case, task)["gap"] == reason
+    assert tried(case, task)["gap"] == reason
 
 
 def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
@@ -142,13 +145,13 @@ def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
         run()
         return next(seconds)
 
-    monkeypatch.setattr(bench.timeit, "timeit", timed)
-    point = measure(beta_5, replace(TASK, cases=4, run=lambda: [7.67e-6] * 4), repeat=3)
+    monkeypatch.setattr(measure.timeit, "timeit", timed)
+    point = tried(beta_5, replace(TASK, cases=4, run=lambda: [7.67e-6] * 4), repeat=3)
     assert (point["repeats"], point["calls"], point["compile"]) == (3, 5, None)
     assert (point["best"], point["median"]) == (2.5e-4, 5e-4)
     assert point["error"] > 0.1  # of the cases with other velocities
     seconds = iter([0.251, 0.001, 1.0])
-    alone = measure(beta_5, replace(TASK, compiled=True))
+    alone = tried(beta_5, replace(TASK, compiled=True))
     assert (alone["compile"], alone["gap"]) == (0.25, None)
     assert alone["error"] == pytest.approx(6.4e-4, rel=0.01)
 
@@ -165,19 +168,19 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
         time.sleep(0.01)  # longer than a batch: one call each
         return 0.0
 
-    class Bar(bench.tqdm):  # type: ignore[type-arg]
+    class Bar(measure.tqdm):  # type: ignore[type-arg]
         def close(self) -> None:
             turns.append("closed")
             super().close()
 
     both = [replace(TASK, run=partial(turn, name)) for name in "ab"]
     for name, instead in (("tasks", lambda _: both), ("build", lambda _: beta_5), ("tqdm", Bar)):
-        monkeypatch.setattr(bench, name, instead)
-    (case,) = bench.bench(["beta-5"], repeat=3)["cases"]
+        monkeypatch.setattr(measure, name, instead)
+    (case,) = measure.bench(["beta-5"], repeat=3)["cases"]
     assert "".join(turns[:10]) == "aabb" + "ab" * 3  # warmed up, then in turn
     assert [point["repeats"] for point in case["points"]] == [3, 3]
     with pytest.raises(KeyboardInterrupt):
-        bench.bench(["beta-5"])
+        measure.bench(["beta-5"])
     assert turns[turns.index("closed") :].count("a") == 1
     assert turns[-1] == "closed"
 
@@ -198,17 +201,15 @@ def test_the_table_says_it_all() -> None:
         point(1.0, 1.0, "DOP853") | gap | coarse | history,
         point(8e-6, 4e-5, "RK4", **history),
     ]
-    bench.mark_front(points)
-    rows = [
-        bench.fastest(points, *asked) for asked in product((False, True), bench.MEASURES, DIGITS)
-    ]
+    measure.mark_front(points)
+    rows = [measure.fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
     run = {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case]}
     another = case | {"name": "beta-3", "fastest": [dict(row) for row in case["fastest"]]}
     another["fastest"][0] |= {"method": "RK4, 100 steps", "best": 1e-6}
     runs = (run, run | {"repeat": 1, "cases": [case, another]})
-    told = "\n".join(bench.texts(record)["bench.txt"] for record in runs)
+    told = "\n".join(texts(record)["bench.txt"] for record in runs)
     assert told == Path(__file__).with_name("bench.txt").read_text("utf-8")
 
 
@@ -239,7 +240,7 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     assert [row["front"] == "true" for row in rows] == [p["front"] for p in case["points"]]
     assert {row["front"] for row in rows} == {"true", "false"}
     drawn = (tmp_path / "bench-beta-5.svg").read_bytes()
-    assert drawn == bench.figure(case)
+    assert drawn == figure(case)
     shown = {text.text for text in ET.fromstring(drawn).iter("{http://www.w3.org/2000/svg}text")}
     assert {point["method"] for point in case["points"] if not point["gap"]} <= shown
     assert {path.name for path in tmp_path.iterdir()} == {
