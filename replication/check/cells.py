@@ -13,10 +13,11 @@ from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
 
+from reference.units import same_dimension
 from replication.check.examination import NEAR, Examination, near
 from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
 from replication.check.table import LEAST, Line, Table, address, is_spoiling, runs
-from replication.check.words import power_of_ten, title
+from replication.check.words import power_of_ten, times_too, title, unit_power
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation, Formula
 
@@ -57,11 +58,22 @@ class Wrong(NamedTuple):
     says: str
 
 
-def wrong_beside(f: Examination) -> Wrong | None:
-    """The column of contact areas, pressures or forces because of which decelerations are wrong."""
+class Beside(NamedTuple):
+    """A quantity that the rows brake by: what, its unit, and two numbers a row, in SI.
+
+    They are what it would have to be for the row's deceleration, and what it should be.
+    """
+
+    name: str
+    of: str
+    unit: str
+    needed: dict[int, tuple[float, float]]
+
+
+def _beside(f: Examination) -> Iterator[tuple[Beside, Line, dict[int, float]]]:
+    """Contact areas, pressures and forces, each with every line beside the table that may be it."""
     if not f.table.helpers or "deceleration" not in f.rows.columns:
-        return None
-    # What each would have to be for the row's deceleration, and what it should be.
+        return
     area, pressure, force = (dict[int, tuple[float, float]]() for _ in range(3))
     for k in range(1, f.table.steps + 1):
         x, v, a = (f.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
@@ -71,21 +83,48 @@ def wrong_beside(f: Examination) -> Wrong | None:
             stress = 0.5 * f.case.target_density * v * v + f.case.resistance
             area[k], pressure[k] = (taken / stress, right), (taken / right, stress)
             force[k] = taken, stress * right
-    says = {
-        "area is not that of the contact at the depth of its row": area,
-        "pressure is not that at the velocity of its row": pressure,
-        "force is not that at the depth and the velocity of its row": force,
-    }
-    for (what, needed), line in product(says.items(), f.table.helpers):
-        numbers = {k: number for k in needed if (number := line.at(f.table.zero + k))}
+    quantities = (
+        Beside("area", "of the contact at the depth", "m^2", area),
+        Beside("pressure", "at the velocity", "Pa", pressure),
+        Beside("force", "at the depth and the velocity", "N", force),
+    )
+    for each, line in product(quantities, f.table.helpers):
+        numbers = {k: number for k in each.needed if (number := line.at(f.table.zero + k))}
+        if len(numbers) >= LEAST:
+            yield each, line, numbers
+
+
+def _powers_beside(f: Examination) -> Iterator[tuple[Beside, Line, int]]:
+    """The right ones among these lines, and the power of ten that their unit is."""
+    for each, line, numbers in _beside(f):
+        rights = {number: each.needed[k][1] for k, number in numbers.items()}
+        power = power_of_ten(next(right / number for number, right in rights.items()))
+        if power is not None and all(near(n * 10.0**power, right) for n, right in rights.items()):
+            yield each, line, power
+
+
+def units_beside(f: Examination) -> None:
+    """Units in heads of contact areas, pressures and forces that their numbers contradict."""
+    for each, line, power in _powers_beside(f):
+        if line.unit is None or not same_dimension(line.unit, each.unit):
+            continue
+        if slip := (unit_power(line.unit) or 0) - power:
+            size = f"in which it is {times_too(slip)}"
+            text = f"the head gives the {each.name} in {line.unit}, {size}"
+            f.add("unit", [line.unit_place or line.place(line.first)], None, text, line.unit)
+
+
+def wrong_beside(f: Examination) -> Wrong | None:
+    """The column of contact areas, pressures or forces because of which decelerations are wrong."""
+    for (name, of, _, needed), line, numbers in _beside(f):
         units = [needed[k][0] / number for k, number in numbers.items()]
-        if len(units) < LEAST or power_of_ten(units[0]) is None:
+        if power_of_ten(units[0]) is None:
             continue
         if all(power_of_ten(needed[k][1] / number) is not None for k, number in numbers.items()):
             continue  # it is right, in whatever unit
         wrong = {k: line.place(f.table.zero + k) for k in numbers if not near(*needed[k])}
         if wrong and all(near(unit, units[0]) for unit in units):
-            return Wrong(line, wrong, f"this {what}")
+            return Wrong(line, wrong, f"this {name} is not that {of} of its row")
     return None
 
 
@@ -327,6 +366,8 @@ def order(f: Examination) -> None:
     factors = {entry.factor for entry in (*f.inputs.values(), *f.derived.values())}
     if any(f.powers.values()) or factors != {Fraction(1)} or f.rows.rules != REPORT:
         return  # converting units costs last digits, too
+    if any(power for *_, power in _powers_beside(f)):
+        return
     # The mass as its cell has it; without a cell, as any order of its product gives it.
     masses = [f.case.mass]
     for way in (0.0, math.inf) if "mass" not in f.derived else ():

@@ -13,7 +13,14 @@ from itertools import pairwise, product
 from statistics import median
 
 from reference.units import to_si
-from replication.check.cells import drifting, each_cell, irregular, order, wrong_beside
+from replication.check.cells import (
+    drifting,
+    each_cell,
+    irregular,
+    order,
+    units_beside,
+    wrong_beside,
+)
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
 from replication.check.inputs import RESTS_ON, label_of, report_inputs
 from replication.check.scheme import (
@@ -71,6 +78,7 @@ def judge(f: Examination, meant: tuple[str, float, str] | None = None) -> None:
         _taken_otherwise(f)
         _typed_inputs(f)
         _typed_numbers(f)
+        units_beside(f)
         order(f)
     else:
         _as_rounded(f)

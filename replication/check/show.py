@@ -112,7 +112,9 @@ def _verdict(check: Check) -> str:
         others = sum(d.kind == "other input" for d in check.differences)
         inputs = f", with {count(others, 'other input')}" if others else ""
         goes = "" if any(f.ends for f in check.examinations) else " as far as it goes"
-        return f"Clean{goes}: the report's sheet{inputs}, cell by cell."
+        places = {place for f in check.examinations for place in f.table.places}
+        numbers = "" if places & check.calculation.formulas.keys() else ", in numbers, no formulas"
+        return f"Clean{goes}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
         return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
     if all(d.kind == "operation order" for d in causes):
