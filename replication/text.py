@@ -143,14 +143,14 @@ def aligned(
     return ["  ".join(map("{:{}{}}".format, row, ways, widths)).rstrip() for row in rows]
 
 
-def numbers(heads: Sequence[str], rows: Iterable[Iterable[float | None]]) -> list[str]:
-    """Numbers to nine digits as lines, in columns of one width under their heads.
+def numbers(heads: tuple[str, ...], rows: Iterable[Iterable[float | None]]) -> list[str]:
+    """Numbers to nine digits as lines, in columns under their heads.
 
-    >>> numbers(["x", "v"], [(0.5, None)])
-    ['                    x                    v', '                  0.5                     ']
+    >>> numbers(("row", "x", "v"), [(0, 0.5, None), (1, 0.25, 40.0)])
+    ['row     x   v', '0     0.5', '1    0.25  40']
     """
-    texts = (["" if value is None else number(value, 9) for value in row] for row in rows)
-    return ["".join(f"{text:>21}" for text in row) for row in (heads, *texts)]
+    texts = (tuple("" if x is None else number(x, 9) for x in row) for row in rows)
+    return aligned([heads, *texts], right=True)
 
 
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:

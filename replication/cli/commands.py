@@ -196,15 +196,15 @@ def run_sheet(options: argparse.Namespace) -> int:
 
     def text() -> str:
         """The rows, then what the report reads off the last."""
-        heads = ("time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]")
-        table = ((time * 1e9, v, x * 1e6, a, final) for time, v, x, a, final in sheet.rows)
-        lines = zip(("row", *range(len(sheet.rows))), numbers(heads, table), strict=True)
+        heads = "row", "time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]"
+        rows = enumerate(sheet.rows)
+        table = ((k, time * 1e9, v, x * 1e6, a, final) for k, (time, v, x, a, final) in rows)
         results = (
             f"final depth       {number(sheet.final_depth * 1e6, 8)} um\n"
             f"normalized depth  {number(sheet.normalized_depth, 8)}\n"
             f"steps             {sheet.steps}"
         )
-        return "\n".join([*(f"{k:>5}{line}" for k, line in lines), "", results])
+        return "\n".join([*numbers(heads, table), "", results])
 
     return _put(options, record, text, rows, doubts)
 
