@@ -12,14 +12,7 @@ from functools import cache, partial, wraps
 from typing import Any
 
 from replication.models import crater, depth, impact, motion, sheet
-from replication.models.impact import (
-    MAY_BE_ZERO,
-    STEP,
-    STOP_VELOCITY,
-    InputError,
-    check,
-    check_range,
-)
+from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
 Model = Callable[..., Any]
 
@@ -131,7 +124,7 @@ def _histories(*values: Any) -> Any:
 
 def run_many(
     velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
-    step: Any = STEP, stop_velocity: Any = STOP_VELOCITY, scheme: str = "published",
+    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY, scheme: str = "published",
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
