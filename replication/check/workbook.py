@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import dropwhile
+from itertools import dropwhile, product
 from pathlib import Path
 
 from reference.ledger import Claim, load
@@ -37,8 +37,8 @@ _STALE = 1e-14
 
 
 @dataclass(frozen=True)
-class HeldNumber:
-    """A number that the report prints and a cell holds. `found` is in the claim's unit."""
+class PrintedCell:
+    """A cell that holds a number of the report. `found` is in the claim's unit."""
 
     claim: Claim
     place: Position
@@ -53,8 +53,8 @@ class HeldNumber:
         )
         text = f"the report prints {printed} for {claim.title} ({claim.place}), "
         text += f"which stands for values in {interval}"
-        held = f.calculation.number(self.place)
-        return Difference("printed number", (self.place,), printed, held, text, rank)
+        value = f.calculation.number(self.place)
+        return Difference("printed number", (self.place,), printed, value, text, rank)
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Check:
     calculation: Calculation
     examinations: tuple[Examination, ...]
     differences: tuple[Difference, ...]
-    numbers: tuple[HeldNumber, ...]
+    numbers: tuple[PrintedCell, ...]
 
     @property
     def faults(self) -> list[Difference]:
@@ -108,8 +108,8 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
     misread(examinations)
     sheets = [f.table.sheet for f in examinations]
     # Several tables may have the same cell for an input or a result.
-    held = (number for f in examinations for number in _held(f, sheets))
-    numbers = {(number.claim.id, number.place): number for number in held}.values()
+    every = (number for f in examinations for number in _printed_cells(f, sheets))
+    numbers = {(number.claim.id, number.place): number for number in every}.values()
     silent = list(_without_numbers(calculation))
     beside_tables = [
         *_stale(calculation, examinations),
@@ -279,11 +279,9 @@ _HEADER = {
 _CASES = ("beta-5", "beta-3")
 """The cases by their claims, in the order of the report's inputs; Table A-1 is the first."""
 _GREATEST = Fraction(sys.float_info.max)
-_ROWS = 5
-"""Rows that Table A-1 prints, the impact among them."""
 
 
-def _held(f: Examination, sheets: Sequence[str]) -> Iterator[HeldNumber]:
+def _printed_cells(f: Examination, sheets: Sequence[str]) -> Iterator[PrintedCell]:
     """The printed numbers that a table of one of the report's cases holds, each judged.
 
     Labelled results are its own if it is the only table; of several, on `sheets`, if it is the only
@@ -303,11 +301,11 @@ def _held(f: Examination, sheets: Sequence[str]) -> Iterator[HeldNumber]:
         value = f.calculation.number(entry.place) if entry else None
         if entry and entry.place and value is not None and (table_a1 or role != "resistance"):
             yield _judged(name, entry.place, Fraction(value) * entry.factor)
-    for k in range(_ROWS if table_a1 else 0):
-        for role, column in f.rows.columns.items():
-            name = f"a1-{role.replace('_', '-')}-{k}"
-            if name in load().claims and k in column:
-                yield _judged(name, f.table.place(role, k), Fraction(column[k]))
+    printed_rows = range(len(load().time_steps.rows) + 1)  # the impact among them
+    for k, (role, column) in product(printed_rows if table_a1 else (), f.rows.columns.items()):
+        name = f"a1-{role.replace('_', '-')}-{k}"
+        if name in load().claims and k in column:
+            yield _judged(name, f.table.place(role, k), Fraction(column[k]))
     lone, here = len(sheets) == 1, f.table.sheet if sheets.count(f.table.sheet) == 1 else None
     results = [
         each for each in f.table.results if lone or (each.place[0] == here and _is_own(f, each))
@@ -315,7 +313,7 @@ def _held(f: Examination, sheets: Sequence[str]) -> Iterator[HeldNumber]:
     yield from _results(f, case, results)
 
 
-def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[HeldNumber]:
+def _results(f: Examination, case: str, results: Sequence[Result]) -> Iterator[PrintedCell]:
     """The final depth, in a cell labelled so or in the last row, and that over the radius."""
     last, depth = f.table.place("depth", f.table.steps), f.final_depth
     if f.ends and depth is not None and all(result.kind != "depth" for result in results):
@@ -348,11 +346,11 @@ def _is_another_ratio(f: Examination, place: Position) -> bool:
     return place in f.calculation.formulas or any(each.contains(value) for each in printed)
 
 
-def _judged(name: str, place: Position, value: Fraction) -> HeldNumber:
+def _judged(name: str, place: Position, value: Fraction) -> PrintedCell:
     claim = load().claims[name]
     # In the claim's unit a number may be beyond doubles.
     shown = max(-_GREATEST, min(value / claim.si, _GREATEST))
-    return HeldNumber(claim, place, float(shown), claim.target().contains(value))
+    return PrintedCell(claim, place, float(shown), claim.target().contains(value))
 
 
 # ---- stored values
