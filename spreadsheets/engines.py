@@ -40,7 +40,7 @@ Cell = tuple[str, str, Value | None]
 """Worksheet name, address and value; None where the cell holds nothing."""
 
 TIME_LIMIT_S = 120
-"""So long may a program take for one workbook."""
+"""How long a program may take for one workbook."""
 
 
 class EngineError(Exception):

@@ -17,6 +17,7 @@ from spreadsheets.cases import (
     CaseSheet,
     case_sheet,
     claims_in_table,
+    inputs_of,
     inputs_sheet,
     table_a1,
 )
@@ -345,9 +346,9 @@ LEVELS = 8
 
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """The names of the numbers that the ladder's runs are made with: inputs, what follows, π."""
-    names = [] if cases[0].resistance_given else ["Y_t", *(f"beta{case.of}" for case in cases)]
-    names = ["V_impact", "R_p", "rho_p", "rho_t", "dt_s", "v_stop", *names, "D_p", "M_p", "pi_"]
-    return names + [f"R_t{case.of}" for case in cases]
+    blocks = inputs_of(cases, report=False).values()
+    typed = [entry.name for block in blocks for entry in block if entry.attribute]
+    return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(f"R_t{case.of}" for case in cases)]))
 
 
 NO_ORDER = "–"
