@@ -1,23 +1,214 @@
-"""Measuring every method on the cases asked for, and finding the fastest for so many digits."""
+"""What is measured, every method at every setting, on cases with their exact motion; and how.
+
+Of methods that reach so many digits the fastest is found.
+"""
 
 import math
 import os
 import platform
 import tempfile
 import timeit
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
 from importlib.metadata import distributions
 from itertools import product
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import Any, Literal
 
 import numba
+import numpy as np
+import numpy.typing as npt
 from tqdm import tqdm
 
-from replication.bench.tasks import MEASURES, Case, Measure, Task, build, tasks
-from replication.cases import inputs_of
-from replication.models import arrays
+from reference.arithmetic import Number
+from reference.motion import Trajectory
+from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
+from replication.cases import BETA_5, changed, inputs_of
+from replication.error.hard_cases import HARD_CASES
+from replication.error.ladder import exact_motion
+from replication.models import arrays, motion
+from replication.models.impact import Impact
+from replication.models.sheet import SCHEMES, run
+
+Measure = Literal["depth", "history"]
+MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
+"""What can be asked of a method, and its title."""
+
+CASES = {
+    "beta-5": "the report's beta-5",
+    "beta-3": "the report's beta-3",
+    "crossing": "depth just above R",
+    "shallow": "slow, 1 m/s",
+    "hypervelocity": "hypervelocity, 1e4 m/s",
+}
+"""The cases' names on the command line, and among the hard cases."""
+
+POINTS = 101
+"""Times of a history, first and last included."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case with its exact motion.
+
+    `times` [s], shape (POINTS,), run from the impact to rest; `depths` [m] are the exact ones.
+    """
+
+    name: str
+    impact: Impact
+    motion: Trajectory
+    times: npt.NDArray[np.float64]
+    depths: tuple[Number, ...]
+
+    def columns(self, count: int) -> list[Any]:
+        """The inputs of so many cases, with velocities up to 10 % below and above this one's."""
+        spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
+        velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
+        return [velocity * (1 + spread), *others]
+
+    def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
+        """The worst relative error of depths [m], measured down to a velocity [m/s], 0 for rest.
+
+        Of the final depths of `columns` eleven are compared. Those of a "history" are at `times`,
+        in the middle row if there is one for each case, with errors relative to the depth at rest.
+        Of a tuple of results, such as depth and velocity, the first is compared.
+        """
+        computed = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
+        if measure == "depth":
+            some = np.unique(np.linspace(0, len(computed) - 1, 11, dtype=int))
+            velocities = self.columns(len(computed))[0][some].tolist()
+            motions = [exact_motion(replace(self.impact, velocity=v)) for v in velocities]
+            exact = wholes = [motion.depth_at_velocity(stop) for motion in motions]
+            computed = computed[some]
+        else:
+            end = self.motion.depth_at_velocity(stop)
+            exact = [depth for depth in self.depths if stop == 0 or depth <= end]
+            wholes = [self.motion.final_depth] * len(exact)
+            rows = np.atleast_2d(computed)
+            computed = rows[len(rows) // 2, : len(exact)]
+        terms = zip(map(self.motion.context.mpf, computed.tolist()), exact, wholes, strict=True)
+        return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
+
+
+def build(name: str) -> Case:
+    """One of `CASES`. Raises ValueError for another name.
+
+    >>> case = build("beta-5")
+    >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
+    ('26.079 ns', '6.4e-04')
+    """
+    if name not in CASES:
+        raise ValueError(f"there is no case {name!r} to time: choose one of {', '.join(CASES)}")
+    impact = changed(BETA_5, HARD_CASES[CASES[name]])
+    motion, times, depths = exact_motion(impact), list[float](), list[Number]()
+    for k in range(POINTS):
+        # Depths X (1 - s^2), with s falling evenly, are about evenly spaced in time. The time for a
+        # depth takes one quadrature, the depth for a time would take a dozen.
+        s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
+        depth = motion.final_depth * (1 - s * s)
+        time = motion.time_to_depth(depth)
+        times.append(float(time))
+        # Rounding the time to a double leaves out 1e-16 of the motion; one Taylor step adds that
+        # again, to within 1e-32.
+        rounding = motion.context.mpf(times[-1]) - time
+        depths.append(depth + motion.velocity_at_depth(depth) * rounding)
+    return Case(name, impact, motion, np.array(times), tuple(depths))
+
+
+# The methods
+
+STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
+"""The time steps of the sheet, as multiples of the case's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A method at a setting: `run` answers what `measure` asks, down to a velocity `stop` [m/s].
+
+    One run computes `cases` cases at once; the first compiles the method if it is `compiled`.
+    """
+
+    method: str
+    setting: str
+    measure: Measure
+    run: Callable[[], Any]
+    stop: float = 0.0
+    cases: int = 1
+    compiled: bool = False
+
+
+def tasks(case: Case) -> Iterator[Task]:
+    """Every method at every setting: this project's, solvers of the equation, and plain loops."""
+    given, stop = tuple(case.impact.motion.values()), case.impact.stop_velocity
+    steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
+    for scheme, (step, setting) in product(SCHEMES, steps):
+        name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
+        yield Task(name, setting, "depth", partial(_rows, impact, scheme, None), stop)
+        yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
+        sheets = partial(arrays.run_many, step=step, stop_velocity=stop, scheme=scheme)
+        yield _many(name, setting, case, sheets, 1001, stop)
+    yield Task("closed form", "no steps", "depth", partial(arrays.final_depth, *given))
+    yield _many("closed form", "no steps", case, arrays.final_depth, 100_001)
+    series = partial(Task, setting="order 20", measure="history")
+    yield series("Taylor series, plain Python", run=partial(_plain_history, case.times, given))
+    alone = partial(arrays.history, case.times, *given)
+    yield series("Taylor series", run=alone, compiled=True)
+    columns = [column[:, None] for column in case.columns(1001)]
+    many = partial(arrays.history, case.times, *columns)
+    yield series("Taylor series, many", run=many, cases=1001, compiled=True)
+
+    for method, (form, levels, solve) in SOLVERS.items():
+        for level in levels:
+            yield from _solver(case, method, form.format(level), partial(solve, level))
+    alone = partial(bare_depth, *given)
+    yield Task("closed form, bare function", "no steps", "depth", alone)
+    yield _many("closed form, Numba loop", "no steps", case, depth_loop, 100_001)
+    for step, setting in steps:
+        name, loop = "sheet, Numba loop", partial(sheet_loop, step, stop)
+        yield _many(name, setting, case, loop, 1001, stop)
+        alone = partial(loop, *case.columns(1))
+        yield Task(name, setting, "depth", alone, stop, compiled=True)
+
+
+def _many(name: str, setting: str, case: Case, work: Function, count: int, stop: float = 0) -> Task:
+    work = partial(work, *case.columns(count))
+    return Task(f"{name}, many", setting, "depth", work, stop, count, compiled=True)
+
+
+def _rows(impact: Impact, scheme: str, times: Any) -> Any:
+    """The depths of the rows between which the times lie, on straight lines; or the last.
+
+    The scheme's x stands in the middle of its row, half a step before the time printed there.
+    """
+    rows = run(impact, scheme).rows
+    if times is None:
+        return rows[-1].depth
+    middles = [0.0, *(row.time - impact.step / 2 for row in rows[1:])]
+    return np.interp(times, middles, [row.depth for row in rows])
+
+
+def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
+    depth, speed = [0.0] * len(times), [0.0] * len(times)
+    motion.history(times.tolist(), *given, depth=depth, speed=speed)  # type: ignore[misc]
+    return depth
+
+
+def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
+    """Final depth and history by a solver, which takes b, c and times, and gives y = x/R."""
+    impact, R = case.impact, case.impact.radius
+    b = 3 * impact.target_density / (8 * impact.particle_density)
+    c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
+    times = case.times * impact.velocity / R
+    ends = times[[0, -1]]
+    task = partial(Task, method, setting, compiled=not method.startswith("solve_ivp"))
+    yield task("depth", lambda: R * float(solve(b, c, ends)[-1]))
+    yield task("history", lambda: R * np.asarray(solve(b, c, times)))
+
+
+# ---- measuring it
 
 Point = dict[str, Any]
 """What `trial` measures of a task, as in the JSON."""

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from replication.bench.measure import Point, met, ranked
+from replication.bench.measure import MEASURES, Point, met, ranked
 from replication.bench.peers import SOLVERS
-from replication.bench.tasks import MEASURES
 from replication.text import aligned, json_text, number, rows_csv
 from spreadsheets.safely import write_folder
 

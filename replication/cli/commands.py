@@ -302,9 +302,8 @@ def run_sweep(options: argparse.Namespace) -> int:
 
 
 def run_bench(options: argparse.Namespace) -> int:
-    from replication.bench.measure import bench
+    from replication.bench.measure import CASES, bench
     from replication.bench.show import texts, write
-    from replication.bench.tasks import CASES
     from spreadsheets.safely import check_folder
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))

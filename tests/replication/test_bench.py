@@ -21,10 +21,9 @@ from running import coldspray
 
 from replication import BETA_5, history
 from replication.bench import measure
-from replication.bench.measure import DIGITS, Point
+from replication.bench.measure import DIGITS, MEASURES, STEPS, Case, Point, Task, build, tasks
 from replication.bench.peers import SOLVERS
 from replication.bench.show import figure, texts
-from replication.bench.tasks import MEASURES, STEPS, Case, Task, build, tasks
 
 
 def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
@@ -95,7 +94,7 @@ INTERPRETED = (
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.tasks.POINTS", 11)
+    monkeypatch.setattr("replication.bench.measure.POINTS", 11)
     case = build(name)
     # Nothing smooths the kink of Eq. 13 at x = R for a method that steps over it.
     kink = 1.0 if name == "beta-5" else 1e4
