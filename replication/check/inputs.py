@@ -117,7 +117,7 @@ def find(
     derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
     # Mass and diameter are computed for nothing where their values are typed into the rows.
     unused = calculation.formulas.keys() - read.keys() - elsewhere if read else ()
-    computed = [c for c in candidates if c.roles & {"mass", "diameter"} and c.place in unused]
+    computed = [c for c in candidates if c.roles & RESTS_ON.keys() and c.place in unused]
     by_role = _by_role(computed, False)
     unread |= {role: cells for role, cells in by_role.items() if role not in derived}
     own = [_own(cells, examination, read, elsewhere) for cells in unread.values()]

@@ -279,11 +279,12 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
     used, cell = f.inputs["resistance"], f.derived.get("resistance")
     if cell and _typed_factor(f, cell, cell.si, stated, (beta, flow_stress)):
         return  # the rows take it from its cell, whose formula is judged
-    cells = _typing(f, used.si) or f.cells(*f.rows.shows("brake", 1))
+    typing = _typing(f, used.si)
     if math.isclose(used.si, stated, rel_tol=1e-6):
-        if used.how == "formulas" and beta.place:
-            _lost(f, "resistance", cells, beta)
+        if used.how in ("formulas", "report") and typing and beta.place:
+            _lost(f, "resistance", typing, beta)
         return
+    cells = typing or f.cells(*f.rows.shows("brake", 1))
     if used.how not in ("rows", "formulas", "report"):
         return
     taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
@@ -295,10 +296,18 @@ def _product(f: Examination, beta: Input, flow_stress: Input, stated: float) -> 
 
 
 def _typing(f: Examination, value: float) -> list[Position]:
-    """The cells of the column that has a number typed into most of its formulas, if one has."""
+    """The cells of the column that has a number typed into most of its formulas, if one has.
+
+    It may be typed in another unit, if it has more digits than one: 5 is in 0.5, too.
+    """
+    several = digits_of(value)[0] > 1
+
+    def is_typed(number: float) -> bool:
+        return near(number, value) or (several and power_of_ten(number / value) is not None)
+
     for line in f.table.every_line:
         formulas = [f.calculation.formulas[p] for p in line.cells if p in f.calculation.formulas]
-        cells = [each.place for each in formulas if any(near(n, value) for n in each.literals)]
+        cells = [each.place for each in formulas if any(map(is_typed, each.typed))]
         if len(cells) > 0.5 * len(formulas):
             return cells
     return []
@@ -475,6 +484,8 @@ def _taken_otherwise(f: Examination) -> None:
         used = f.inputs.get(entry.role)
         if used is None or used.place or used.how in ("follows", "name"):
             continue  # its cell, or those that it follows from, are known
+        if entry.role == "resistance" and any(e.role == "beta" for e in f.unread):
+            continue  # told by that already
         if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
         unlike = not math.isclose(used.si, entry.si, rel_tol=1e-6)
