@@ -10,7 +10,7 @@ from reference.units import to_si
 from replication.check.examination import Examination, near
 from replication.check.inputs import report_inputs
 from replication.check.judge import stops_elsewhere
-from replication.check.table import Result, address
+from replication.check.table import NEAR_END, Result, address
 from replication.check.words import (
     input_roles,
     number_in,
@@ -25,16 +25,13 @@ from replication.check.words import (
 from spreadsheets.foreign import Position, Value
 
 _ANOTHER_ROW = re.compile(
-    r"\d *(?:[nµu]?s|sec\w*)\b|\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous)\b",
+    r"\d *(?:[nµu]?s|sec\w*)\b|\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous|before|prior|penultimate)\b",
     re.IGNORECASE,
 )
 """What the label of a depth has that may be that of another row than the last."""
 _PERCENT = re.compile(r"%|percent|prozent", re.IGNORECASE)
 _RADIUS = re.compile(r"/ *r\b|radi", re.IGNORECASE)
 _DIAMETER = re.compile(r"diam|durchm|/ *\(?(?:2|d\b)|twice", re.IGNORECASE)
-
-_NEAR_END = 2
-"""What is only called a depth may be that of any row; so near the end it should be the last."""
 
 _NEARBY = 10
 """So many cells from a result at most, a number may say of which table it is."""
@@ -153,8 +150,8 @@ def _fault(
             text = f"{what} is not that of the last row of the table"
             return "odd formula", shown, text, formula
         return None
-    is_near = row >= last - _NEAR_END or "MAX(" in (formula or "").upper()
-    is_near = is_near or result_of(says) != "any depth"
+    is_near = row >= last - NEAR_END or "MAX(" in (formula or "").upper()
+    is_near = is_near or result_of(says) not in ("any depth", None)
     if row != last and (_ANOTHER_ROW.search(says) or not is_near):
         return None
     if depths[row] == max(depths.values()) and "last" in f.table.readers[place]:

@@ -41,6 +41,8 @@ _SAMPLE = 500
 """Rows that are looked at to see whether two lines may belong together."""
 _CLOSE = 0.02
 """How nearly a ratio of neighbouring rows must repeat. The velocity falls by 1 % a row, mostly."""
+NEAR_END = 2
+"""What is only called a depth may be that of any row; so near the end it should be the last."""
 FEW = 64
 """Cells of a range that are each looked at: more of them are no inputs of a formula."""
 _SURE = 0.75
@@ -404,7 +406,21 @@ class Table:
                         labelled.append(self._result(kind == "ratio", cell, label, where))
                 if cells:
                     break
-        return labelled
+        return labelled or self._unnamed()
+
+    def _unnamed(self) -> list[Result]:
+        """The one cell that shows a depth near the end, if its label is in an unknown language."""
+        values, depth = self.calculation.values, self.lines["depth"]
+        shown = []
+        for (sheet, row, column), formula in self.calculation.formulas.items():
+            corners = [area.corner for area in formula.areas if area.cells == 1]
+            at = depth.index(corners[0]) if len(corners) == len(formula.areas) == 1 else None
+            label = (sheet, row, column - 1)
+            is_labelled = isinstance(values.get(label), str) and not is_unit(str(values[label]))
+            near_end = at is not None and 0 <= self.zero + self.steps - at <= NEAR_END
+            if is_labelled and near_end and self._is_beside((sheet, row, column)):
+                shown.append(self._result(False, (sheet, row, column), label, "first"))
+        return shown if len(shown) == 1 else []
 
     def _is_beside(self, place: Position) -> bool:
         """Whether a cell holds a number and is in no line of the table."""
