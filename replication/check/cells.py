@@ -35,14 +35,19 @@ def drifting(f: Examination) -> None:
     for line in lines:
         formulas = list(filter(None, map(f.calculation.formulas.get, line.cells)))
         alike = [formula for formula in formulas if formula.shape == formulas[-1].shape]
+        first = formulas[formulas.index(alike[0]) - 1] if len(alike) < len(formulas) else None
         for pieces in zip(*(formula.pieces for formula in alike), strict=True):
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
+            if len(read) > 1 and first:  # a first row of another formula may have the right one
+                (sheet, *here), (_, *there) = read[:2]
+                row, column = (2 * a - b for a, b in zip(here, there, strict=True))
+                read = [(sheet, row, column)] * first.reads((sheet, row, column)) + read
             beside = [p for p in read if not any(each.covers(p) for each in lines)]
             moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
             # Soon it reads a blank, a text or an input; else it reads a column of numbers.
             strays = None in map(number, beside[:_BLOCK]) or inputs & set(beside[1:])
             if moves and strays and number(read[0]) is not None:
-                cells = [formula.place for formula in alike[1:]]
+                cells = [formula.place for formula in alike[1 - len(read) :]]
                 cell, here = (address(p, p[0] != line.sheet) for p in read[:2])
                 along, across = ("row", "column") if line.across else ("column", "row")
                 text = f"its {along} reads {cell}, which no $ fixes: this {across} reads {here}"
@@ -333,7 +338,7 @@ def _is_text(f: Examination, place: Position, k: int) -> bool:
     value = f.calculation.values.get(place)
     if not isinstance(value, str | bool) or place in f.calculation.formulas:
         return False
-    return (k > 0 and value != "") or is_spoiling(place, f.calculation)
+    return (k > 0 and value != "") or is_spoiling(place, f.calculation, f.table.across)
 
 
 def _lone(f: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:

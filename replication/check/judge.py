@@ -697,6 +697,7 @@ def _cause(f: Examination, part: str) -> tuple[str, str, Line]:
                 return "typed constant", f"{constant} is typed as {number:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
+    named = f"{ratio:.10g}" if named == "1" else named
     return "other scheme", f"every {what} is {named} times that of the report's scheme", column
 
 

@@ -25,7 +25,8 @@ from replication.check.words import (
 from spreadsheets.foreign import Position, Value
 
 _ANOTHER_ROW = re.compile(
-    r"\d *(?:[nµu]?s|sec\w*)\b|\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous|before|prior|penultimate)\b",
+    r"\d *(?:[nµu]?s|sec\w*)\b|"
+    r"\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous|before|prior|penultimate)\b",
     re.IGNORECASE,
 )
 """What the label of a depth has that may be that of another row than the last."""

@@ -89,6 +89,10 @@ class Line:
         """Whether it is a velocity, by the user or by its head."""
         return any(role.startswith("velocity") for role in self.roles)
 
+    def may_be(self, unit: str) -> bool:
+        """Whether neither its head nor its unit says that it measures anything else."""
+        return not self.roles and (self.unit is None or same_dimension(self.unit, unit))
+
     def place(self, at: int) -> Position:
         """The cell in a row, or column, of the sheet."""
         for blank in self.left_out:
@@ -172,6 +176,11 @@ class Line:
         is_long = len(pairs) >= LEAST - 1
         return is_long and pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
 
+    @property
+    def goes_on(self) -> bool:
+        """Whether it rises, or would: each of its cells, in metres or so, reads the one before."""
+        return self.rises or (self.unit is not None and self.reads(self, 1))
+
     @cached_property
     def numbers(self) -> list[float]:
         """Its values, without the cells that have none."""
@@ -254,7 +263,7 @@ def lines(calculation: Calculation) -> Iterator[Line]:
             value = calculation.number(place)
             usable = None if value is None or not math.isfinite(value) else value
             # An error is part of a line that has gone wrong, and so is the text that it comes from.
-            wrong = calculation.error(place) or is_spoiling(place, calculation)
+            wrong = calculation.error(place) or is_spoiling(place, calculation, across)
             belongs = usable is not None or wrong or place in calculation.unknown
             if belongs and not _sums_up(calculation, place, across):
                 by_line.setdefault(number, {})[at - sum(b < at for b in blank)] = usable
@@ -266,9 +275,17 @@ def lines(calculation: Calculation) -> Iterator[Line]:
                 yield replace(line, first=first, values=run).headed()
 
 
-def is_spoiling(place: Position, calculation: Calculation) -> bool:
-    """Whether a cell is a text for which formulas give errors, and no head that they stray to."""
-    return place in calculation.spoiling and not column_roles(str(calculation.values[place]))
+def is_spoiling(place: Position, calculation: Calculation, across: bool) -> bool:
+    """Whether a cell is a text for which formulas give errors, and no head that they stray to.
+
+    Beside a head stands another one.
+    """
+    sheet, row, column = place
+    beside = ((row + k, column) if across else (row, column + k) for k in (-1, 1))
+    values = (calculation.values.get((sheet, *cell)) for cell in beside)
+    is_head = any(isinstance(value, str) and value and value[0] not in "#" for value in values)
+    is_head = is_head or bool(column_roles(str(calculation.values.get(place))))
+    return place in calculation.spoiling and not is_head
 
 
 def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
@@ -542,8 +559,8 @@ def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     # Errors may end a column with a head in its third row, by a reference that no $ fixes.
     able = [line for line in known if len(line.numbers) >= LEAST - bool(line.roles)]
     longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
-    depths = [x for x in longest if "depth" in x.roles or (x.rises and not x.roles)]
-    speeds = [v for v in longest if v.is_speed or (v.falls and not v.roles)]
+    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.goes_on)]
+    speeds = [v for v in longest if v.is_speed or (v.may_be("m/s") and v.falls)]
     scored = [
         (_score(x, v), len(x.values), -abs(x.number - v.number), x, v)
         for x, v in product(depths[:_MAX_LINES], speeds[:_MAX_LINES])
@@ -564,7 +581,9 @@ def _score(depth: Line, speed: Line) -> float:
     fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
     grows = depth.reads(depth, 1)
     given = (depth.given is not None) + (speed.given is not None)
-    named = ("depth" in depth.roles) + speed.is_speed
+    named = (depth.unit is not None or "depth" in depth.roles) + (
+        speed.unit is not None or speed.is_speed
+    )
     final = speed.roles == {"velocity_final"}
     reads = depth.reads(speed, 0) or depth.reads(speed, 1)
     # A velocity that ends higher than it began is the axis of a curve, and so is one that does not
