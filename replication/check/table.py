@@ -91,7 +91,8 @@ class Line:
 
     def may_be(self, unit: str) -> bool:
         """Whether neither its head nor its unit says that it measures anything else."""
-        return not self.roles and (self.unit is None or same_dimension(self.unit, unit))
+        named = self.unit or "1"  # "(1)" may be a note
+        return not self.roles and (named == "1" or same_dimension(named, unit))
 
     def place(self, at: int) -> Position:
         """The cell in a row, or column, of the sheet."""
