@@ -35,13 +35,15 @@ def drifting(f: Examination) -> None:
     for line in lines:
         formulas = list(filter(None, map(f.calculation.formulas.get, line.cells)))
         alike = [formula for formula in formulas if formula.shape == formulas[-1].shape]
-        first = formulas[formulas.index(alike[0]) - 1] if len(alike) < len(formulas) else None
+        begin = formulas.index(alike[0]) if alike else 0
+        first = formulas[begin - 1] if begin else None
         for pieces in zip(*(formula.pieces for formula in alike), strict=True):
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
-            if len(read) > 1 and first:  # a first row of another formula may have the right one
+            if len(read) > 1:  # a first row of another formula may have the right one
                 (sheet, *here), (_, *there) = read[:2]
                 row, column = (2 * a - b for a, b in zip(here, there, strict=True))
-                read = [(sheet, row, column)] * first.reads((sheet, row, column)) + read
+                if first and first.reads((sheet, row, column)):
+                    read.insert(0, (sheet, row, column))
             beside = [p for p in read if not any(each.covers(p) for each in lines)]
             moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
             # Soon it reads a blank, a text or an input; else it reads a column of numbers.

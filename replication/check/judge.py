@@ -552,7 +552,9 @@ def _blanks(f: Examination) -> None:
     values, blanks, case = f.calculation.values, dict[Position, str](), f.case
     for sheet, row, column in sorted(f.read - values.keys()):
         label = values.get((sheet, row, column - 1))
-        named = input_roles(label, None) if isinstance(label, str) else frozenset[str]()
+        if not isinstance(label, str):
+            continue
+        named = input_roles(label, None) or f.inputs.keys()  # in any language
         known = (f.inputs[role] for role in named & f.inputs.keys())
         roles = [entry.role for entry in known if entry.place is None and entry.how != "follows"]
         if len(roles) == 1:

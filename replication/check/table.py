@@ -433,8 +433,9 @@ class Table:
         for (sheet, row, column), formula in self.calculation.formulas.items():
             corners = [area.corner for area in formula.areas if area.cells == 1]
             at = depth.index(corners[0]) if len(corners) == len(formula.areas) == 1 else None
-            label = (sheet, row, column - 1)
-            is_labelled = isinstance(values.get(label), str) and not is_unit(str(values[label]))
+            text = values.get(label := (sheet, row, column - 1))
+            # A number in it may be that of a row.
+            is_labelled = isinstance(text, str) and not (is_unit(text) or re.search(r"\d", text))
             near_end = at is not None and 0 <= self.zero + self.steps - at <= NEAR_END
             if is_labelled and near_end and self._is_beside((sheet, row, column)):
                 shown.append(self._result(False, (sheet, row, column), label, "first"))
