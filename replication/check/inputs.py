@@ -324,7 +324,9 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
 
     # Behind a label, a number and its unit stands what it was converted to.
     another = calculation.number((sheet, row, column - 2)) is not None and text(0, -3)
-    beside = (text(0, 1), "" if another else text(0, -1), text(-1, 0), text(1, 0))
+    sides = (text(0, 1), "" if another else text(0, -1))
+    in_units = all(side and is_unit(side) for side in sides)  # a row of units, in which it has none
+    beside = (*(() if in_units else sides), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
