@@ -330,8 +330,8 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
     for i in range(1, 6):
-        number = calculation.number((sheet, row, column - i))
-        made = unit is None and calculation.source((sheet, row, column - i)) == place
+        number = calculation.number(nearer := (sheet, row, column - i))
+        made = unit is None and calculation.source(nearer) == place
         ratio = (calculation.number(place) or 0.0) / number if made and number else 1.0
         # What stands beyond another number is that number's label, and so is that of a number which
         # is computed from this one, as beta from a hardness: but not if it is this in another unit.

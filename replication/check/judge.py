@@ -316,11 +316,11 @@ def _typing(f: Examination, value: float) -> list[Position]:
 def _lost(f: Examination, role: str, cells: Sequence[Position], source: Input) -> None:
     """That an input's value is typed into cells, and a change of the cell that has it is lost."""
     role_there, _ = f.table.places.get(cells[0], ("", 0))
-    where, named = _where(source, cells[0]), source.place is None
+    where = _where(source, cells[0])
     column = f"{'the column of ' * (len(cells) > 1)}{address(cells[0])}"
     into = title(role_there) if role_there else column
     text = f"{title(role)} is typed into {into}: a change of {where} is lost"
-    expected = source.label if named else where
+    expected = where if source.place else source.label
     f.add("typed constant", cells, expected, text, f.calculation.book[cells[0]].formula)
 
 
@@ -489,10 +489,10 @@ def _taken_otherwise(f: Examination) -> None:
         if entry.role == "target_density" and f.rows.rules["brake"] != REPORT["brake"]:
             continue  # which may have none
         unlike = not math.isclose(used.si, entry.si, rel_tol=1e-6)
-        cells = [f.start] if entry.role == "velocity" else _typing(f, used.si)
-        cells = cells or [entry.place or f.table.place("depth", 1)]
         if min(used.si, entry.si) <= 0 or not unlike:
             continue
+        cells = [f.start] if entry.role == "velocity" else _typing(f, used.si)
+        cells = cells or [entry.place or f.table.place("depth", 1)]
         where = _where(entry, cells[0])
         here, there = (quantity(value, entry.role) for value in (entry.si, used.si))
         text = f"{title(entry.role)} is {here} in {where}, but the rows take {there}"

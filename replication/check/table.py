@@ -284,7 +284,7 @@ def is_spoiling(place: Position, calculation: Calculation, across: bool) -> bool
     sheet, row, column = place
     beside = ((row + k, column) if across else (row, column + k) for k in (-1, 1))
     values = (calculation.values.get((sheet, *cell)) for cell in beside)
-    is_head = any(isinstance(value, str) and value and value[0] not in "#" for value in values)
+    is_head = any(isinstance(value, str) and value and value[0] != "#" for value in values)
     is_head = is_head or bool(column_roles(str(calculation.values.get(place))))
     return place in calculation.spoiling and not is_head
 
