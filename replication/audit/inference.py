@@ -1,4 +1,4 @@
-"""Inputs that the report never prints, inferred from the numbers that it does print."""
+"""Inputs that the report never prints, inferred from numbers that it does print."""
 
 from collections.abc import Sequence
 from enum import Enum
@@ -12,7 +12,7 @@ from reference.printed import Interval, Rounding
 
 
 class Admission(Enum):
-    """Whether the evidence admits a value from somewhere else, and on what condition."""
+    """Whether the evidence admits a value from a public source, and on what condition."""
 
     ADMITTED = "admitted"
     AS_ROUNDED = "admitted only as a number that was rounded"
@@ -23,14 +23,17 @@ class Admission(Enum):
 
 
 class Inference:
-    """The values (SI) of an input with which the numbers that are its evidence come out as printed.
+    """The values (SI) of an unprinted input for which its evidence comes out as printed.
 
-    `name` is its id with "inferred:" before it; `by_mass` takes the printed particle mass, not the
-    sphere's; `rounding` is how the evidence was printed. `each` has the values for every piece of
-    evidence alone, with the other inputs exactly as printed. `agreeing` is the largest set of
-    evidence that one value can satisfy, of several that of the least value; `odd` is the rest.
-    Every value of `inner` is proven to satisfy the agreeing evidence, and none outside `outer`
-    does. Where no value satisfies any, all evidence is odd, and the ledger's value stays.
+    The evidence is a set of claims. `name` is the input's id with "inferred:" before it; `rounding`
+    is the rule by which the evidence was printed; `by_mass` takes the printed particle mass instead
+    of the mass of a sphere.
+
+    `by_claim` holds the values that each piece of evidence admits by itself, with the other inputs
+    exactly as printed. `agreeing` is the largest set of evidence that a single value satisfies (of
+    several such sets, that of the least value), and `odd` is the rest. Every value in `inner` is
+    proven to satisfy all agreeing evidence; no value outside `outer` does. If no value satisfies
+    any evidence, all of it is odd, and `inner` is the ledger's nominal value.
     """
 
     def __init__(
@@ -45,37 +48,36 @@ class Inference:
         self.ledger, self.name, self.centered, self.rounding = ledger, name, centered, rounding
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
         self.rounded, self._admitted = cache(self._rounded), cache(self._bounds)
-        self.each: dict[str, Solutions] = {}
+        self.by_claim: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
             function, search = ledger.function(resting, centered=centered), self.entry.search
             target = claim.target(rounding)
-            self.each[claim.id] = solve(function, name, search, target, others=printed)
-        values = sorted({low for solutions in self.each.values() for low, _ in solutions.inner})
-        sets = (tuple(claim for claim, own in self.each.items() if own.admits(x)) for x in values)
+            self.by_claim[claim.id] = solve(function, name, search, target, others=printed)
+        values = sorted({low for own in self.by_claim.values() for low, _ in own.inner})
+        sets = (tuple(c for c, own in self.by_claim.items() if own.admits(x)) for x in values)
         self.agreeing = max(sets, key=len, default=())
-        self.odd = tuple(claim for claim in self.each if claim not in self.agreeing)
-        serving = [self.each[claim] for claim in self.agreeing]
-        outer = _intersection([self.entry.search], *(solutions.outer for solutions in serving))
-        self.outer = Interval(outer[0][0], outer[-1][1])
-        self.inner = Interval.point(ledger.value(name))
-        if serving:
-            self.inner = Interval(*_intersection(*(solutions.inner for solutions in serving))[0])
-        self._joining = [ledger.claims[key] for key in (*self.entry.header, *self.agreeing)]
+        self.odd = tuple(claim for claim in self.by_claim if claim not in self.agreeing)
+        self.outer, self.inner = Interval(*self.entry.search), Interval.point(ledger.value(name))
+        if self.agreeing:
+            solutions = [self.by_claim[claim] for claim in self.agreeing]
+            outer = _intersection([own.outer for own in solutions])
+            self.outer = Interval(outer[0][0], outer[-1][1])
+            self.inner = Interval(*_intersection([own.inner for own in solutions])[0])
 
     @cached_property
     def with_mass(self) -> Interval:
-        """As `inner`, where the particle mass is the printed one."""
+        """`inner` if the particle mass is the printed one."""
         return Inference(
             self.ledger, self.name, centered=self.centered, rounding=self.rounding, by_mass=True
         ).inner
 
     def admitted(self, convention: Convention) -> Interval:
-        """All values that can satisfy the evidence where inputs are rounded as a convention says.
+        """Return all values that may satisfy the evidence if a convention's inputs are rounded.
 
-        The printed mass and diameter are evidence, too. The evidence itself is rounded to nearest:
-        if it were cut off, no value would satisfy it.
+        The printed mass and diameter count as evidence, too. The evidence is always taken as
+        rounded to nearest: if it were cut off, no value would satisfy it.
         """
         if (convention.choices_exact and convention.header_exact) or not self.agreeing:
             return self.outer
@@ -87,9 +89,9 @@ class Inference:
         return Interval(*bounds(constraints, self.name, box))
 
     def _rounded(self, name: str, convention: Convention) -> Ends:
-        """The values of an input that print like it and agree with what is computed from it alone.
+        """Return the values of an input that print like it and give what is computed from it alone.
 
-        The times of the table are multiples of the step, and tell it better than "0.2 ns" does.
+        The times in Table A-1 are multiples of the step, so they narrow it further than "0.2 ns".
         """
         claim = self.ledger.claims[name]
         low, high = claim.as_input(convention).ends
@@ -103,16 +105,17 @@ class Inference:
     def joint(
         self, convention: Convention, box: Box, also: Sequence[Constraint] = ()
     ) -> tuple[list[Constraint], Box]:
-        """All evidence and the constraints `also`, and the box with all of their inputs.
+        """Return all evidence and the constraints `also`, with the box of all their inputs.
 
-        The printed mass and density give the radius more closely than its own digits do: where the
-        header is rounded, the mass varies and the radius follows from it.
+        The printed mass and density determine the radius more closely than its own digits do. So
+        where the header is rounded, the mass varies and the radius is computed from it.
         """
         claims, entry = self.ledger.claims, self.entry
-        names = {name for claim in self._joining for name in claim.entries} - {self.name}
+        evidence = [claims[key] for key in (*entry.header, *self.agreeing)]
+        names = {name for claim in evidence for name in claim.entries} - {self.name}
         constraints: list[Constraint] = [
             (self.ledger.function(claim, centered=self.centered), claim.target())
-            for claim in self._joining
+            for claim in evidence
         ]
         constraints += also
         if not convention.header_exact:
@@ -125,7 +128,7 @@ class Inference:
         return constraints, {**box, **ranges}
 
     def _of_mass(self, function: Function) -> Function:
-        """A function of the radius as one of the particle's mass and density."""
+        """Turn a function of the particle's radius into one of its mass and density."""
         entry = self.entry
 
         def by_mass(ar: Arithmetic, **entries: Number) -> Number | Fraction:
@@ -136,7 +139,7 @@ class Inference:
         return by_mass
 
     def admits(self, value: Fraction, range_: Interval) -> Admission:
-        """What the evidence says of a value that another source prints, and its printed range."""
+        """Return whether the evidence admits a source's value, or the range that prints like it."""
         if self.inner.contains(value):
             return Admission.ADMITTED
         if not self.inner.excludes(*range_.ends):
@@ -151,9 +154,9 @@ class Inference:
         return Admission.EXCLUDED
 
 
-def _intersection(first: Sequence[Ends], *others: Sequence[Ends]) -> list[Ends]:
-    """What unions of intervals have in common, in order."""
-    common = list(first)
+def _intersection(unions: Sequence[Sequence[Ends]]) -> list[Ends]:
+    """Return the intervals that unions of intervals have in common, in order."""
+    common, *others = map(list, unions)
     for union in others:
         pairs = ((max(a, c), min(b, d)) for a, b in common for c, d in union)
         common = [(low, high) for low, high in pairs if low <= high]

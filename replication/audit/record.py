@@ -1,8 +1,7 @@
 """The record of a finished audit: everything that any report shows, as plain typed data.
 
-`audit.json` is this record, key by key; its JSON Schema comes from these classes. Reports render
-it and compute nothing. Lengths, velocities and the like are in SI units unless a `unit` says
-otherwise.
+`audit.json` is this record, key by key, and its JSON Schema is generated from these classes.
+Reports render the record and compute nothing. Values are in SI units unless the class has a `unit`.
 """
 
 from enum import StrEnum
@@ -13,17 +12,17 @@ import msgspec
 from reference.ledger import Convention, Report
 
 SCHEMA = "coldspray-audit-2"
-"""Name and version of the record's keys."""
+"""The name and version of this set of keys."""
 
 Ends = tuple[float | None, float | None]
-"""Lower and upper end as doubles; null where there is none."""
+"""The lower and the upper end as doubles; null for an infinite end."""
 
 ExactEnds = tuple[str | None, str | None]
-"""The same as exact fractions, such as "1533/200"."""
+"""The lower and the upper end as exact fractions, such as "1533/200"."""
 
 
 class Verdict(StrEnum):
-    """What the audit can say of a claim."""
+    """What the audit can conclude about a claim or an equation."""
 
     REPRODUCED = "reproduced"
     WITHIN_ROUNDING = "reproduced within input rounding"
@@ -38,17 +37,17 @@ class Verdict(StrEnum):
 
     @property
     def is_failure(self) -> bool:
-        """Whether the number contradicts what the report prints; the exit code tells of these."""
+        """Whether the entry contradicts the rest of the report; `--exit-code` reports these."""
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
     @property
     def is_open(self) -> bool:
-        """Whether it fails or does not plainly come out as printed; explanations are tried."""
+        """Whether the inputs as printed do not give the entry: explanations are tried for these."""
         return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it is open or differs from the sources; `power` takes these as noticed."""
+        """Whether it is open or differs from public sources: `power` counts it as noticed."""
         return self.is_open or self is Verdict.DIFFERS
 
 
@@ -59,11 +58,12 @@ class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class Judged(_Part, frozen=True):
     """A verdict under one convention.
 
-    `rounding` is how a value became the printed text; `choices` and `header` say whether what the
-    author chose, and the header of Table A-1, are exact or rounded as printed; `scheme` is the
-    velocity at which the sheet takes the drag. `enclosure` is the range proven for the value: of
-    the inputs as printed if it is reproduced, else of all that print like them; inferred ones as
-    far as the evidence admits them.
+    `rounding` is the rule by which a value became the printed text. `choices` and `header` say
+    whether the values that the author chose, and the header of Table A-1, are taken as "exact" or
+    "rounded". `scheme` is "published" if the sheet takes the drag at the velocity at the start of a
+    step, "centered" if in its middle. `enclosure` is a range proven to contain the value: for the
+    inputs as printed if the verdict is "reproduced", else for all inputs that print like them.
+    Inferred inputs vary over all values that their evidence admits.
     """
 
     rounding: str
@@ -76,7 +76,7 @@ class Judged(_Part, frozen=True):
 
 
 def in_words(convention: Convention) -> dict[str, Any]:
-    """A convention as `Judged` has it."""
+    """Return a convention as the fields of `Judged` that describe it."""
     return {
         "rounding": convention.rounding.value,
         "choices": "exact" if convention.choices_exact else "rounded",
@@ -86,7 +86,7 @@ def in_words(convention: Convention) -> dict[str, Any]:
 
 
 class ReadingRecord(_Part, frozen=True):
-    """What one reading of the words makes of a claim."""
+    """The value and the verdict that one reading of the report's words gives a claim."""
 
     name: str
     summary: str
@@ -101,7 +101,7 @@ class ReadingRecord(_Part, frozen=True):
 
 
 class Proof(StrEnum):
-    """What is proven of the intervals of a `BackSolvedRecord`."""
+    """What is proven about the intervals of a `BackSolvedRecord`."""
 
     INSIDE = "proven inside, and none beyond"
     TO_AN_END = "proven, up to an end of the range"
@@ -110,7 +110,7 @@ class Proof(StrEnum):
 
 
 class BackSolvedRecord(_Part, frozen=True):
-    """The values of one entry, all others as printed, for which the claim would agree."""
+    """The values of one input, all others as printed, for which the claim would agree."""
 
     reading: str
     entry: str
@@ -124,7 +124,10 @@ class BackSolvedRecord(_Part, frozen=True):
 
 
 class RepairRecord(_Part, frozen=True):
-    """A text one edit away with which the claim would agree, and what would fail then."""
+    """A correction of a printed text by one edit, with which the claim would agree.
+
+    `failing` are the claims and equations that would fail with it.
+    """
 
     entry: str
     title: str
@@ -136,7 +139,7 @@ class RepairRecord(_Part, frozen=True):
 
 
 class SlipRecord(_Part, frozen=True):
-    """What a slip of the author's would make of the claim; null where it has no value."""
+    """The value that a slip of the author's would give the claim; null where it gives none."""
 
     name: str
     reason: str
@@ -145,7 +148,7 @@ class SlipRecord(_Part, frozen=True):
 
 
 class SourceRecord(_Part, frozen=True):
-    """A public source beside a claim, or an inferred input, and what comes of comparing."""
+    """A public source for a claim or an inferred input, and how the two compare."""
 
     id: str
     title: str
@@ -159,7 +162,7 @@ class SourceRecord(_Part, frozen=True):
 
 
 class Figure(_Part, frozen=True):
-    """A number that helps to judge a remark; null where the inputs have no meaning."""
+    """A number that helps to judge a remark; null where the inputs make no sense."""
 
     means: str
     value: float | None
@@ -167,7 +170,7 @@ class Figure(_Part, frozen=True):
 
 
 class Shown(_Part, frozen=True):
-    """What the claims that are computed from a chosen number tell of it."""
+    """The range of a chosen number for which the claims computed from it agree."""
 
     claims: list[str]
     interval: tuple[float, float]
@@ -175,7 +178,7 @@ class Shown(_Part, frozen=True):
 
 
 class ClaimRecord(_Part, frozen=True):
-    """One printed number with its verdict and proof; numbers in the claim's unit.
+    """One printed number with its verdict and proof; values are in the claim's unit.
 
     `computed` is a double, whose last digits may lie outside the proven `enclosure`.
     """
@@ -222,7 +225,7 @@ class ClaimRecord(_Part, frozen=True):
 
 
 class ConstantRecord(_Part, frozen=True):
-    """A constant of an equation: the verdict, and the values that would pass every check."""
+    """The verdict on a constant of an equation; `needed` are the values that pass every check."""
 
     claim: str
     verdict: Verdict
@@ -248,9 +251,9 @@ class EquationRecord(_Part, frozen=True):
 
 
 class EvidenceRecord(_Part, frozen=True):
-    """A number in a finding's text: as asserted, and as computed by this audit.
+    """A number in a finding's text, as asserted and as computed by this audit.
 
-    `computed` is null where it has no value, as it may in a report with a misprint.
+    `computed` is null where it has no value, which a misprint in the report may cause.
     """
 
     name: str
@@ -262,7 +265,7 @@ class EvidenceRecord(_Part, frozen=True):
 
 
 class FindingRecord(_Part, frozen=True):
-    """What a failed or surprising claim teaches."""
+    """What a failed or surprising claim shows about the report, with the evidence."""
 
     id: str
     title: str
@@ -277,7 +280,7 @@ class FindingRecord(_Part, frozen=True):
 
 
 class InferredRecord(_Part, frozen=True):
-    """An input that the report never prints, and what its evidence admits; in `unit`."""
+    """An input that the report never prints, and the values that its evidence admits, in `unit`."""
 
     id: str
     title: str
@@ -295,7 +298,7 @@ class InferredRecord(_Part, frozen=True):
 
 
 class Approach(_Part, frozen=True):
-    """One normalized depth X/R: ours, and the report's."""
+    """The normalized depth X/R by one approach, as computed here and as printed."""
 
     kind: str
     name: str
@@ -305,7 +308,7 @@ class Approach(_Part, frozen=True):
 
 
 class Effect(_Part, frozen=True):
-    """The exact X/R and depth at both ends of an input's range, and what range it is."""
+    """The exact X/R and depth at both ends of an input's range; `why` says which range it is."""
 
     input: str
     low: float
@@ -316,7 +319,7 @@ class Effect(_Part, frozen=True):
 
 
 class Sensitivity(_Part, frozen=True):
-    """How the exact depth of one case depends on its inputs."""
+    """How the exact final depth of one case depends on its inputs."""
 
     beta: float
     depth: float
@@ -325,9 +328,10 @@ class Sensitivity(_Part, frozen=True):
 
 
 class Scatter(_Part, frozen=True):
-    """The stream by one law; deviations of the velocity to first order.
+    """The particles of the stream by one law of their velocity.
 
-    Velocity and X/R are those that so large shares of the particles do not exceed.
+    The deviations are those of the velocity, to first order. `velocities` and `ratios` (X/R) are
+    the values that each share of the particles does not exceed.
     """
 
     law: str
@@ -339,7 +343,7 @@ class Scatter(_Part, frozen=True):
 
 
 class Curve(_Part, frozen=True):
-    """Depth against time, from touch to rest."""
+    """Depth against time, from first contact to rest."""
 
     beta: float
     printed: str
@@ -350,7 +354,7 @@ class Curve(_Part, frozen=True):
 
 
 class VelocityCurve(_Part, frozen=True):
-    """X/R against impact velocity, for beta = 5."""
+    """X/R against impact velocity for beta = 5."""
 
     velocity: list[float]
     sheet: list[float]
@@ -358,7 +362,7 @@ class VelocityCurve(_Part, frozen=True):
 
 
 class Level(_Part, frozen=True):
-    """The sheet at one time step, and its error against the exact depth at rest."""
+    """The sheet's final depth at one time step, and its error: sheet less exact depth at rest."""
 
     beta: float
     scheme: str
@@ -369,12 +373,12 @@ class Level(_Part, frozen=True):
 
 
 class Counts(_Part, frozen=True):
-    """How many there are.
+    """How many claims and equations there are, by kind and outcome.
 
-    `entries`: claims, of which `numbers` are printed numbers and `remarks` comparisons in words. Of
-    the `reproduced` numbers `constants` stand in equations, and `computed` are computed anew, with
-    `values` different values: one that the report prints five times is one of them. `failing`, of
-    numbers and of `equations`: those that contradict what the report prints.
+    The `entries` are all claims: `numbers` are printed numbers, `remarks` comparisons in words. Of
+    the `reproduced` numbers, `constants` stand in equations and `computed` are calculated from
+    their inputs; `values` counts the different values among these, each once however often it is
+    printed. `failing` claims and `equations_failing` contradict the rest of the report.
     """
 
     entries: int
@@ -393,8 +397,8 @@ class Counts(_Part, frozen=True):
 class Record(_Part, frozen=True):
     """The finished audit.
 
-    `failing`: the claims and equations that contradict what the report prints; `culprit`: the one
-    misprint that would explain all of them, if there is one.
+    `failing` are the claims and equations that contradict the rest of the report; `culprit` is the
+    one misprint that would explain all of them, if there is one.
     """
 
     schema: str
@@ -419,7 +423,7 @@ class Record(_Part, frozen=True):
     provenance: dict[str, Any]
 
     def claim(self, name: str) -> ClaimRecord:
-        """The claim with this id. Raises KeyError if there is none."""
+        """Return the claim with this id. Raises KeyError if there is none."""
         return {claim.id: claim for claim in self.claims}[name]
 
 
@@ -427,7 +431,10 @@ _Filled = TypeVar("_Filled", bound=_Part)
 
 
 def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
-    """A part of the record; what is not given is what exactly one source has by that name."""
+    """Build a part of the record; fields not given are copied from the sources by name.
+
+    Raises TypeError where not exactly one source has a field.
+    """
     for name in sorted(set(kind.__struct_fields__) - given.keys()):
         values = [getattr(source, name) for source in sources if hasattr(source, name)]
         if len(values) != 1:
@@ -437,6 +444,6 @@ def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of `audit.json`."""
+    """Return the JSON Schema of `audit.json`."""
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return dialect | msgspec.json.schema(Record)

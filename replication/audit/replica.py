@@ -1,7 +1,7 @@
-"""The replica's answer to each computation that the ledger names, in IEEE doubles.
+"""The models' answer to each computation that the ledger names, in IEEE doubles.
 
-The same names as the ledger's computations, answered by the models of this package: the two are
-written separately, and the audit compares them.
+The names are those of the ledger's computations. The ledger's formulas and these models are written
+separately, and the audit compares their results.
 """
 
 import math
@@ -9,13 +9,14 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from replication.models import crater, estimates, sheet
+from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact, particle_mass
 
 
 def replica(name: str, inputs: Mapping[str, float], **settings: object) -> float:
-    """What the models answer to a computation; SI units.
+    """Return what the models give for a computation, in SI units.
 
-    `settings` are the `row` of the sheet and the `scheme`, where the computation takes them.
+    `settings` are the `row` of the sheet and the `scheme`, for computations that take them.
 
     >>> replica("target_resistance", {"beta": 5.0, "flow_stress": 7e8})
     3500000000.0
@@ -35,11 +36,9 @@ def _deceleration_at_start(depth: float, velocity: float, **inputs: float) -> fl
 
 
 def _resisting_force(radius: float) -> float:
-    """The force on a sphere of this radius, as deep as that, at a target resistance of 1."""
+    """Return the force [N] on a sphere immersed to depth x = R at a target resistance of 1 Pa."""
     return sheet.deceleration(radius, 0.0, radius, 1.0, 0.0, 1.0)
 
-
-_crater = crater.depth_from_volume_ratio
 
 REPLICA: Mapping[str, Callable[..., float]] = {
     "ratio": lambda numerator, denominator: numerator / denominator,
@@ -49,12 +48,14 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "diameter_of": lambda radius: 2 * radius,
     "sphere_length_ratio": estimates.sphere_length_ratio,
     "sphere_volume": lambda diameter: crater.volume(diameter / 2),
-    "crater_normalized_depth": lambda volume_ratio: _crater(volume_ratio),
-    "crater_depth": lambda volume_ratio, diameter: _crater(volume_ratio) * diameter / 2,
-    "crater_depth_over_diameter": lambda volume_ratio: _crater(volume_ratio) / 2,
+    "crater_normalized_depth": lambda volume_ratio: depth_from_volume_ratio(volume_ratio),
+    "crater_depth": lambda volume_ratio, diameter: (
+        depth_from_volume_ratio(volume_ratio) * diameter / 2
+    ),
+    "crater_depth_over_diameter": lambda volume_ratio: depth_from_volume_ratio(volume_ratio) / 2,
     "contact_diameter": crater.contact_diameter,
     "target_resistance": estimates.target_resistance,
-    # A stress times a length to this power is a force: log2 of what doubling the length does.
+    # Force = stress * length^power, so the power is log2 of what doubling the length does.
     "force_power": lambda: math.log2(_resisting_force(2.0) / _resisting_force(1.0)),
     "goodier_beta": lambda q, power: estimates.goodier_beta(q) * 2 ** (power - 2),
     "walker_anderson_alpha": estimates.walker_anderson_alpha,
